@@ -1,0 +1,37 @@
+# Everything comes from Debian 12; nothing is fetched while configuring.
+find_package(Threads REQUIRED)
+find_package(fmt REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(TBB REQUIRED)
+find_package(xsimd REQUIRED)
+
+# LLVM as one shared library: its own CMake package lists static components,
+# and all we need is a header folder and libLLVM.so.
+find_package(LLVM 19.1 REQUIRED CONFIG HINTS /usr/lib/llvm-19/lib/cmake/llvm)
+add_library(nacre_llvm INTERFACE)
+target_include_directories(nacre_llvm SYSTEM INTERFACE ${LLVM_INCLUDE_DIRS})
+target_compile_definitions(nacre_llvm INTERFACE ${LLVM_DEFINITIONS})
+find_library(NACRE_LLVM_LIBRARY NAMES LLVM-19 LLVM HINTS ${LLVM_LIBRARY_DIRS} REQUIRED)
+target_link_libraries(nacre_llvm INTERFACE ${NACRE_LLVM_LIBRARY})
+
+# Debian's OpenImageIO package configuration names OpenCV's include folder,
+# which is not installed with it; so we name header and libraries ourselves.
+find_path(NACRE_OIIO_INCLUDE OpenImageIO/imageio.h REQUIRED)
+find_library(NACRE_OIIO_LIBRARY OpenImageIO REQUIRED)
+find_library(NACRE_OIIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
+add_library(nacre_oiio INTERFACE)
+target_include_directories(nacre_oiio SYSTEM INTERFACE ${NACRE_OIIO_INCLUDE} ${NACRE_OIIO_INCLUDE}/Imath)
+target_link_libraries(nacre_oiio INTERFACE ${NACRE_OIIO_LIBRARY} ${NACRE_OIIO_UTIL_LIBRARY})
+
+if(NACRE_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+if(NACRE_BUILD_BENCH)
+  find_package(benchmark REQUIRED)
+endif()
+if(NACRE_BUILD_EXAMPLES)
+  find_package(nlohmann_json REQUIRED)
+  find_package(CLI11 REQUIRED)
+  find_package(embree 3 REQUIRED)
+endif()

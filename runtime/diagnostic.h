@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nacre {
+
+/// Where in a document something was said. Empty fields are unknown.
+struct SourceLocation {
+  std::string file;  ///< As the user named it, or the resolved include.
+  int line = 0;      ///< 1-based; 0: unknown.
+  int column = 0;    ///< 1-based; 0: unknown.
+  std::string path;  ///< Element path from the root: "NG_marble/mix1/fg".
+};
+
+enum class Severity { note, warning, error };
+
+/// One complaint about something the user gave us: a document, an image, a
+/// flag. Our own faults are asserts, never diagnostics.
+struct Diagnostic {
+  Severity severity = Severity::error;
+  std::string code;      ///< Stable identifier, kebab-case: "unknown-node".
+  SourceLocation where;
+  std::string message;   ///< One sentence, no trailing stop.
+  std::string expected;  ///< What would have been right; may be empty.
+  std::string found;     ///< What was there; may be empty.
+
+  /// "file:line: error: message; expected X, found Y [code] (path)"
+  std::string to_string() const;
+};
+
+/// Collects diagnostics. The library never prints: a host decides what to show.
+class Diagnostics {
+ public:
+  void add(Diagnostic diagnostic);
+  void error(std::string code, SourceLocation where, std::string message,
+             std::string expected = {}, std::string found = {});
+  void warning(std::string code, SourceLocation where, std::string message,
+               std::string expected = {}, std::string found = {});
+
+  const std::vector<Diagnostic>& all() const { return all_; }
+  bool has_errors() const { return errors_ != 0; }
+  std::size_t error_count() const { return errors_; }
+  std::size_t warning_count() const { return warnings_; }
+
+  /// All of them, one per line, in the order they were found.
+  std::string to_string() const;
+
+ private:
+  std::vector<Diagnostic> all_;
+  std::size_t errors_ = 0;
+  std::size_t warnings_ = 0;
+};
+
+}  // namespace nacre
