@@ -1,0 +1,14 @@
+#include "jit/graph/graph.h"
+
+#include <fmt/format.h>
+
+namespace nacre {
+
+const GraphInput* GraphNode::input(std::string_view wanted) const {
+  for (const GraphInput& candidate : inputs) {
+    if (candidate.name == wanted) return &candidate;
+  }
+  return nullptr;
+}
+
+}  // namespace nacre

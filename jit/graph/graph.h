@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/diagnostic.h"
+#include "runtime/type.h"
+#include "runtime/value.h"
+
+namespace nacre {
+
+/// What feeds an input of a node or an output of a graph.
+struct Source {
+  enum class Kind : std::uint8_t {
+    unconnected,  ///< A closure, shader or material input that nothing feeds.
+    literal,      ///< `value`
+    link,         ///< Output `output` of node `node`.
+    parameter,    ///< Parameter `parameter`; its value is in Graph::parameters.
+  };
+  Kind kind = Kind::unconnected;
+  std::uint32_t node = 0;
+  std::uint32_t output = 0;
+  std::uint32_t parameter = 0;
+  Value value;
+
+  /// Only for a literal of type filename. `colorspace`: the space the image is
+  /// encoded in ("" or "none": as it is). Conversion to the working space is in
+  /// the graph already, as nodes behind the texture node's colour outputs: who
+  /// reads the texels must not convert them again.
+  std::string colorspace;
+  /// Only for a literal of type filename: the file that wrote the name, ""
+  /// without one. Relative names are looked up beside it first.
+  std::string document;
+
+  bool operator==(const Source&) const = default;
+};
+
+struct GraphInput {
+  std::string name;
+  Type type = Type::none;
+  Source source;
+};
+
+struct GraphNodeOutput {
+  std::string name;
+  Type type = Type::none;
+  /// The nodedef's `default` of this output; type none if it names none.
+  Value default_value;
+};
+
+/// One instance of one nodedef.
+struct GraphNode {
+  std::string category;  ///< "mix"
+  std::string nodedef;   ///< "ND_mix_color3"
+  std::string path;      ///< For people: "NG_marble/mix1", "SR/fresnel/mix1" once inlined.
+  std::vector<GraphInput> inputs;        ///< Every input of the nodedef, in its order.
+  std::vector<GraphNodeOutput> outputs;  ///< Every output of the nodedef, in its order.
+  SourceLocation where;
+
+  /// The input of that name, or null.
+  const GraphInput* input(std::string_view name) const;
+};
+
+/// A value that the author wrote on an instance or a graph's interface, numeric
+/// and not uniform, so that it may change without recompiling.
+struct Parameter {
+  std::string path;  ///< Public name: "NG_marble/mix1/fg", "SR_marble/base_color".
+  Type type = Type::none;
+  Value value;             ///< As written: before unit and colour conversion.
+  std::string colorspace;  ///< Of `value`; "" if none was given or needed.
+  std::string unit;        ///< Of `value`; "" if none was given.
+  std::string nodedef;     ///< Of the instance it is written on; "" for a graph's interface.
+  std::string input;       ///< Name of the input it is written on.
+  std::string ui_name;     ///< From the input or the nodedef's input; all ui_* may be empty.
+  Value ui_min, ui_max;    ///< Type none when not given. uisoftmin / uimin.
+  SourceLocation where;
+};
+
+struct GraphOutput {
+  std::string name;  ///< "NG_marble/out", "out"; for a material "surfaceshader" and so on.
+  Type type = Type::none;
+  Source source;
+};
+
+/// Typed nodes and connections, and nothing else: nodedefs resolved, node graphs
+/// inlined, defaults filled in, geometric defaults, unit and colour-space
+/// conversions inserted as nodes, unreachable parts gone, no cycles. A node
+/// links only to nodes before it. Fill one in from any scene format, with
+/// GraphBuilder or by hand; check it with `verify`.
+struct Graph {
+  std::vector<GraphNode> nodes;
+  std::vector<Parameter> parameters;
+  std::vector<GraphOutput> outputs;
+};
+
+/// Canonical text, one line per parameter, node and output:
+///
+///   parameter 0 float "NG/mix1/mix" = 0.5
+///   %0 = ND_texcoord_vector2(index=0) : vector2
+///   %1 = ND_mix_color3(fg=%0, bg=[0, 0, 0], mix=$0) : color3
+///   output "NG/out" color3 = %1
+///
+/// Floats print in the shortest form that reads back to the same bits. The same
+/// graph always prints the same text; paths and locations of nodes are left out.
+std::string to_string(const Graph& graph);
+
+/// Equal for graphs that differ only in parameter values, names of parameters
+/// and outputs, paths and locations: one kernel fits them all. 64-bit, stable
+/// between runs and machines; equality of texts decides, never the hash alone.
+std::uint64_t topology_hash(const Graph& graph);
+
+/// True if links point backwards to outputs that exist, parameter references
+/// exist, types agree and literals have the right number of components.
+/// Otherwise adds an error for each fault.
+bool verify(const Graph& graph, Diagnostics& diagnostics);
+
+}  // namespace nacre

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/type.h"
+
+namespace nacre {
+
+/// A literal of any MaterialX type that has literals. The type says which
+/// member holds it; the others are empty.
+///
+///   float, color*, vector*, matrix*   floats: component_count(type) of them
+///   boolean, integer                  ints: one, a boolean being 0 or 1
+///   string, filename, geomname        texts: one
+///   floatarray, color3array, ...      floats: elements one after another
+///   integerarray                      ints
+///   stringarray, geomnamearray        texts
+///   closures, shaders, material       nothing: "unconnected"
+struct Value {
+  Type type = Type::none;
+  std::vector<float> floats;
+  std::vector<std::int32_t> ints;
+  std::vector<std::string> texts;
+
+  bool operator==(const Value&) const = default;
+};
+
+}  // namespace nacre
