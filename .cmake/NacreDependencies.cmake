@@ -4,6 +4,9 @@ find_package(fmt REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(TBB REQUIRED)
 find_package(xsimd REQUIRED)
+# Debian's target asks to link `-lxtl`, a header-only library that only complex numbers
+# need and that the package does not bring.
+set_target_properties(xsimd PROPERTIES INTERFACE_LINK_LIBRARIES "")
 
 # LLVM as one shared library: its own CMake package lists static components,
 # and all we need is a header folder and libLLVM.so.

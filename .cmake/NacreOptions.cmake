@@ -5,18 +5,51 @@ target_compile_options(nacre_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   # Contraction is a pass of our own: the interpreter must round as the JIT does.
   -ffp-contract=off
+  # Nobody replaces our functions by preloading, so calls inside libnacre.so stay direct.
+  -fno-semantic-interposition
   $<$<BOOL:${NACRE_WERROR}>:-Werror>)
 
-# nacre_library(NAME SOURCES... ): one folder of the library as a static archive.
+# A rebuild after switching branches costs seconds; somebody who includes us decides for themselves.
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(NACRE_CCACHE ccache)
+  mark_as_advanced(NACRE_CCACHE)
+  if(NACRE_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${NACRE_CCACHE}")
+  endif()
+endif()
+
+# nacre_library(NAME SOURCES...): one folder of the library as a static archive.
+# Tests link the archives they need; libnacre.so is all of them together.
 function(nacre_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PRIVATE nacre_flags)
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  set_property(GLOBAL APPEND PROPERTY NACRE_ARCHIVES ${name})
 endfunction()
 
-# nacre_test(NAME SOURCES...): a GoogleTest program, one ctest entry per test.
+# nacre_public_headers(HEADERS...): headers of this folder that a host may include.
+# A public header includes the C++ standard library and public headers, nothing else.
+function(nacre_public_headers)
+  list(TRANSFORM ARGN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
+  set_property(GLOBAL APPEND PROPERTY NACRE_PUBLIC_HEADERS ${ARGN})
+endfunction()
+
+# nacre_test(NAME [FULL] SOURCES...): a GoogleTest program, one ctest entry per test.
+# FULL: too long for every day; left out by `make test`, run by `make test-full`.
 function(nacre_test name)
-  add_executable(${name} ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "FULL" "" "")
+  add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE nacre_flags GTest::gtest GTest::gtest_main)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(properties TIMEOUT 600)
+  if(arg_FULL)
+    set(properties TIMEOUT 7200 LABELS full)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+endfunction()
+
+# nacre_bench(NAME SOURCES...): a Google Benchmark program, run by the target `bench`.
+function(nacre_bench name)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE nacre_flags benchmark::benchmark benchmark::benchmark_main)
+  set_property(GLOBAL APPEND PROPERTY NACRE_BENCHES ${name})
 endfunction()
