@@ -1,0 +1,73 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "jit/document/document.h"
+#include "jit/document/nodedef.h"
+
+namespace nacre {
+
+/// The target whose nodedefs and implementations are taken: those that name no
+/// target, and those that name this one.
+inline constexpr std::string_view own_target = "nacre";
+
+/// What a document declares for others to use, found by name. A user document's
+/// definitions stand on the library's, which are searched first (Document::
+/// setDataLibrary of the reference).
+class Definitions {
+ public:
+  /// `document` and `base` must outlive it. Faults of the document's nodedefs
+  /// (bad default, inheritance from nowhere or in a circle) are reported.
+  Definitions(const Document& document, const Definitions* base, Diagnostics& diagnostics);
+
+  /// By unique name, "ND_mix_color3"; null if there is none.
+  const NodeDef* nodedef(std::string_view name) const;
+  /// All of a qualified category, library first, then in document order.
+  std::vector<const NodeDef*> of_category(std::string_view category) const;
+  /// All there are, library first, then in document order.
+  std::vector<const NodeDef*> all() const;
+
+  /// The <nodegraph> that implements a nodedef, named by the graph's `nodedef`
+  /// or by an <implementation>; null if there is none.
+  const Element* graph_of(const NodeDef& def) const;
+
+  /// The <geompropdef> of that name, or null.
+  const Element* geompropdef(std::string_view name) const;
+
+  /// Size of a unit in the base unit of its type: 0.01 for "centimeter".
+  struct Unit {
+    std::string_view type;  ///< "distance", "angle"
+    double scale = 1;
+  };
+  std::optional<Unit> unit(std::string_view name) const;
+
+  /// Element at the root by a reference made in `user`: in its namespace first,
+  /// then as it is, in the library and then in the document.
+  const Element* resolve(std::string_view name, const Element& user) const;
+
+ private:
+  void read_nodedefs(Diagnostics& diagnostics);
+  void apply_inheritance(Diagnostics& diagnostics);
+  void read_implementations();
+  void read_units();
+  const NodeDef* resolve_nodedef(std::string_view name, const Element& user) const;
+
+  const Document& document_;
+  const Definitions* base_;
+  std::deque<NodeDef> nodedefs_;
+  std::unordered_map<std::string_view, NodeDef*> by_name_;
+  std::unordered_map<std::string_view, std::vector<const NodeDef*>> by_category_;
+  std::unordered_map<const NodeDef*, const Element*> graphs_;
+  std::unordered_map<std::string_view, const Element*> geompropdefs_;
+  std::unordered_map<std::string_view, Unit> units_;
+};
+
+/// True if a target list is empty or holds our own.
+bool is_for_us(std::string_view targets);
+
+}  // namespace nacre

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <memory_resource>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "jit/document/element.h"
+
+namespace nacre {
+
+/// What one or several .mtlx files say: a tree of elements, each knowing where
+/// it was written. Read one with `read_document`; reading checks structure
+/// (names, nesting, limits), not meaning. Once read it is never changed and may
+/// be shared between threads.
+class Document {
+ public:
+  Document();
+  ~Document();
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+
+  const Element& root() const { return *root_; }
+  Element& root() { return *root_; }
+
+  /// The files it was read from, the main one first.
+  const std::vector<std::string>& files() const { return file_names_; }
+  /// The file an element was written in.
+  const std::string& file_of(const Element& element) const;
+  int line_of(const Element& element) const;
+  int column_of(const Element& element) const;
+
+  // For the reader and for version upgrades, before anyone else sees the tree.
+
+  /// Text that lives as long as the document.
+  std::string_view keep(std::string_view text);
+  /// Takes a file's text; `offset`s of its elements count from its start.
+  std::uint16_t add_file(std::string name, std::unique_ptr<char[]> text, std::size_t size);
+  /// The text of a file, still to be parsed: parsing may overwrite it.
+  char* text(std::uint16_t file) { return texts_[file].get(); }
+
+  Element& create(std::string_view category, std::uint16_t file, std::uint32_t offset);
+  void append(Element& parent, Element& child);
+  /// Takes the children from an element and returns the first of their chain.
+  Element* take_children(Element& parent);
+  static Element* next_sibling(Element& element) { return element.next_; }
+  static void set_name(Element& element, std::string_view name) { element.name_ = name; }
+  void set_attributes(Element& element, std::span<const Attribute> attributes);
+  /// Adds an attribute or replaces its value. Both texts must be kept.
+  void set_attribute(Element& element, std::string_view name, std::string_view value);
+  void set_root(Element& element) { root_ = &element; }
+  /// Builds the name tables. Call after the last change.
+  void build_index();
+
+ private:
+  friend class Element;
+  using NameTable = std::unordered_map<std::string_view, const Element*>;
+
+  std::pmr::monotonic_buffer_resource arena_{1 << 16};
+  std::vector<std::unique_ptr<char[]>> texts_;
+  std::vector<std::string> file_names_;
+  std::vector<std::vector<std::uint32_t>> line_starts_;
+  std::unordered_map<const Element*, NameTable> tables_;
+  Element* root_ = nullptr;
+};
+
+}  // namespace nacre

@@ -1,0 +1,65 @@
+#include "jit/document/library.h"
+
+#include <algorithm>
+
+namespace nacre {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_other_target(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  return name.starts_with("gen") || name == "targets";
+}
+
+// Overloads that match equally are told apart by document order, and the
+// standard library's come first.
+bool stdlib_first(const fs::path& a, const fs::path& b) {
+  const auto is_standard = [](const fs::path& path) {
+    return path.parent_path().filename() == "stdlib";
+  };
+  if (is_standard(a) != is_standard(b)) return is_standard(a);
+  return a < b;
+}
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator at(folder, error);
+  const fs::recursive_directory_iterator end;
+  while (!error && at != end) {
+    if (at->is_directory(error) && is_other_target(at->path())) at.disable_recursion_pending();
+    if (at->path().extension() == ".mtlx") files.push_back(at->path());
+    at.increment(error);
+  }
+  std::sort(files.begin(), files.end(), stdlib_first);
+  return files;
+}
+
+}  // namespace
+
+std::shared_ptr<const Library> load_library(const std::vector<fs::path>& paths,
+                                            Diagnostics& diagnostics, const ReadOptions& options) {
+  std::vector<fs::path> files;
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      files.push_back(path);
+      continue;
+    }
+    const std::vector<fs::path> found = files_below(path);
+    if (found.empty()) {
+      diagnostics.error("empty-library", {path.string(), 0, 0, ""},
+                        "the library folder holds no .mtlx files");
+    }
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  const std::size_t errors = diagnostics.error_count();
+  std::unique_ptr<Document> document = read_documents(files, options, diagnostics);
+  if (document == nullptr) return nullptr;
+  auto library = std::make_shared<const Library>(std::move(document), diagnostics);
+  return diagnostics.error_count() == errors ? library : nullptr;
+}
+
+}  // namespace nacre

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "jit/document/definitions.h"
+#include "jit/document/document.h"
+#include "jit/document/read.h"
+
+namespace nacre {
+
+/// A data library: nodedefs, the node graphs that implement them, units and
+/// geometric properties. Loaded once, never changed, shared by all documents
+/// and threads.
+class Library {
+ public:
+  Library(std::unique_ptr<Document> document, Diagnostics& diagnostics)
+      : document_(std::move(document)), definitions_(*document_, nullptr, diagnostics) {}
+
+  const Document& document() const { return *document_; }
+  const Definitions& definitions() const { return definitions_; }
+
+ private:
+  std::unique_ptr<Document> document_;
+  Definitions definitions_;
+};
+
+/// Loads files and folders, in the order given; of a folder all .mtlx files
+/// below it in the order of their paths, "stdlib" before the others, without
+/// the folders of implementations for other targets ("genglsl" and so on).
+/// Null if there was an error.
+std::shared_ptr<const Library> load_library(const std::vector<std::filesystem::path>& paths,
+                                            Diagnostics& diagnostics,
+                                            const ReadOptions& options = {});
+
+}  // namespace nacre

@@ -1,0 +1,135 @@
+#include "jit/document/nodedef.h"
+
+#include <fmt/format.h>
+
+#include "jit/document/value_text.h"
+
+namespace nacre {
+
+namespace {
+
+std::string_view trim(std::string_view text) {
+  constexpr std::string_view space = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(space);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(space) - first + 1);
+}
+
+// The default of a port, from attribute `attribute` of its element.
+template <typename Port>
+void read_default(Port& port, std::string_view attribute, Diagnostics& diagnostics) {
+  if (port.element->has_attribute(attribute)) {
+    const std::string_view text = port.element->attribute(attribute);
+    if (auto value = parse_value(port.type, text)) {
+      port.default_value = std::move(*value);
+      port.has_default = true;
+      return;
+    }
+    if (port.type != Type::none) {
+      diagnostics.error("bad-value", location(*port.element),
+                        fmt::format("the {} does not fit the type {}", attribute, port.type_text),
+                        expected_text(port.type), fmt::format("'{}'", text));
+    }
+  }
+  port.default_value = zero_value(port.type);
+}
+
+NodeDefInput read_input(const Element& element, Diagnostics& diagnostics) {
+  NodeDefInput input;
+  input.element = &element;
+  input.name = element.name();
+  for (const Attribute& attribute : element.attributes()) {
+    if (attribute.name == "type")
+      input.type_text = attribute.value;
+    else if (attribute.name == "defaultgeomprop")
+      input.defaultgeomprop = attribute.value;
+    else if (attribute.name == "uniform")
+      input.uniform = attribute.value == "true";
+    else if (attribute.name == "enum")
+      input.enums = split_list(attribute.value);
+    else if (attribute.name == "enumvalues")
+      input.enum_values = attribute.value;
+    else if (attribute.name == "unit")
+      input.unit = attribute.value;
+    else if (attribute.name == "unittype")
+      input.unit_type = attribute.value;
+  }
+  input.colorspace = element.inherited_attribute("colorspace");
+  input.type = parse_type(input.type_text).value_or(Type::none);
+  // Text and arrays never vary over a surface (Specification, "Inputs").
+  input.uniform = input.uniform || is_text(input.type) || is_array(input.type);
+  read_default(input, "value", diagnostics);
+  return input;
+}
+
+NodeDefOutput read_output(const Element& element, Diagnostics& diagnostics) {
+  NodeDefOutput output;
+  output.element = &element;
+  output.name = element.name();
+  output.type_text = element.attribute("type");
+  output.defaultinput = element.attribute("defaultinput");
+  output.type = parse_type(output.type_text).value_or(Type::none);
+  // "default" in the specification, "value" in what people write.
+  const char* attribute = element.has_attribute("default") ? "default" : "value";
+  read_default(output, attribute, diagnostics);
+  return output;
+}
+
+}  // namespace
+
+const NodeDefInput* NodeDef::input(std::string_view wanted) const {
+  for (const NodeDefInput& candidate : inputs) {
+    if (candidate.name == wanted) return &candidate;
+  }
+  return nullptr;
+}
+
+const NodeDefOutput* NodeDef::output(std::string_view wanted) const {
+  for (const NodeDefOutput& candidate : outputs) {
+    if (candidate.name == wanted) return &candidate;
+  }
+  return nullptr;
+}
+
+std::string_view NodeDef::instance_type() const {
+  return outputs.size() == 1 ? outputs.front().type_text : "multioutput";
+}
+
+NodeDef read_nodedef(const Element& element, Diagnostics& diagnostics) {
+  NodeDef def;
+  def.element = &element;
+  def.name = element.name();
+  def.category = qualified_name(element, element.attribute("node"));
+  def.nodegroup = element.attribute("nodegroup");
+  def.version = element.attribute("version");
+  def.is_default_version = element.attribute("isdefaultversion") == "true";
+  def.target = element.attribute("target");
+  def.inputs.reserve(element.child_count());
+  for (const Element& child : element.children()) {
+    if (child.category() == "input") def.inputs.push_back(read_input(child, diagnostics));
+    if (child.category() == "output") def.outputs.push_back(read_output(child, diagnostics));
+  }
+  return def;
+}
+
+void inherit_ports(NodeDef& derived, const NodeDef& base) {
+  for (const NodeDefInput& input : base.inputs) {
+    if (derived.input(input.name) == nullptr) derived.inputs.push_back(input);
+  }
+  for (const NodeDefOutput& output : base.outputs) {
+    if (derived.output(output.name) == nullptr) derived.outputs.push_back(output);
+  }
+}
+
+std::vector<std::string_view> split_list(std::string_view text) {
+  std::vector<std::string_view> parts;
+  while (!text.empty()) {
+    const std::size_t comma = text.find(',');
+    const std::string_view part = trim(text.substr(0, comma));
+    if (!part.empty()) parts.push_back(part);
+    text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
+  }
+  return parts;
+}
+
+}  // namespace nacre

@@ -1,0 +1,297 @@
+#include "jit/document/read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "jit/document/upgrade.h"
+#include "jit/document/xml.h"
+
+namespace nacre {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// What an included document's root says goes to each child that does not say
+// it itself, because the child will have another root.
+constexpr std::array<std::string_view, 4> pushed_attributes{"fileprefix", "geomprefix",
+                                                            "colorspace", "namespace"};
+
+bool is_below(const fs::path& file, const fs::path& folder) {
+  const auto ends = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return ends.first == folder.end() ||
+         (ends.first->empty() && std::next(ends.first) == folder.end());
+}
+
+class FileReader {
+ public:
+  FileReader(Document& document, const ReadOptions& options, Diagnostics& diagnostics)
+      : document_(document), options_(options), diagnostics_(diagnostics) {
+    for (const fs::path& path : options.search_paths) add_folder(path);
+  }
+
+  void add_folder(const fs::path& path) {
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
+    if (!error) folders_.push_back(canonical);
+  }
+
+  /// Root of the file with what it includes in front of its own children.
+  Element* read(const fs::path& path, const SourceLocation& asked_by) {
+    std::optional<std::string> text = load(path, asked_by);
+    if (!text) return nullptr;
+    std::error_code error;
+    fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
+    open_.push_back(std::move(canonical));
+    Element* root = parse(*text, path.string(), path.parent_path());
+    open_.pop_back();
+    return root;
+  }
+
+  Element* parse(std::string_view text, const std::string& name, const fs::path& folder) {
+    auto buffer = std::make_unique<char[]>(text.size() + 1);
+    std::memcpy(buffer.get(), text.data(), text.size());
+    const std::uint16_t file = document_.add_file(name, std::move(buffer), text.size());
+    Element* root = parse_xml(document_, file, text.size(), options_.limits, diagnostics_);
+    if (root == nullptr) return nullptr;
+    const std::size_t errors = diagnostics_.error_count();
+    check_names(*root);
+    upgrade(document_, *root, diagnostics_);
+    merge_includes(*root, folder);
+    return diagnostics_.error_count() == errors ? root : nullptr;
+  }
+
+  /// Moves the children of an included root behind those of `root`; of one name
+  /// the first stays.
+  void import(Element& root, Element& included, std::unordered_set<std::string_view>& names) {
+    Element* child = document_.take_children(included);
+    while (child != nullptr) {
+      Element* next = Document::next_sibling(*child);
+      for (std::string_view attribute : pushed_attributes) {
+        if (included.has_attribute(attribute) && !child->has_attribute(attribute)) {
+          document_.set_attribute(*child, attribute, included.attribute(attribute));
+        }
+      }
+      const std::string name = child->name().empty() ? "" : own_qualified_name(*child);
+      if (name != child->name()) Document::set_name(*child, document_.keep(name));
+      if (child->name().empty() || names.insert(child->name()).second) {
+        document_.append(root, *child);
+      }
+      child = next;
+    }
+  }
+
+ private:
+  static std::string own_qualified_name(const Element& child) {
+    const std::string_view space = child.attribute("namespace");
+    const std::string_view name = child.name();
+    if (space.empty()) return std::string(name);
+    const std::string prefix = std::string(space) + ':';
+    return name.starts_with(prefix) ? std::string(name) : prefix + std::string(name);
+  }
+
+  std::optional<std::string> load(const fs::path& path, const SourceLocation& asked_by) {
+    SourceLocation where = asked_by;
+    if (where.file.empty()) where.file = path.string();
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
+      diagnostics_.error("cannot-read", where, "there is no such file", "a file", path.string());
+      return std::nullopt;
+    }
+    const std::size_t size = fs::file_size(path, error);
+    if (error || size > options_.limits.file_bytes) {
+      diagnostics_.error("file-too-large", where, "the file is too large",
+                         fmt::format("at most {} bytes", options_.limits.file_bytes),
+                         fmt::format("{} bytes", size));
+      return std::nullopt;
+    }
+    total_bytes_ += size;
+    if (++file_count_ > options_.limits.files || total_bytes_ > options_.limits.total_bytes) {
+      diagnostics_.error("too-many-includes", where, "the document includes too much",
+                         fmt::format("at most {} files and {} bytes", options_.limits.files,
+                                     options_.limits.total_bytes));
+      return std::nullopt;
+    }
+    std::string text(size, '\0');
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream || !stream.read(text.data(), static_cast<std::streamsize>(size))) {
+      diagnostics_.error("cannot-read", where, "the file cannot be read", "", path.string());
+      return std::nullopt;
+    }
+    return text;
+  }
+
+  // Names are unique within a scope; checked before the includes come in.
+  void check_names(const Element& root) {
+    std::vector<const Element*> pending{&root};
+    std::unordered_set<std::string_view> names;
+    while (!pending.empty()) {
+      const Element* scope = pending.back();
+      pending.pop_back();
+      names.clear();
+      for (const Element& child : scope->children()) {
+        if (child.child_count() > 0) pending.push_back(&child);
+        if (!child.has_attribute("name")) continue;
+        if (!is_valid_name(child.name())) {
+          diagnostics_.error("invalid-name", location(child), "this is not a valid name",
+                             "letters, digits and '_', not starting with a digit",
+                             fmt::format("'{}'", child.name().substr(0, 100)));
+        } else if (!names.insert(child.name()).second) {
+          diagnostics_.error("duplicate-name", location(child),
+                             fmt::format("the name '{}' is used twice in one scope", child.name()));
+        }
+      }
+    }
+  }
+
+  void merge_includes(Element& root, const fs::path& folder) {
+    Element* own = document_.take_children(root);
+    std::unordered_set<std::string_view> names;
+    for (Element* child = own; child != nullptr; child = Document::next_sibling(*child)) {
+      if (child->category() != "xi:include") continue;
+      if (Element* included = include(*child, folder)) import(root, *included, names);
+    }
+    for (Element* child = own; child != nullptr;) {
+      Element* next = Document::next_sibling(*child);
+      const bool kept = child->category() != "xi:include" &&
+                        (child->name().empty() || !names.contains(child->name()));
+      if (kept) document_.append(root, *child);
+      child = next;
+    }
+  }
+
+  Element* include(const Element& element, const fs::path& folder) {
+    const std::string_view href = element.attribute("href");
+    SourceLocation where = location(element);
+    where.path = "xi:include";
+    if (href.empty()) {
+      diagnostics_.error("bad-include", where, "the include names no file", "href=\"FILE.mtlx\"");
+      return nullptr;
+    }
+    const std::optional<fs::path> file = find(href, folder);
+    if (!file) {
+      diagnostics_.error("include-not-found", where, "the included file cannot be found",
+                         "a file beside this one or in a search path", fmt::format("'{}'", href));
+      return nullptr;
+    }
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(fs::absolute(*file, error), error);
+    if (!is_allowed(canonical)) {
+      diagnostics_.error(
+          "include-outside", where, "the included file is outside the allowed folders",
+          "a file below the document's folder or a search path", fmt::format("'{}'", href));
+      return nullptr;
+    }
+    if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
+      diagnostics_.error("include-cycle", where, "the file includes itself, directly or not", "",
+                         fmt::format("'{}'", href));
+      return nullptr;
+    }
+    if (open_.size() >= static_cast<std::size_t>(options_.limits.include_depth)) {
+      diagnostics_.error("include-depth", where, "includes are nested too deeply",
+                         fmt::format("at most {} levels", options_.limits.include_depth));
+      return nullptr;
+    }
+    return read(*file, where);
+  }
+
+  std::optional<fs::path> find(std::string_view href, const fs::path& folder) const {
+    std::error_code error;
+    const fs::path named(href);
+    if (named.is_absolute()) {
+      return fs::is_regular_file(named, error) ? std::optional(named) : std::nullopt;
+    }
+    if (fs::is_regular_file(folder / named, error)) return folder / named;
+    for (const fs::path& path : options_.search_paths) {
+      if (fs::is_regular_file(path / named, error)) return path / named;
+    }
+    return std::nullopt;
+  }
+
+  bool is_allowed(const fs::path& canonical) const {
+    if (options_.includes_anywhere) return true;
+    const auto holds = [&](const fs::path& folder) { return is_below(canonical, folder); };
+    return std::any_of(folders_.begin(), folders_.end(), holds);
+  }
+
+  Document& document_;
+  const ReadOptions& options_;
+  Diagnostics& diagnostics_;
+  std::vector<fs::path> folders_;
+  std::vector<fs::path> open_;
+  std::size_t total_bytes_ = 0;
+  int file_count_ = 0;
+};
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::unique_ptr<Document> finish(std::unique_ptr<Document> document, Element* root) {
+  if (root == nullptr) return nullptr;
+  document->set_root(*root);
+  document->build_index();
+  return document;
+}
+
+}  // namespace
+
+bool is_valid_name(std::string_view name) {
+  bool at_start = true;
+  for (char c : name) {
+    if (c == ':' && !at_start) {
+      at_start = true;
+    } else if (is_letter(c) || (is_digit(c) && !at_start)) {
+      at_start = false;
+    } else {
+      return false;
+    }
+  }
+  return !at_start;
+}
+
+std::unique_ptr<Document> read_document(const fs::path& file, const ReadOptions& options,
+                                        Diagnostics& diagnostics) {
+  auto document = std::make_unique<Document>();
+  FileReader reader(*document, options, diagnostics);
+  reader.add_folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  Element* root = reader.read(file, {});
+  return finish(std::move(document), root);
+}
+
+std::unique_ptr<Document> read_document_text(std::string_view text, const std::string& name,
+                                             const ReadOptions& options, Diagnostics& diagnostics) {
+  auto document = std::make_unique<Document>();
+  FileReader reader(*document, options, diagnostics);
+  if (text.size() > options.limits.file_bytes) {
+    diagnostics.error("file-too-large", {name, 0, 0, ""}, "the text is too large",
+                      fmt::format("at most {} bytes", options.limits.file_bytes));
+    return nullptr;
+  }
+  const fs::path folder = fs::path(name).parent_path();
+  reader.add_folder(folder.empty() ? fs::path(".") : folder);
+  return finish(std::move(document), reader.parse(text, name, folder));
+}
+
+std::unique_ptr<Document> read_documents(const std::vector<fs::path>& files,
+                                         const ReadOptions& options, Diagnostics& diagnostics) {
+  auto document = std::make_unique<Document>();
+  FileReader reader(*document, options, diagnostics);
+  auto empty = std::make_unique<char[]>(1);
+  Element& root = document->create("materialx", document->add_file("", std::move(empty), 0), 0);
+  std::unordered_set<std::string_view> names;
+  const std::size_t errors = diagnostics.error_count();
+  for (const fs::path& file : files) {
+    reader.add_folder(file.parent_path());
+    if (Element* one = reader.read(file, {})) reader.import(root, *one, names);
+  }
+  return finish(std::move(document), diagnostics.error_count() == errors ? &root : nullptr);
+}
+
+}  // namespace nacre

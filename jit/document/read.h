@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "jit/document/document.h"
+#include "runtime/diagnostic.h"
+
+namespace nacre {
+
+/// What a document may cost, so that no file can exhaust the machine.
+struct ReadLimits {
+  std::size_t file_bytes = std::size_t{64} << 20;
+  std::size_t total_bytes = std::size_t{256} << 20;
+  int files = 1024;
+  int include_depth = 256;
+  int xml_depth = 256;
+  std::size_t elements = 4'000'000;  ///< In one file.
+};
+
+struct ReadOptions {
+  /// Where includes are looked for after the including file's own folder.
+  std::vector<std::filesystem::path> search_paths;
+  /// Includes must lie below the main file's folder or a search path, whatever
+  /// ".." and symbolic links say. True lifts that.
+  bool includes_anywhere = false;
+  ReadLimits limits;
+};
+
+/// Reads a document and all it includes. Nothing if there was an error; the
+/// diagnostics then say what. An included document's elements stand before the
+/// including one's own, and of two elements of one name the included one
+/// stays (MaterialX Specification, "MTLX File Format").
+std::unique_ptr<Document> read_document(const std::filesystem::path& file,
+                                        const ReadOptions& options, Diagnostics& diagnostics);
+
+/// The same for text in memory. `name` stands for the file in diagnostics, and
+/// its folder is where includes are looked for.
+std::unique_ptr<Document> read_document_text(std::string_view text, const std::string& name,
+                                             const ReadOptions& options, Diagnostics& diagnostics);
+
+/// Several files as one document, in order; of two root elements of one name
+/// the first stays. For data libraries.
+std::unique_ptr<Document> read_documents(const std::vector<std::filesystem::path>& files,
+                                         const ReadOptions& options, Diagnostics& diagnostics);
+
+/// True for what the standard allows as a name, letters, digits and
+/// underscores not starting with a digit, with any number of "ns:" before it.
+bool is_valid_name(std::string_view name);
+
+}  // namespace nacre

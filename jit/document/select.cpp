@@ -1,0 +1,209 @@
+#include "jit/document/select.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace nacre {
+
+namespace {
+
+constexpr std::array structural = std::to_array<std::string_view>({"attributedef",
+                                                                   "backdrop",
+                                                                   "collection",
+                                                                   "geominfo",
+                                                                   "geomprop",
+                                                                   "geompropdef",
+                                                                   "implementation",
+                                                                   "input",
+                                                                   "look",
+                                                                   "lookgroup",
+                                                                   "materialassign",
+                                                                   "materialx",
+                                                                   "nodedef",
+                                                                   "nodegraph",
+                                                                   "output",
+                                                                   "property",
+                                                                   "propertyassign",
+                                                                   "propertyset",
+                                                                   "propertysetassign",
+                                                                   "targetdef",
+                                                                   "token",
+                                                                   "typedef",
+                                                                   "unit",
+                                                                   "unitdef",
+                                                                   "unittypedef",
+                                                                   "variant",
+                                                                   "variantassign",
+                                                                   "variantset",
+                                                                   "visibility",
+                                                                   "xi:include",
+                                                                   "member",
+                                                                   "defaultgeomprop",
+                                                                   "material",
+                                                                   "shaderref",
+                                                                   "bindinput",
+                                                                   "bindtoken",
+                                                                   "bindparam",
+                                                                   "parameter",
+                                                                   "comment"});
+
+bool version_agrees(const NodeDef& def, std::string_view version) {
+  return def.version == version || (version.empty() && def.is_default_version);
+}
+
+// The first input of the instance that the nodedef does not take, or null.
+const Element* first_misfit(const Element& instance, const NodeDef& def) {
+  for (const Element& child : instance.children()) {
+    if (child.category() != "input") continue;
+    const NodeDefInput* input = def.input(child.name());
+    if (input == nullptr || input->type_text != child.attribute("type")) return &child;
+  }
+  return nullptr;
+}
+
+std::string list_of(const std::vector<std::string>& items) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? " or " : ", ";
+    text += items[i];
+  }
+  return text;
+}
+
+void add_once(std::vector<std::string>& items, std::string item) {
+  if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(std::move(item));
+}
+
+void report_misfit(const Element& input, const std::vector<const NodeDef*>& candidates,
+                   Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  std::vector<std::string> types;
+  for (const NodeDef* def : candidates) {
+    for (const NodeDefInput& port : def->inputs) add_once(names, std::string(port.name));
+    if (const NodeDefInput* port = def->input(input.name())) {
+      add_once(types, std::string(port->type_text));
+    }
+  }
+  if (types.empty()) {
+    diagnostics.error("unknown-input", location(input), "the node has no input of this name",
+                      list_of(names), fmt::format("'{}'", input.name()));
+    return;
+  }
+  diagnostics.error("input-type", location(input), "the input has another type", list_of(types),
+                    std::string(input.attribute("type")));
+}
+
+// Nothing fitted: says what came nearest to fitting.
+void report_no_match(const Element& instance, const std::vector<const NodeDef*>& candidates,
+                     Diagnostics& diagnostics) {
+  std::vector<std::string> versions;
+  std::vector<std::string> types;
+  std::vector<const NodeDef*> of_type;
+  for (const NodeDef* def : candidates) {
+    if (!version_agrees(*def, instance.attribute("version"))) {
+      add_once(versions, std::string(def->version));
+      continue;
+    }
+    add_once(types, std::string(def->instance_type()));
+    if (def->instance_type() == instance.attribute("type")) of_type.push_back(def);
+  }
+  if (types.empty()) {
+    diagnostics.error("unknown-version", location(instance),
+                      fmt::format("there is no such version of '{}'", instance.category()),
+                      list_of(versions), fmt::format("'{}'", instance.attribute("version")));
+  } else if (of_type.empty()) {
+    diagnostics.error("no-matching-nodedef", location(instance),
+                      fmt::format("no '{}' has this output type", instance.category()),
+                      list_of(types), fmt::format("'{}'", instance.attribute("type")));
+  } else {
+    // The candidate that takes most inputs is what the author will have meant.
+    std::size_t best = 0;
+    const Element* misfit = nullptr;
+    for (const NodeDef* def : of_type) {
+      const Element* input = first_misfit(instance, *def);
+      std::size_t place = 0;
+      for (const Element& child : instance.children()) {
+        if (&child == input) break;
+        ++place;
+      }
+      if (misfit == nullptr || place > best) {
+        best = place;
+        misfit = input;
+      }
+    }
+    report_misfit(*misfit, of_type, diagnostics);
+  }
+}
+
+const NodeDef* find_explicit(const Element& instance, const Definitions& definitions,
+                             Diagnostics& diagnostics) {
+  const std::string_view name = instance.attribute("nodedef");
+  const NodeDef* def = definitions.nodedef(qualified_name(instance, name));
+  if (def == nullptr) def = definitions.nodedef(name);
+  if (def == nullptr) {
+    diagnostics.error("unknown-nodedef", location(instance), "there is no nodedef of this name",
+                      "the name of a nodedef", fmt::format("'{}'", name));
+    return nullptr;
+  }
+  if (def->category != instance.category() &&
+      def->category != qualified_name(instance, instance.category())) {
+    diagnostics.error("nodedef-mismatch", location(instance),
+                      fmt::format("the nodedef '{}' is of another node", name),
+                      fmt::format("<{}>", def->category), fmt::format("<{}>", instance.category()));
+    return nullptr;
+  }
+  if (def->instance_type() != instance.attribute("type")) {
+    diagnostics.error("no-matching-nodedef", location(instance),
+                      fmt::format("the nodedef '{}' has another output type", name),
+                      std::string(def->instance_type()),
+                      fmt::format("'{}'", instance.attribute("type")));
+    return nullptr;
+  }
+  if (const Element* misfit = first_misfit(instance, *def)) {
+    report_misfit(*misfit, {def}, diagnostics);
+    return nullptr;
+  }
+  return def;
+}
+
+}  // namespace
+
+const NodeDef* find_nodedef(const Element& instance, const Definitions& definitions,
+                            Diagnostics& diagnostics) {
+  if (instance.has_attribute("nodedef")) return find_explicit(instance, definitions, diagnostics);
+  const std::string qualified = qualified_name(instance, instance.category());
+  std::vector<const NodeDef*> candidates = definitions.of_category(qualified);
+  if (qualified != instance.category()) {
+    const auto plain = definitions.of_category(instance.category());
+    candidates.insert(candidates.end(), plain.begin(), plain.end());
+  }
+  std::erase_if(candidates, [](const NodeDef* def) { return !is_for_us(def->target); });
+  if (candidates.empty()) {
+    diagnostics.error("unknown-node", location(instance), "there is no node of this category",
+                      "a node that a library or the document defines",
+                      fmt::format("<{}>", instance.category()));
+    return nullptr;
+  }
+  const std::string_view version = instance.attribute("version");
+  const std::string_view type = instance.attribute("type");
+  for (const NodeDef* def : candidates) {
+    if (version_agrees(*def, version) && def->instance_type() == type &&
+        first_misfit(instance, *def) == nullptr) {
+      return def;
+    }
+  }
+  report_no_match(instance, candidates, diagnostics);
+  return nullptr;
+}
+
+bool is_node(const Element& element) {
+  if (std::find(structural.begin(), structural.end(), element.category()) != structural.end()) {
+    return false;
+  }
+  return element.parent() != nullptr &&
+         (element.parent()->category() == "nodegraph" || element.parent()->parent() == nullptr);
+}
+
+}  // namespace nacre

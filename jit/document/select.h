@@ -1,0 +1,22 @@
+#pragma once
+
+#include "jit/document/definitions.h"
+#include "jit/document/element.h"
+#include "runtime/diagnostic.h"
+
+namespace nacre {
+
+/// The nodedef of a node instance. An explicit `nodedef` decides; otherwise the
+/// first candidate, those of the namespace-qualified category before those of
+/// the plain one, library before document, in document order, whose target is
+/// ours, whose version agrees, whose output type is the instance's type, and
+/// which has every input of the instance with the same type (Node::getNodeDef of
+/// the reference). Null if there is none: then `diagnostics` says why.
+const NodeDef* find_nodedef(const Element& instance, const Definitions& definitions,
+                            Diagnostics& diagnostics);
+
+/// True for elements that are instances of nodes: children of a document or
+/// node graph that are none of the structural elements of the format.
+bool is_node(const Element& element);
+
+}  // namespace nacre

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "runtime/type.h"
+#include "runtime/value.h"
+
+namespace nacre {
+
+/// A value as documents write it, whatever the locale. Numbers of a vector or
+/// matrix are separated by a comma or by white space; of an array by commas.
+/// Booleans are exactly "true" or "false". Infinities and NaN are refused, as is
+/// anything left over. In arrays of strings "\," "\;" and "\\" stand for the
+/// character alone (Specification, "MaterialX Data Types").
+std::optional<Value> parse_value(Type type, std::string_view text);
+
+/// What parse_value would have taken: "3 numbers", "true or false".
+std::string expected_text(Type type);
+
+/// Zero, false, the empty string or array; the identity for matrices.
+/// (Specification, "Inputs".)
+Value zero_value(Type type);
+
+}  // namespace nacre

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+#include "jit/document/document.h"
+#include "jit/document/read.h"
+#include "runtime/diagnostic.h"
+
+namespace nacre {
+
+/// Parses a file that `document` holds, in place, and returns its root element,
+/// which is not linked to anything yet. Null after an error. UTF-8 only;
+/// document type declarations are refused, so there are no entities to expand.
+Element* parse_xml(Document& document, std::uint16_t file, std::size_t size,
+                   const ReadLimits& limits, Diagnostics& diagnostics);
+
+}  // namespace nacre
