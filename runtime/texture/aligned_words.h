@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace nacre {
+
+/// A fixed-size array of zeroed 32-bit words on a 64-byte boundary.
+class AlignedWords {
+ public:
+  AlignedWords() = default;
+
+  /// Empty when the memory cannot be had: textures are large enough for that to be
+  /// an event to report rather than an exception.
+  static AlignedWords allocate(std::size_t count);
+
+  bool empty() const { return count_ == 0; }
+  std::span<std::uint32_t> span() { return {words_.get(), count_}; }
+  std::span<const std::uint32_t> span() const { return {words_.get(), count_}; }
+
+ private:
+  struct Free {
+    void operator()(std::uint32_t* words) const;
+  };
+  std::unique_ptr<std::uint32_t[], Free> words_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace nacre

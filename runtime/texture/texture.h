@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "runtime/diagnostic.h"
+#include "runtime/texture/aligned_words.h"
+#include "runtime/texture/host_texture.h"
+#include "runtime/texture/layout.h"
+
+namespace nacre {
+
+/// One image as a kernel sees it; immutable. In each state `words()` is a whole array as
+/// layout.h describes it, so that a kernel may always read the header.
+class Texture {
+ public:
+  /// A resident image: the array with all its levels.
+  Texture(AlignedWords words, std::uint64_t replaced_texels);
+  /// An image that is looked up through the host.
+  Texture(std::unique_ptr<HostTexture> host, const ImageInfo& info);
+  /// An image that could not be read, and why.
+  explicit Texture(Diagnostic problem);
+
+  std::span<const std::uint32_t> words() const { return words_.span(); }
+  std::uint32_t flags() const { return words()[texture_layout::word_flags]; }
+  bool missing() const { return (flags() & texture_layout::texture_missing) != 0; }
+  bool resident() const { return flags() == 0; }
+  /// Of the image in the file; 1 if it is missing.
+  int width() const { return static_cast<int>(words()[texture_layout::word_image_width]); }
+  int height() const { return static_cast<int>(words()[texture_layout::word_image_height]); }
+
+  const HostTexture* host() const { return host_.get(); }  ///< Null unless on the host.
+  const std::optional<Diagnostic>& problem() const { return problem_; }
+  /// NaN and infinite samples of level 0 that became 0.
+  std::uint64_t replaced_texels() const { return replaced_texels_; }
+
+ private:
+  AlignedWords words_;
+  std::unique_ptr<HostTexture> host_;
+  std::optional<Diagnostic> problem_;
+  std::uint64_t replaced_texels_ = 0;
+};
+
+using TextureHandle = std::shared_ptr<const Texture>;
+
+}  // namespace nacre

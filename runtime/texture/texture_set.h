@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/diagnostic.h"
+#include "runtime/texture/texture_store.h"
+#include "runtime/texture/tile_set.h"
+
+namespace nacre {
+
+/// A set of textures that a point chooses among by floor(u), floor(v): what a file name
+/// with <UDIM> or <UVTILE> means. A kernel binds `textures` to consecutive slots.
+struct TextureSet {
+  std::vector<std::uint32_t> directory;  ///< See tile_directory; empty if nothing was found.
+  std::vector<TextureHandle> textures;   ///< By the numbers the directory holds.
+};
+
+/// All tiles of a name. A tile that cannot be read is missing in its own right, with a
+/// diagnostic, and does not disturb the others.
+TextureSet acquire_set(TextureStore& store, const TextureKey& pattern, Diagnostics& diagnostics,
+                       const TileLimits& limits = {});
+
+}  // namespace nacre

@@ -1,0 +1,187 @@
+#include "runtime/texture/texture_store.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "runtime/texture/image_format.h"
+
+namespace nacre {
+
+namespace {
+
+/// One user should hear of a broken file once, though many nodes may name it.
+void report(const Diagnostic& problem, Diagnostics& diagnostics) {
+  const auto& all = diagnostics.all();
+  const bool known = std::any_of(all.begin(), all.end(), [&](const Diagnostic& said) {
+    return said.code == problem.code && said.where.file == problem.where.file &&
+           said.found == problem.found;
+  });
+  if (!known) diagnostics.add(problem);
+}
+
+/// Under the store's lock nobody but a holder can make another handle, so a count of one
+/// cannot grow behind our back.
+bool unused(const TextureHandle& texture) { return texture && texture.use_count() == 1; }
+
+}  // namespace
+
+TextureStore::TextureStore(const TextureOptions& options) : options_(options) {}
+
+TextureHandle TextureStore::acquire(const TextureKey& key, Diagnostics& diagnostics) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    const auto found = entries_.find(key);
+    if (found == entries_.end()) break;
+    if (!found->second.texture) {
+      loaded_.wait(lock);  // The entry may be gone when we wake; look again.
+      continue;
+    }
+    if (!found->second.texture->resident() && unused(found->second.texture)) {
+      forget(found);
+      break;
+    }
+    ++statistics_.hits;
+    found->second.last_request = ++requests_;
+    TextureHandle texture = found->second.texture;
+    lock.unlock();
+    if (texture->problem()) report(*texture->problem(), diagnostics);
+    return texture;
+  }
+
+  entries_[key].last_request = ++requests_;
+  ++statistics_.loads;
+  lock.unlock();
+  Loaded loaded;
+  try {
+    loaded = load(key);
+  } catch (...) {  // Not even a placeholder could be allocated: leave no entry to wait for.
+    lock.lock();
+    entries_.erase(key);
+    loaded_.notify_all();
+    throw;
+  }
+  lock.lock();
+  Entry& entry = entries_[key];
+  entry.texture = loaded.texture;
+  entry.bytes = loaded.bytes;
+  statistics_.replaced_texels += loaded.texture->replaced_texels();
+  loaded_.notify_all();
+  lock.unlock();
+  if (loaded.texture->problem()) report(*loaded.texture->problem(), diagnostics);
+  return loaded.texture;
+}
+
+/// Readers of hostile files may throw; to the user that is one more broken image.
+TextureStore::Loaded TextureStore::load(const TextureKey& key) {
+  try {
+    return load_image(key);
+  } catch (const std::exception& error) {
+    return {std::make_shared<Texture>(image_error("broken-image", key.path,
+                                                  "the image cannot be read", {}, error.what())),
+            0};
+  }
+}
+
+TextureStore::Loaded TextureStore::load_image(const TextureKey& key) {
+  ImageReader reader;
+  if (auto problem = reader.open(key.path, key.layer, options_.limits)) {
+    return {std::make_shared<Texture>(std::move(*problem)), 0};
+  }
+  const texture_layout::Plan plan = plan_texture(reader.info(), key.policy);
+  if (!reserve(plan.bytes())) return {open_on_host(key, reader.info()), 0};
+
+  struct Reservation {
+    TextureStore& store;
+    std::uint64_t bytes;
+    ~Reservation() {
+      if (bytes != 0) store.release(bytes);
+    }
+  } reservation{*this, plan.bytes()};
+  AlignedWords words = AlignedWords::allocate(plan.total_words);
+  if (words.empty()) return {open_on_host(key, reader.info()), 0};
+  std::uint64_t replaced = 0;
+  if (auto problem = load_texture(reader, plan, words, replaced)) {
+    return {std::make_shared<Texture>(std::move(*problem)), 0};
+  }
+  auto texture = std::make_shared<Texture>(std::move(words), replaced);
+  return {std::move(texture), std::exchange(reservation.bytes, 0)};
+}
+
+TextureHandle TextureStore::open_on_host(const TextureKey& key, const ImageInfo& info) {
+  std::shared_ptr<TileCache> cache;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!tile_cache_) tile_cache_ = std::make_shared<TileCache>(options_.host_cache);
+    cache = tile_cache_;
+  }
+  auto file = cache->open(key.path, info);
+  if (!file) {
+    return std::make_shared<Texture>(
+        image_error("broken-image", key.path, "the image cannot be opened in the tile cache"));
+  }
+  return std::make_shared<Texture>(
+      std::make_unique<HostTexture>(std::move(cache), std::move(file), info), info);
+}
+
+bool TextureStore::reserve(std::uint64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  if (bytes > options_.budget) return false;
+  std::uint64_t in_use = statistics_.resident_bytes;
+  for (const auto& [key, entry] : entries_) {
+    if (unused(entry.texture)) in_use -= entry.bytes;
+  }
+  if (in_use > options_.budget - bytes) return false;  // Evicting would not be enough.
+  while (statistics_.resident_bytes > options_.budget - bytes) {
+    auto oldest = entries_.end();
+    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+      if (entry->second.bytes == 0 || !unused(entry->second.texture)) continue;
+      if (oldest == entries_.end() || entry->second.last_request < oldest->second.last_request) {
+        oldest = entry;
+      }
+    }
+    forget(oldest);
+    ++statistics_.evictions;
+  }
+  statistics_.resident_bytes += bytes;
+  statistics_.peak_resident_bytes =
+      std::max(statistics_.peak_resident_bytes, statistics_.resident_bytes);
+  return true;
+}
+
+void TextureStore::release(std::uint64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  statistics_.resident_bytes -= bytes;
+}
+
+TextureStore::Entries::iterator TextureStore::forget(Entries::iterator entry) {
+  statistics_.resident_bytes -= entry->second.bytes;
+  return entries_.erase(entry);
+}
+
+void TextureStore::drop_unused() {
+  const std::lock_guard lock(mutex_);
+  for (auto entry = entries_.begin(); entry != entries_.end();) {
+    entry = unused(entry->second.texture) ? forget(entry) : std::next(entry);
+  }
+  // It remembers files too. Textures that still need it hold it.
+  tile_cache_.reset();
+}
+
+TextureStatistics TextureStore::statistics() const {
+  const std::lock_guard lock(mutex_);
+  TextureStatistics result = statistics_;
+  for (const auto& [key, entry] : entries_) {
+    if (!entry.texture) continue;
+    if (entry.texture->missing()) {
+      ++result.missing_textures;
+    } else if (entry.texture->resident()) {
+      ++result.resident_textures;
+    } else {
+      ++result.host_textures;
+    }
+  }
+  return result;
+}
+
+}  // namespace nacre

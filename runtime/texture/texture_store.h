@@ -1,0 +1,102 @@
+#pragma once
+
+#include <compare>
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "runtime/diagnostic.h"
+#include "runtime/texture/image_io.h"
+#include "runtime/texture/texture.h"
+#include "runtime/texture/texture_loader.h"
+
+namespace nacre {
+
+/// What makes two requests the same texture.
+struct TextureKey {
+  std::string path;   ///< Resolved by the caller, against the roots it trusts.
+  std::string layer;  ///< See ImageReader; empty: the first.
+  TexelPolicy policy = TexelPolicy::automatic;
+
+  auto operator<=>(const TextureKey&) const = default;
+};
+
+struct TextureOptions {
+  /// Bytes of texels kept in memory, unused textures included.
+  std::uint64_t budget = std::uint64_t{2} << 30;
+  /// Bytes of tiles kept for images that are not resident, by all of them together.
+  std::uint64_t host_cache = std::uint64_t{256} << 20;
+  ImageLimits limits;
+};
+
+struct TextureStatistics {
+  std::uint64_t resident_bytes = 0;
+  std::uint64_t peak_resident_bytes = 0;
+  std::uint64_t resident_textures = 0;
+  std::uint64_t host_textures = 0;     ///< Known to the store now, looked up through the host.
+  std::uint64_t missing_textures = 0;  ///< Known to the store now, with a problem.
+  std::uint64_t loads = 0;             ///< Times an image was opened.
+  std::uint64_t hits = 0;              ///< Requests that found their texture loaded.
+  std::uint64_t evictions = 0;         ///< Unused textures dropped for room.
+  std::uint64_t replaced_texels = 0;   ///< NaN and infinite samples, over all loads.
+};
+
+/// Textures by file, shared by all that ask for the same key. A texture lives while a
+/// handle does; without one it stays for the next request until its room is needed.
+///
+/// Over the budget, unused textures go first, the least recently asked for before others;
+/// if there still is no room the image is served by the host (Texture::host) for as long
+/// as someone holds it, and considered anew afterwards. Nothing in use is ever moved.
+///
+/// Building the pyramid takes, for the time of loading, up to 4 bytes a texel more.
+///
+/// All members may be called from any thread. Different images load concurrently; the
+/// same one loads once, and the other threads wait. Handles may outlive the store.
+class TextureStore {
+ public:
+  explicit TextureStore(const TextureOptions& options = {});
+  TextureStore(const TextureStore&) = delete;
+  TextureStore& operator=(const TextureStore&) = delete;
+
+  /// Never null. When the image cannot be had the texture is `missing`, and its problem is
+  /// added to `diagnostics` unless that already has it. An image that failed is tried again
+  /// once nobody holds the failed texture.
+  TextureHandle acquire(const TextureKey& key, Diagnostics& diagnostics);
+
+  /// Forgets every texture that no handle refers to, so that changed files are read again.
+  void drop_unused();
+
+  TextureStatistics statistics() const;
+
+ private:
+  struct Entry {
+    TextureHandle texture;  ///< Null while a thread loads it.
+    std::uint64_t bytes = 0;
+    std::uint64_t last_request = 0;
+  };
+  using Entries = std::map<TextureKey, Entry>;
+
+  struct Loaded {
+    TextureHandle texture;
+    std::uint64_t bytes = 0;
+  };
+  Loaded load(const TextureKey& key);
+  Loaded load_image(const TextureKey& key);
+  TextureHandle open_on_host(const TextureKey& key, const ImageInfo& info);
+  bool reserve(std::uint64_t bytes);
+  void release(std::uint64_t bytes);
+  Entries::iterator forget(Entries::iterator entry);
+
+  const TextureOptions options_;
+  mutable std::mutex mutex_;
+  std::condition_variable loaded_;
+  Entries entries_;
+  std::uint64_t requests_ = 0;
+  TextureStatistics statistics_;
+  std::shared_ptr<TileCache> tile_cache_;
+};
+
+}  // namespace nacre
