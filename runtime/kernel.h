@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "runtime/program/program.h"
+
+namespace nacre {
+
+/// A texture as a kernel sees it: one array of 32-bit words laid out as
+/// runtime/texture/layout.h says.
+struct TextureBinding {
+  const std::uint32_t* words = nullptr;
+  std::uint64_t count = 0;  ///< Words; a fetch beyond them reads word 0.
+};
+
+/// Look-ups that a kernel leaves to the host: textures too large to be
+/// resident. Arrays hold `lanes` floats; rgba holds 4 * lanes, r of all lanes first.
+struct TextureCall {
+  std::uint32_t slot;
+  std::uint32_t modes;  ///< As Op::texture_call's imm.
+  std::uint32_t lanes;
+  const float* u;
+  const float* v;
+  const float* dudx;
+  const float* dvdx;
+  const float* dudy;
+  const float* dvdy;
+  float* rgba;
+};
+using TextureCallback = void (*)(void* user, const TextureCall* call);
+
+/// What a kernel reads and writes: plain C layout, all memory the host's.
+/// Element i of every array belongs to point i; elements are four bytes (float,
+/// int32; booleans as int32 0 or 1). Arrays need only their natural alignment.
+/// Inputs and outputs must not overlap.
+struct KernelArguments {
+  const void* const* inputs = nullptr;       ///< One array a Program::inputs entry.
+  void* const* outputs = nullptr;            ///< One array a Program::outputs entry.
+  const std::uint32_t* parameters = nullptr; ///< One slot a Program::parameters entry.
+  const TextureBinding* textures = nullptr;  ///< One a Program::textures entry.
+  TextureCallback texture_callback = nullptr;
+  void* texture_user = nullptr;
+  std::uint64_t count = 0;  ///< Points.
+};
+
+/// Compiled or interpreted code for one Program. Immutable and re-entrant: any
+/// number of threads may run one kernel at once.
+class Kernel {
+ public:
+  virtual ~Kernel() = default;
+  /// Computes every output for points 0 ... count - 1. Touches no floating-point
+  /// state of the caller's; never throws, never blocks.
+  virtual void run(const KernelArguments& arguments) const = 0;
+  /// What to bind: its channel, slot and texture lists. Their order is that of
+  /// the arrays in KernelArguments.
+  virtual const Program& program() const = 0;
+  /// Points one pass of the code works on: 1, 4, 8, 16; the interpreter's block.
+  virtual int lanes() const = 0;
+  /// "jit", "interpreter" or "reference".
+  virtual const char* engine() const = 0;
+};
+
+}  // namespace nacre

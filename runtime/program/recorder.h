@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/program/program.h"
+#include "runtime/value/ref.h"
+
+namespace nacre {
+
+/// Builds a Program. Operations on recorded values (runtime/value) end here:
+/// each is simplified, shared with an equal one in scope, or appended. One
+/// Recorder serves one thread.
+class Recorder {
+ public:
+  Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Takes over the channel, slot, table and texture lists of a Program, in
+  /// their order; before anything is recorded.
+  void adopt_interface(const Program& program);
+
+  // -- Leaves. The same name always gives the same value. --
+
+  /// An input channel of the batch.
+  Ref input(std::string_view name, Scalar type);
+  /// A slot of the parameter block, `bits` its value in the document.
+  Ref parameter(std::string_view name, Scalar type, std::uint32_t bits);
+  /// The slot number (an i32 literal) of the texture that the host knows by `key`.
+  Ref texture(std::string_view key);
+  /// The index of a constant table, for Op::table.
+  std::uint32_t table(std::string_view name, std::span<const float> values);
+
+  /// Records one operation; see `record` in runtime/value/ref.h.
+  Ref emit(Op op, std::span<const Ref> operands, std::uint32_t imm = 0);
+
+  /// x, marked as a place where a material's scatter state may be cut.
+  /// Constants and uniform values pass unmarked.
+  Ref keep(Ref x);
+  /// Number of keeps so far; keep k has imm k.
+  std::uint32_t keep_count() const { return keep_count_; }
+  /// True for what differs from lane to lane: depends on an input.
+  bool is_varying(Ref x) const;
+
+  // -- Regions; use if_any() and loop() of runtime/value/control.h. --
+
+  void begin_if(Ref mask);
+  Ref merge(Ref inner, Ref outer);
+  void end_if();
+  void begin_loop(Ref mask, std::uint32_t bound);
+  Ref carry(Ref initial);
+  Ref next(Ref carry, Ref value);
+  void again(Ref condition);
+  void end_loop();
+
+  // -- Outlined functions; use outline() of runtime/value/control.h. --
+
+  /// The function recorded under this key, or nothing.
+  std::uint32_t find_function(std::string_view key) const;  ///< 0: none.
+  /// Starts a function; its arguments follow by argument(). Values of the
+  /// function around it can't be used until end_function().
+  void begin_function(std::string key, std::string name, std::span<const Scalar> arguments);
+  Ref argument(std::uint32_t index);
+  /// Ends it and returns its index in the Program.
+  std::uint32_t end_function(std::span<const Ref> results);
+  /// Calls it; one value a result.
+  std::vector<Ref> call(std::uint32_t function, std::span<const Ref> arguments);
+
+  /// A texture look-up that the host answers: r, g, b, a.
+  std::vector<Ref> texture_call(std::span<const Ref> operands, std::uint32_t imm);
+
+  /// Appends a store to output channel `name` at top level of the entry.
+  void store(std::string_view name, Ref value);
+
+  /// What was recorded, whole: nothing removed, varying not yet marked. Valid
+  /// as a Program only if stores were recorded; see slice.h for entry points.
+  const Program& program() const { return program_; }
+  Program take();
+
+  /// The operand as a value id of the current function; literals are recorded.
+  ValueId materialize(Ref x);
+
+ private:
+  struct KeyHash {
+    std::size_t operator()(const Instruction& instruction) const;
+  };
+  using Scope = std::unordered_map<Instruction, ValueId, KeyHash>;
+
+  /// A function under construction and the regions open in it.
+  struct Open {
+    std::uint32_t index;
+    std::string key;
+    std::vector<Scope> scopes;
+    std::vector<bool> varying;        ///< By value id.
+    std::vector<std::uint32_t> home;  ///< By value id: the region it stands in.
+    std::vector<std::uint32_t> regions;  ///< Regions open, outermost first.
+    std::uint32_t next_region = 1;
+  };
+
+  Function& code() { return program_.functions[open_.back().index]; }
+  Ref append(Instruction instruction, bool varying);
+  Ref append_shared(Instruction instruction, bool varying);
+  Ref append_list(Op op, Scalar type, std::span<const Ref> operands, std::uint32_t imm);
+  void open_region(Op op, Ref mask, std::uint32_t imm);
+  void close_region(Op op);
+  bool in_scope(ValueId id) const;
+
+  Program program_;
+  std::vector<Open> open_;
+  std::unordered_map<std::string, std::uint32_t> function_keys_;
+  std::unordered_map<std::string, ValueId> list_keys_;
+  std::unordered_map<ValueId, ValueId> keeps_;  ///< By the value kept.
+  std::uint32_t keep_count_ = 0;
+};
+
+}  // namespace nacre

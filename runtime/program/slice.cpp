@@ -1,0 +1,230 @@
+#include "runtime/program/slice.h"
+
+#include <cassert>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+namespace nacre {
+
+namespace {
+
+constexpr std::string_view state_prefix = "state.";
+
+/// Marks live values of one function, to a fixed point: a loop's carry may
+/// need a `next` that stands after it.
+class Liveness {
+ public:
+  explicit Liveness(const Function& function)
+      : function_(function), live_(function.code.size(), false) {}
+
+  std::vector<bool> run() {
+    do {
+      changed_ = false;
+      regions_.clear();
+      for (std::size_t i = function_.code.size(); i-- > 0;) visit(static_cast<ValueId>(i));
+    } while (changed_);
+    return std::move(live_);
+  }
+
+ private:
+  struct Region {
+    std::vector<ValueId> frame;  ///< The closing instruction, and `again`.
+    bool live = false;
+  };
+
+  void mark(ValueId id) {
+    if (live_[id]) return;
+    live_[id] = true;
+    changed_ = true;
+  }
+
+  void mark_with_operands(ValueId id) {
+    mark(id);
+    for (const ValueId operand : function_.operands(function_.code[id])) mark(operand);
+  }
+
+  void visit(ValueId id) {
+    const Instruction& instruction = function_.code[id];
+    switch (instruction.op) {
+      case Op::store:
+      case Op::give: mark_with_operands(id); break;
+      case Op::end_if:
+      case Op::end_loop: regions_.push_back({.frame = {id}}); break;
+      case Op::again: regions_.back().frame.push_back(id); break;
+      case Op::merge:
+        if (!live_[id]) break;
+        mark_with_operands(id);
+        regions_.back().live = true;
+        break;
+      case Op::next:
+        if (!live_[id] && !live_[instruction.operands[0]]) break;
+        mark_with_operands(id);
+        regions_.back().live = true;
+        break;
+      case Op::if_any:
+      case Op::loop: {
+        const Region region = std::move(regions_.back());
+        regions_.pop_back();
+        if (!region.live) break;
+        mark_with_operands(id);
+        for (const ValueId part : region.frame) mark_with_operands(part);
+        break;
+      }
+      default:
+        if (live_[id]) mark_with_operands(id);
+        break;
+    }
+  }
+
+  const Function& function_;
+  std::vector<bool> live_;
+  std::vector<Region> regions_;
+  bool changed_ = false;
+};
+
+void compact(Function& function) {
+  const std::vector<bool> live = Liveness(function).run();
+  std::vector<ValueId> renamed(function.code.size(), no_value);
+  std::vector<Instruction> code;
+  std::vector<ValueId> pool;
+  for (std::size_t i = 0; i < function.code.size(); ++i) {
+    if (!live[i]) continue;
+    Instruction instruction = function.code[i];
+    if (instruction.op == Op::call || instruction.op == Op::texture_call) {
+      const auto first = static_cast<ValueId>(pool.size());
+      for (const ValueId operand : function.operands(instruction)) pool.push_back(renamed[operand]);
+      instruction.operands[0] = first;
+    } else {
+      for (std::size_t k = 0; k < instruction.count; ++k) {
+        instruction.operands[k] = renamed[instruction.operands[k]];
+      }
+    }
+    renamed[i] = static_cast<ValueId>(code.size());
+    code.push_back(instruction);
+  }
+  function.code = std::move(code);
+  function.pool = std::move(pool);
+}
+
+/// Keeps the elements of a list that `op` refers to, and renumbers its imm.
+template <class T>
+void compact_list(Program& program, std::vector<T>& list, Op op) {
+  std::vector<std::uint32_t> renamed(list.size(), no_value);
+  std::vector<T> kept;
+  for (Function& function : program.functions) {
+    for (Instruction& instruction : function.code) {
+      if (instruction.op != op) continue;
+      std::uint32_t& index = renamed[instruction.imm];
+      if (index == no_value) {
+        index = static_cast<std::uint32_t>(kept.size());
+        kept.push_back(std::move(list[instruction.imm]));
+      }
+      instruction.imm = index;
+    }
+  }
+  list = std::move(kept);
+}
+
+void compact_functions(Program& program) {
+  std::vector<std::uint32_t> renamed(program.functions.size(), no_value);
+  // Callees come before callers, but for the entry, which is first.
+  std::vector<bool> used(program.functions.size(), false);
+  used[0] = true;
+  const auto mark_callees = [&](const Function& function) {
+    for (const Instruction& instruction : function.code) {
+      if (instruction.op == Op::call) used[instruction.imm] = true;
+    }
+  };
+  mark_callees(program.entry());
+  for (std::size_t i = program.functions.size(); i-- > 1;) {
+    if (used[i]) mark_callees(program.functions[i]);
+  }
+  std::vector<Function> kept;
+  for (std::size_t i = 0; i < program.functions.size(); ++i) {
+    if (!used[i]) continue;
+    renamed[i] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(std::move(program.functions[i]));
+  }
+  for (Function& function : kept) {
+    for (Instruction& instruction : function.code) {
+      if (instruction.op == Op::call) instruction.imm = renamed[instruction.imm];
+    }
+  }
+  program.functions = std::move(kept);
+}
+
+/// Replaces the uses of every keep: by its operand, or by an input channel.
+void resolve_keeps(Program& program, Keeps keeps) {
+  Function& entry = program.entry();
+  std::vector<ValueId> meaning(entry.code.size());
+  for (std::size_t i = 0; i < entry.code.size(); ++i) {
+    Instruction& instruction = entry.code[i];
+    meaning[i] = static_cast<ValueId>(i);
+    for (std::size_t k = 0; k < instruction.count; ++k) {
+      instruction.operands[k] = meaning[instruction.operands[k]];
+    }
+    if (instruction.op != Op::keep) continue;
+    if (keeps == Keeps::pass) {
+      meaning[i] = instruction.operands[0];
+      continue;
+    }
+    program.inputs.push_back({std::string(state_prefix) + std::to_string(instruction.imm),
+                              instruction.type});
+    instruction = {.op = Op::input,
+                   .type = instruction.type,
+                   .imm = static_cast<std::uint32_t>(program.inputs.size() - 1)};
+  }
+  for (ValueId& operand : entry.pool) operand = meaning[operand];
+}
+
+}  // namespace
+
+void remove_dead(Program& program) {
+  for (Function& function : program.functions) compact(function);
+  compact_functions(program);
+  compact_list(program, program.inputs, Op::input);
+  compact_list(program, program.parameters, Op::parameter);
+  compact_list(program, program.tables, Op::table);
+}
+
+Program slice(const Program& recorded, std::string name, std::span<const SliceOutput> outputs,
+              Keeps keeps) {
+  Program program = recorded;
+  program.name = std::move(name);
+  program.outputs.clear();
+  Function& entry = program.entry();
+  for (const SliceOutput& output : outputs) {
+    const auto index = static_cast<std::uint32_t>(program.outputs.size());
+    program.outputs.push_back({output.name, output.value.type});
+    ValueId value = output.value.id;
+    if (output.value.is_constant()) {
+      value = static_cast<ValueId>(entry.code.size());
+      entry.code.push_back(
+          {.op = Op::constant, .type = output.value.type, .imm = output.value.id});
+    }
+    entry.code.push_back({.op = Op::store,
+                          .count = 1,
+                          .imm = index,
+                          .operands = {value, no_value, no_value}});
+  }
+  resolve_keeps(program, keeps);
+  remove_dead(program);
+  mark_varying(program);
+  assert(verify(program).empty());
+  return program;
+}
+
+std::vector<std::uint32_t> state_channels(const Program& program) {
+  std::vector<std::uint32_t> numbers;
+  for (const Channel& input : program.inputs) {
+    if (!input.name.starts_with(state_prefix)) continue;
+    const std::string_view digits = std::string_view(input.name).substr(state_prefix.size());
+    std::uint32_t number = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+}  // namespace nacre

@@ -1,0 +1,107 @@
+#include "runtime/program/transform.h"
+
+#include <cassert>
+#include <utility>
+#include <vector>
+
+#include "runtime/program/slice.h"
+
+namespace nacre {
+
+namespace {
+
+class Transformer {
+ public:
+  Transformer(const Program& program, const Replacement& replace)
+      : program_(program), replace_(replace), functions_(program.functions.size(), 0) {
+    recorder_.adopt_interface(program);
+  }
+
+  Program run() {
+    // Callees stand before their callers; the entry is first but comes last.
+    for (std::size_t i = 1; i < program_.functions.size(); ++i) outlined(i);
+    body(program_.entry());
+    Program result = recorder_.take();
+    remove_dead(result);
+    mark_varying(result);
+    assert(verify(result).empty());
+    return result;
+  }
+
+ private:
+  void outlined(std::size_t index) {
+    const Function& function = program_.functions[index];
+    recorder_.begin_function(std::to_string(index) + '/' + function.name, function.name,
+                             function.arguments);
+    std::vector<Ref> results(function.results.size());
+    gives_ = &results;
+    body(function);
+    gives_ = nullptr;
+    functions_[index] = recorder_.end_function(results);
+  }
+
+  void body(const Function& function) {
+    values_.assign(function.code.size(), Ref{});
+    for (std::size_t i = 0; i < function.code.size(); ++i) {
+      const Instruction& instruction = function.code[i];
+      std::vector<Ref> operands;
+      for (const ValueId operand : function.operands(instruction)) {
+        operands.push_back(values_[operand]);
+      }
+      values_[i] = again(instruction, operands);
+    }
+  }
+
+  Ref again(const Instruction& instruction, std::span<const Ref> operands) {
+    switch (instruction.op) {
+      case Op::constant: return {nullptr, instruction.imm, instruction.type};
+      case Op::parameter: {
+        const ParameterSlot& slot = program_.parameters[instruction.imm];
+        return recorder_.parameter(slot.name, slot.type, slot.value);
+      }
+      case Op::input: {
+        const Channel& channel = program_.inputs[instruction.imm];
+        return recorder_.input(channel.name, channel.type);
+      }
+      case Op::argument: return recorder_.argument(instruction.imm);
+      case Op::if_any: recorder_.begin_if(operands[0]); return {};
+      case Op::merge: return recorder_.merge(operands[0], operands[1]);
+      case Op::end_if: recorder_.end_if(); return {};
+      case Op::loop: recorder_.begin_loop(operands[0], instruction.imm); return {};
+      case Op::carry: return recorder_.carry(operands[0]);
+      case Op::next: return recorder_.next(operands[0], operands[1]);
+      case Op::again: recorder_.again(operands[0]); return {};
+      case Op::end_loop: recorder_.end_loop(); return {};
+      case Op::call:
+        results_ = recorder_.call(functions_[instruction.imm], operands);
+        return {};
+      case Op::texture_call:
+        results_ = recorder_.texture_call(operands, instruction.imm);
+        return {};
+      case Op::result: return results_[instruction.imm];
+      case Op::give: (*gives_)[instruction.imm] = operands[0]; return {};
+      case Op::store: recorder_.store(program_.outputs[instruction.imm].name, operands[0]); return {};
+      default: break;
+    }
+    if (const std::optional<Ref> replaced = replace_(recorder_, instruction, operands)) {
+      return *replaced;
+    }
+    return recorder_.emit(instruction.op, operands, instruction.imm);
+  }
+
+  const Program& program_;
+  const Replacement& replace_;
+  Recorder recorder_;
+  std::vector<std::uint32_t> functions_;  ///< Old index to new.
+  std::vector<Ref> values_;               ///< Old value to new, in this function.
+  std::vector<Ref> results_;              ///< Of the last call.
+  std::vector<Ref>* gives_ = nullptr;
+};
+
+}  // namespace
+
+Program transform(const Program& program, const Replacement& replace) {
+  return Transformer(program, replace).run();
+}
+
+}  // namespace nacre

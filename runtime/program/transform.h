@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "runtime/program/program.h"
+#include "runtime/program/recorder.h"
+
+namespace nacre {
+
+/// Says what stands in for one instruction: a value recorded on `recorder`, or
+/// nothing to record the instruction itself again. `operands` are the
+/// instruction's, in the new recording. Not asked about structure, calls,
+/// stores and leaves other than constants.
+using Replacement = std::function<std::optional<Ref>(Recorder& recorder, const Instruction& instruction,
+                                                     std::span<const Ref> operands)>;
+
+/// Records a Program again, instruction by instruction, with some replaced.
+/// Folding, simplification and sharing happen on the way; what becomes unused
+/// is removed and varying marked. Channels, slots and textures keep their
+/// order. This is the frame of most passes.
+Program transform(const Program& program, const Replacement& replace);
+
+}  // namespace nacre

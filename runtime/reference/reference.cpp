@@ -1,0 +1,337 @@
+#include "runtime/reference/reference.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "runtime/float_environment.h"
+#include "runtime/program/fold.h"
+
+namespace nacre {
+
+namespace {
+
+/// One value of one point: f of an f32, i of an i32, and of a b1 as 0 or 1.
+struct Value {
+  double f = 0.0;
+  std::uint32_t i = 0;
+};
+
+double float_of(std::uint32_t bits) {
+  return static_cast<double>(std::bit_cast<float>(flush_denormal(bits)));
+}
+
+std::uint32_t bits_of(double value) {
+  const auto rounded = static_cast<float>(value);
+  if (std::isnan(rounded)) return canonical_nan;
+  return flush_denormal(std::bit_cast<std::uint32_t>(rounded));
+}
+
+std::int32_t truncate_saturated(double value) {
+  if (std::isnan(value)) return 0;
+  const double low = std::numeric_limits<std::int32_t>::min();
+  const double high = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp(value, low, high));
+}
+
+/// Float in, float out.
+double compute(Op op, double a, double b, double c) {
+  switch (op) {
+    case Op::add: return a + b;
+    case Op::sub: return a - b;
+    case Op::mul: return a * b;
+    case Op::div: return a / b;
+    case Op::fma: return std::fma(a, b, c);
+    case Op::min: return a < b ? a : b;
+    case Op::max: return a > b ? a : b;
+    case Op::sqrt: return std::sqrt(a);
+    case Op::neg: return -a;
+    case Op::abs: return std::fabs(a);
+    case Op::floor: return std::floor(a);
+    case Op::ceil: return std::ceil(a);
+    case Op::trunc: return std::trunc(a);
+    case Op::round: return std::nearbyint(a);
+    case Op::sin: return std::sin(a);
+    case Op::cos: return std::cos(a);
+    case Op::tan: return std::tan(a);
+    case Op::asin: return std::asin(a);
+    case Op::acos: return std::acos(a);
+    case Op::atan2: return std::atan2(a, b);
+    case Op::exp: return std::exp(a);
+    case Op::exp2: return std::exp2(a);
+    case Op::log: return std::log(a);
+    case Op::log2: return std::log2(a);
+    case Op::pow: return std::pow(a, b);
+    default: assert(false && "not an operation on floats"); return 0.0;
+  }
+}
+
+std::uint32_t compare(Op op, double a, double b) {
+  switch (op) {
+    case Op::eq: return a == b;
+    case Op::ne: return a != b;
+    case Op::lt: return a < b;
+    default: return a <= b;
+  }
+}
+
+class Run {
+ public:
+  Run(const Program& program, const KernelArguments& args, bool store_double)
+      : program_(program), args_(args), store_double_(store_double) {}
+
+  void point(std::uint64_t index) {
+    point_ = index;
+    call(program_.entry(), {});
+  }
+
+ private:
+  struct Frame {
+    const Function& function;
+    const std::vector<Value>& arguments;
+    std::vector<Value> values;
+    std::vector<Value> results;
+  };
+
+  std::vector<Value> call(const Function& function, const std::vector<Value>& arguments) {
+    Frame frame{.function = function,
+                .arguments = arguments,
+                .values = std::vector<Value>(function.code.size()),
+                .results = std::vector<Value>(function.results.size())};
+    run(frame, 0, function.code.size());
+    return std::move(frame.results);
+  }
+
+  static std::size_t region_end(const Function& function, std::size_t i) {
+    int depth = 1;
+    while (depth > 0) {
+      ++i;
+      if (opens_region(function.code[i].op)) ++depth;
+      if (closes_region(function.code[i].op)) --depth;
+    }
+    return i;
+  }
+
+  void run(Frame& frame, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const Instruction& instruction = frame.function.code[i];
+      if (!opens_region(instruction.op)) {
+        step(frame, i, instruction);
+        continue;
+      }
+      const std::size_t close = region_end(frame.function, i);
+      if (instruction.op == Op::if_any) {
+        run_if(frame, i, close);
+      } else {
+        run_loop(frame, i, close);
+      }
+      i = close;
+    }
+  }
+
+  void run_if(Frame& frame, std::size_t open, std::size_t close) {
+    const bool inside = frame.values[frame.function.code[open].operands[0]].i != 0;
+    if (inside) run(frame, open + 1, close);
+    for_each_own(frame.function, open, close, Op::merge, [&](std::size_t k) {
+      const auto& operands = frame.function.code[k].operands;
+      // A literal stands wherever it was recorded, inside too.
+      const Instruction& outer = frame.function.code[operands[1]];
+      if (outer.op == Op::constant) step(frame, operands[1], outer);
+      frame.values[k] = frame.values[operands[inside ? 0 : 1]];
+    });
+  }
+
+  void run_loop(Frame& frame, std::size_t open, std::size_t close) {
+    const Function& function = frame.function;
+    for_each_own(function, open, close, Op::carry, [&](std::size_t k) {
+      frame.values[k] = frame.values[function.code[k].operands[0]];
+    });
+    for_each_own(function, open, close, Op::next, [&](std::size_t k) {
+      frame.values[k] = frame.values[function.code[k].operands[0]];
+    });
+    bool active = frame.values[function.code[open].operands[0]].i != 0;
+    for (std::uint32_t n = 0; active && n < function.code[open].imm; ++n) {
+      run(frame, open + 1, close);
+      for_each_own(function, open, close, Op::next, [&](std::size_t k) {
+        frame.values[k] = frame.values[function.code[k].operands[1]];
+      });
+      for_each_own(function, open, close, Op::next, [&](std::size_t k) {
+        frame.values[function.code[k].operands[0]] = frame.values[k];
+      });
+      for_each_own(function, open, close, Op::again, [&](std::size_t k) {
+        active = frame.values[function.code[k].operands[0]].i != 0;
+      });
+    }
+  }
+
+  /// f(index) for the instructions of kind `op` that stand in the region
+  /// itself, not in one inside it.
+  template <class F>
+  static void for_each_own(const Function& function, std::size_t open, std::size_t close, Op op,
+                           F&& f) {
+    int depth = 0;
+    for (std::size_t k = open + 1; k < close; ++k) {
+      if (opens_region(function.code[k].op)) ++depth;
+      if (closes_region(function.code[k].op)) --depth;
+      if (depth == 0 && function.code[k].op == op) f(k);
+    }
+  }
+
+  void step(Frame& frame, std::size_t i, const Instruction& instruction) {
+    const auto operand = [&](std::size_t k) -> const Value& {
+      return frame.values[instruction.operands[k]];
+    };
+    const auto f = [&](std::size_t k) { return k < instruction.count ? operand(k).f : 0.0; };
+    Value& to = frame.values[i];
+    switch (instruction.op) {
+      case Op::constant: to = from_bits(instruction.type, instruction.imm); break;
+      case Op::parameter:
+        to = from_bits(instruction.type, args_.parameters[instruction.imm]);
+        break;
+      case Op::input:
+        to = from_bits(instruction.type, static_cast<const std::uint32_t*>(
+                                             args_.inputs[instruction.imm])[point_]);
+        break;
+      case Op::argument: to = frame.arguments[instruction.imm]; break;
+      case Op::select: to = operand(0).i != 0 ? operand(1) : operand(2); break;
+      case Op::f_to_i: to.i = static_cast<std::uint32_t>(truncate_saturated(f(0))); break;
+      case Op::i_to_f: to.f = static_cast<std::int32_t>(operand(0).i); break;
+      case Op::u_to_f: to.f = operand(0).i; break;
+      case Op::bits: to.i = bits_of(f(0)); break;
+      case Op::from_bits: to.f = float_of(operand(0).i); break;
+      case Op::half_to_f:
+        to.f = static_cast<double>(half_to_float(static_cast<std::uint16_t>(operand(0).i)));
+        break;
+      case Op::table: to.f = table(instruction.imm, operand(0).i); break;
+      case Op::texel: to.i = texel(operand(0).i, operand(1).i); break;
+      case Op::texture_call: texture_call(frame, instruction); break;
+      case Op::call: {
+        std::vector<Value> arguments;
+        for (const ValueId id : frame.function.operands(instruction)) {
+          arguments.push_back(frame.values[id]);
+        }
+        results_ = call(program_.functions[instruction.imm], arguments);
+        break;
+      }
+      case Op::result: to = results_[instruction.imm]; break;
+      case Op::give: frame.results[instruction.imm] = operand(0); break;
+      case Op::keep: to = operand(0); break;
+      case Op::store: store(instruction.imm, operand(0)); break;
+      case Op::merge:
+      case Op::carry:
+      case Op::next:
+      case Op::again: break;  // run_if and run_loop assign them.
+      case Op::eq:
+      case Op::ne:
+      case Op::lt:
+      case Op::le: to.i = compare(instruction.op, f(0), f(1)); break;
+      default:
+        if (instruction.type == Scalar::f32) {
+          to.f = compute(instruction.op, f(0), f(1), f(2));
+        } else {
+          to.i = integer(instruction, frame);
+        }
+        break;
+    }
+  }
+
+  static Value from_bits(Scalar type, std::uint32_t bits) {
+    if (type == Scalar::f32) return {.f = float_of(bits), .i = 0};
+    if (type == Scalar::b1) return {.f = 0.0, .i = bits != 0 ? 1u : 0u};
+    return {.f = 0.0, .i = bits};
+  }
+
+  static std::uint32_t integer(const Instruction& instruction, const Frame& frame) {
+    std::array<std::uint32_t, 3> operands{};
+    for (std::size_t k = 0; k < instruction.count; ++k) {
+      operands[k] = frame.values[instruction.operands[k]].i;
+    }
+    const auto folded = fold(instruction.op, std::span(operands).first(instruction.count));
+    assert(folded.has_value());
+    return *folded;
+  }
+
+  double table(std::uint32_t number, std::uint32_t index) const {
+    const std::vector<float>& values = program_.tables[number].values;
+    const auto last = static_cast<std::int32_t>(values.size()) - 1;
+    const auto clamped = std::clamp(static_cast<std::int32_t>(index), 0, last);
+    return static_cast<double>(values[static_cast<std::size_t>(clamped)]);
+  }
+
+  std::uint32_t texel(std::uint32_t slot, std::uint32_t word) const {
+    const TextureBinding& texture = args_.textures[slot < program_.textures.size() ? slot : 0u];
+    return texture.words[word < texture.count ? word : 0u];
+  }
+
+  void texture_call(const Frame& frame, const Instruction& instruction) {
+    const auto operands = frame.function.operands(instruction);
+    std::array<float, 6> x{};
+    for (std::size_t k = 0; k < 6; ++k) {
+      x[k] = static_cast<float>(frame.values[operands[k + 1]].f);
+    }
+    std::array<float, 4> rgba{};
+    const TextureCall request{.slot = frame.values[operands[0]].i,
+                              .modes = instruction.imm,
+                              .lanes = 1,
+                              .u = &x[0],
+                              .v = &x[1],
+                              .dudx = &x[2],
+                              .dvdx = &x[3],
+                              .dudy = &x[4],
+                              .dvdy = &x[5],
+                              .rgba = rgba.data()};
+    if (args_.texture_callback != nullptr) args_.texture_callback(args_.texture_user, &request);
+    results_.assign(4, {});
+    for (std::size_t c = 0; c < 4; ++c) results_[c].f = static_cast<double>(rgba[c]);
+  }
+
+  void store(std::uint32_t channel, const Value& value) const {
+    const Scalar type = program_.outputs[channel].type;
+    if (type == Scalar::f32 && store_double_) {
+      static_cast<double*>(args_.outputs[channel])[point_] = value.f;
+      return;
+    }
+    static_cast<std::uint32_t*>(args_.outputs[channel])[point_] =
+        type == Scalar::f32 ? bits_of(value.f) : value.i;
+  }
+
+  const Program& program_;
+  const KernelArguments& args_;
+  bool store_double_;
+  std::uint64_t point_ = 0;
+  std::vector<Value> results_;
+};
+
+class Reference final : public ReferenceKernel {
+ public:
+  explicit Reference(Program program) : program_(std::move(program)) {}
+
+  void run(const KernelArguments& arguments) const override { run_all(arguments, false); }
+  void run_double(const KernelArguments& arguments) const override { run_all(arguments, true); }
+  const Program& program() const override { return program_; }
+  int lanes() const override { return 1; }
+  const char* engine() const override { return "reference"; }
+
+ private:
+  void run_all(const KernelArguments& arguments, bool store_double) const {
+    const ScopedFloatEnvironment environment;
+    Run run(program_, arguments, store_double);
+    for (std::uint64_t i = 0; i < arguments.count; ++i) run.point(i);
+  }
+
+  Program program_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReferenceKernel> make_reference(Program program) {
+  return std::make_unique<Reference>(std::move(program));
+}
+
+}  // namespace nacre

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "runtime/kernel.h"
+
+namespace nacre {
+
+/// A kernel that runs `program` point by point in double precision, its
+/// transcendental functions those of the C library: the oracle for every
+/// error figure. Give it the Program before its math is expanded. Integer
+/// operations, and the bits that `bits` and `from_bits` show, are those of the
+/// other engines.
+///
+/// Beside run(), which rounds the results to float, run_double() stores them
+/// as they are.
+class ReferenceKernel : public Kernel {
+ public:
+  /// As run(), but every f32 output is an array of doubles.
+  virtual void run_double(const KernelArguments& arguments) const = 0;
+};
+
+std::unique_ptr<ReferenceKernel> make_reference(Program program);
+
+}  // namespace nacre
