@@ -1,0 +1,20 @@
+#include "examples/render/load_scene.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace nacre::host {
+
+Scene load_scene(const std::string& path, Diagnostics& diagnostics) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".glb" || extension == ".gltf") return load_gltf(path, diagnostics);
+  if (extension == ".obj") return load_obj(path, diagnostics);
+  diagnostics.error("unknown-scene-format", {path, 0, 0, {}}, "cannot tell the format of the scene",
+                    "a name ending in .glb, .gltf or .obj", "\"" + extension + "\"");
+  return {};
+}
+
+}  // namespace nacre::host

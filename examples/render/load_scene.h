@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "examples/render/scene.h"
+#include "runtime/diagnostic.h"
+
+namespace nacre::host {
+
+/// Reads .glb, .gltf or .obj, told by the extension. Errors leave the scene
+/// without meshes; warnings do not. Every mesh has gone through finish_mesh().
+Scene load_scene(const std::string& path, Diagnostics& diagnostics);
+
+/// glTF 2.0: the nodes of the default scene (or of the first), triangles,
+/// strips and fans, any component type; no sparse accessors, skins, morphs or
+/// images. glTF puts uv (0,0) at the upper left, so v becomes 1 - v. Buffers are
+/// only read from the folder of the file and below.
+Scene load_gltf(const std::string& path, Diagnostics& diagnostics);
+
+/// Wavefront OBJ: v, vt, vn, f (any polygon, cut into a fan, negative indices),
+/// o, g, usemtl; everything else is skipped. One mesh per object, group and
+/// material.
+Scene load_obj(const std::string& path, Diagnostics& diagnostics);
+
+}  // namespace nacre::host

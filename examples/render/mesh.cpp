@@ -1,0 +1,165 @@
+#include "examples/render/mesh.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <utility>
+
+namespace nacre::host {
+
+namespace {
+
+Vec3 face_cross(const Mesh& mesh, const Triangle& t) {
+  const Vec3 a = mesh.position[t.v[0]];
+  return cross(mesh.position[t.v[1]] - a, mesh.position[t.v[2]] - a);
+}
+
+bool is_usable(const Mesh& mesh, const Triangle& t) {
+  for (const std::uint32_t v : t.v) {
+    if (v >= mesh.position.size() || !is_finite(mesh.position[v])) return false;
+  }
+  const Vec3 c = face_cross(mesh, t);
+  return is_finite(c) && (c.x != 0.f || c.y != 0.f || c.z != 0.f);
+}
+
+void drop_unusable(Mesh& mesh, const std::string& file, Diagnostics& diagnostics) {
+  const std::size_t dropped =
+      std::erase_if(mesh.triangles, [&](const Triangle& t) { return !is_usable(mesh, t); });
+  if (dropped == 0) return;
+  diagnostics.warning("bad-triangles", {file, 0, 0, mesh.object_name},
+                      fmt::format("{} triangles cannot be traced and were left out", dropped),
+                      "corners in range, finite and not in a line");
+}
+
+float corner_angle(const Mesh& mesh, const Triangle& t, int corner) {
+  const Vec3 p = mesh.position[t.v[corner]];
+  const Vec3 a = normalize(mesh.position[t.v[(corner + 1) % 3]] - p);
+  const Vec3 b = normalize(mesh.position[t.v[(corner + 2) % 3]] - p);
+  return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+void make_normals(Mesh& mesh) {
+  mesh.normal.assign(mesh.position.size(), {});
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 n = normalize(face_cross(mesh, t));
+    for (int c = 0; c < 3; ++c) mesh.normal[t.v[c]] += corner_angle(mesh, t, c) * n;
+  }
+}
+
+/// Unit normals; a vertex without one takes that of a triangle it belongs to.
+void repair_normals(Mesh& mesh) {
+  std::vector<Vec3> face(mesh.position.size(), {0.f, 0.f, 1.f});
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 n = normalize(face_cross(mesh, t));
+    for (const std::uint32_t v : t.v) face[v] = n;
+  }
+  for (std::size_t i = 0; i < mesh.normal.size(); ++i) {
+    mesh.normal[i] = normalize_or(is_finite(mesh.normal[i]) ? mesh.normal[i] : Vec3{}, face[i]);
+  }
+}
+
+void agree_winding(Mesh& mesh) {
+  for (Triangle& t : mesh.triangles) {
+    const Vec3 n = mesh.normal[t.v[0]] + mesh.normal[t.v[1]] + mesh.normal[t.v[2]];
+    if (dot(face_cross(mesh, t), n) < 0.f) std::swap(t.v[1], t.v[2]);
+  }
+}
+
+Tangent orthogonal_tangent(Vec3 n, Vec3 along_u, Vec3 along_v) {
+  const Vec3 t = normalize_or(along_u - dot(n, along_u) * n, perpendicular(n));
+  return {t, dot(cross(n, t), along_v) < 0.f ? -1.f : 1.f};
+}
+
+/// Per vertex the angle-weighted mean of the triangles' dP/du and dP/dv
+/// directions, made orthogonal to the normal: MikkTSpace (Mikkelsen 2008)
+/// without its splitting of vertices where the uv map mirrors.
+void make_tangents(Mesh& mesh) {
+  std::vector<Vec3> along_u(mesh.position.size()), along_v(mesh.position.size());
+  for (const Triangle& t : mesh.triangles) {
+    Vec3 dPdu, dPdv;
+    if (!surface_derivatives(mesh, t, dPdu, dPdv)) continue;
+    for (int c = 0; c < 3; ++c) {
+      const float weight = corner_angle(mesh, t, c);
+      along_u[t.v[c]] += weight * normalize_or(dPdu, {});
+      along_v[t.v[c]] += weight * normalize_or(dPdv, {});
+    }
+  }
+  mesh.tangent.resize(mesh.position.size());
+  for (std::size_t i = 0; i < mesh.tangent.size(); ++i) {
+    mesh.tangent[i] = orthogonal_tangent(mesh.normal[i], along_u[i], along_v[i]);
+  }
+}
+
+void repair_tangents(Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.tangent.size(); ++i) {
+    Tangent& t = mesh.tangent[i];
+    const Vec3 n = mesh.normal[i];
+    t.direction = is_finite(t.direction) ? t.direction : Vec3{};
+    t.direction = normalize_or(t.direction - dot(n, t.direction) * n, perpendicular(n));
+    t.sign = t.sign < 0.f ? -1.f : 1.f;
+  }
+}
+
+}  // namespace
+
+bool finish_mesh(Mesh& mesh, const std::string& file, Diagnostics& diagnostics) {
+  drop_unusable(mesh, file, diagnostics);
+  if (mesh.triangles.empty()) {
+    diagnostics.error("empty-mesh", {file, 0, 0, mesh.object_name}, "the mesh has no triangle",
+                      "at least one triangle with an area");
+    return false;
+  }
+  const bool has_normals = mesh.normal.size() == mesh.position.size();
+  if (!has_normals) make_normals(mesh);
+  repair_normals(mesh);
+  if (has_normals) agree_winding(mesh);
+  if (mesh.tangent.size() != mesh.position.size()) make_tangents(mesh);
+  repair_tangents(mesh);
+  return true;
+}
+
+void bake_transform(Mesh& mesh, const Affine& object_to_world) {
+  const Affine world_to_object = inverse(object_to_world);
+  mesh.object_to_world = object_to_world;
+  mesh.position_object = mesh.position;
+  for (Vec3& p : mesh.position) p = transform_point(object_to_world, p);
+  for (Vec3& n : mesh.normal) n = normalize_or(transform_normal(world_to_object, n), {});
+  const bool mirrors = determinant(object_to_world) < 0.f;
+  for (Tangent& t : mesh.tangent) {
+    t.direction = normalize_or(transform_vector(object_to_world, t.direction), {});
+    if (mirrors) t.sign = -t.sign;
+  }
+  if (!mirrors) return;
+  for (Triangle& t : mesh.triangles) std::swap(t.v[1], t.v[2]);
+}
+
+bool surface_derivatives(const Mesh& mesh, const Triangle& triangle, Vec3& dPdu, Vec3& dPdv) {
+  dPdu = dPdv = {};
+  if (mesh.uv.empty()) return false;
+  const std::uint32_t* v = triangle.v;
+  const Vec3 e1 = mesh.position[v[1]] - mesh.position[v[0]];
+  const Vec3 e2 = mesh.position[v[2]] - mesh.position[v[0]];
+  const Vec2 d1 = mesh.uv[v[1]] - mesh.uv[v[0]];
+  const Vec2 d2 = mesh.uv[v[2]] - mesh.uv[v[0]];
+  const float area = d1.x * d2.y - d1.y * d2.x;
+  const float scale = 1.f / area;
+  if (area == 0.f || !std::isfinite(scale)) return false;
+  dPdu = scale * (d2.y * e1 - d1.y * e2);
+  dPdv = scale * (d1.x * e2 - d2.x * e1);
+  if (is_finite(dPdu) && is_finite(dPdv)) return true;
+  dPdu = dPdv = {};
+  return false;
+}
+
+Bounds bounds(const Scene& scene) {
+  Bounds box;
+  for (const Mesh& mesh : scene.meshes) {
+    if (mesh.light_radiance) continue;
+    for (const Triangle& t : mesh.triangles) {
+      for (const std::uint32_t v : t.v) box.add(mesh.position[v]);
+    }
+  }
+  return box;
+}
+
+}  // namespace nacre::host

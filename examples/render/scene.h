@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "examples/render/vec.h"
+
+namespace nacre::host {
+
+struct Triangle {
+  std::uint32_t v[3] = {};
+};
+
+/// A further vertex attribute, `components` floats per vertex.
+struct Primvar {
+  std::string name;  ///< "texcoord1", "color0", …; see PrimvarRequest.
+  int components = 1;
+  std::vector<float> values;
+};
+
+struct Tangent {
+  Vec3 direction;    ///< World, along +u.
+  float sign = 1.f;  ///< Bitangent = sign · cross(N, T), along +v (glTF 2.0, 3.7.2.1).
+};
+
+/// One drawable piece of geometry with one material, baked to world space.
+struct Mesh {
+  std::string object_name;    ///< Node of the scene graph.
+  std::string mesh_name;      ///< Data block; several objects may share it.
+  std::string material_name;  ///< As the file calls it; may be empty.
+
+  std::vector<Triangle> triangles;    ///< Counter-clockwise seen from the front.
+  std::vector<Vec3> position;         ///< World.
+  std::vector<Vec3> position_object;  ///< Mesh-local; empty: as world.
+  std::vector<Vec3> normal;           ///< World, unit.
+  std::vector<Tangent> tangent;       ///< World, unit.
+  std::vector<Vec2> uv;               ///< (0,0) lower left; empty: none.
+  std::vector<Primvar> primvars;
+  Affine object_to_world;
+
+  /// Set: an area light of this radiance (rgb) that does not scatter; the
+  /// material is not used. Emits from the front only unless `two_sided`.
+  std::optional<Vec3> light_radiance;
+  bool light_two_sided = false;
+};
+
+/// Pin-hole camera, or thin lens when `lens_radius` > 0. Looks from `position`
+/// along `forward`; `up` and `right` complete an orthonormal frame.
+struct Camera {
+  Vec3 position = {0.f, 0.f, 5.f};
+  Vec3 forward = {0.f, 0.f, -1.f};
+  Vec3 up = {0.f, 1.f, 0.f};
+  Vec3 right = {1.f, 0.f, 0.f};
+  float vertical_fov = 0.7853982f;  ///< Radians, of the whole image height.
+  float lens_radius = 0.f;          ///< Scene units.
+  float focus_distance = 1.f;       ///< Along `forward`; scene units.
+};
+
+struct Scene {
+  std::vector<Mesh> meshes;
+  std::optional<Camera> camera;  ///< Of the file; absent: see fit_camera().
+};
+
+struct Bounds {
+  Vec3 low = {INFINITY, INFINITY, INFINITY};
+  Vec3 high = {-INFINITY, -INFINITY, -INFINITY};
+
+  void add(Vec3 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  bool empty() const { return !(low.x <= high.x); }
+};
+
+/// World bounds of all vertices that a triangle uses, lights left out.
+Bounds bounds(const Scene& scene);
+
+}  // namespace nacre::host

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// \file
+/// What the render host asks of a material. The host finds hits, sorts them by
+/// material and hands over batches in structure-of-arrays layout; everything
+/// that depends on the material happens behind `Shader`.
+///
+/// Every lane pointer is 64-byte aligned and may be read and written up to
+/// `count` rounded up to `lane_padding`; the contents of the padding mean nothing.
+/// All memory belongs to the host and is allocated before rendering starts.
+namespace nacre::host {
+
+inline constexpr std::uint32_t lane_padding = 16;
+
+/// Two, three or four floats per point, one array per component.
+struct Lanes2 {
+  float* x = nullptr;
+  float* y = nullptr;
+};
+struct Lanes3 {
+  float* x = nullptr;
+  float* y = nullptr;
+  float* z = nullptr;
+};
+
+/// What a shader reads. Position, normals, `wo` and uv are always there; the
+/// rest is computed when its bit is set in `Capabilities::attributes`.
+enum Attribute : std::uint32_t {
+  attribute_object_space = 1u << 0,  ///< P_object, N_object (T_object, dPdx_object with their bit)
+  attribute_tangents = 1u << 1,      ///< T, B
+  attribute_surface_derivatives = 1u << 2,  ///< dPdu, dPdv
+  attribute_footprint_position = 1u << 3,   ///< dPdx, dPdy
+  attribute_footprint_uv = 1u << 4,         ///< dUVdx, dUVdy
+  /// `object_to_world`; batches then hold points of one mesh only.
+  attribute_transform = 1u << 5,
+  /// `geometry_id`, `primitive_id`
+  attribute_ids = 1u << 6,
+};
+
+/// A vertex attribute by name, beyond the first uv set. The loaders call them
+/// "texcoord1", …, "color0", …, and a glTF `_NAME` attribute "NAME".
+struct PrimvarRequest {
+  std::string name;
+  int components = 1;  ///< 1 to 4; missing ones are 0, but 1 for the fourth of a colour.
+};
+
+struct PrimvarLanes {
+  bool present = false;  ///< False: the mesh has no such attribute and the lanes are unset.
+  float* component[4] = {};
+};
+
+/// Shading points. Directions are unit length unless a name starts with d;
+/// lengths are scene units.
+struct ShadingBatch {
+  std::uint32_t count = 0;
+
+  Lanes3 P;         ///< World position.
+  Lanes3 N;         ///< World shading normal: interpolated, on the side of Ng, not flipped to wo.
+  Lanes3 Ng;        ///< World geometric normal; its side is the front.
+  Lanes3 wo;        ///< World direction to the viewer, away from the surface.
+  Lanes2 uv;        ///< First uv set, (0,0) the lower left of a texture; 0 when the mesh has none.
+  Lanes3 T, B;      ///< World tangent along +u, and bitangent along +v: orthonormal with N.
+  Lanes3 P_object;  ///< Mesh-local position.
+  Lanes3 N_object;  ///< Mesh-local shading normal.
+  Lanes3 T_object, B_object;  ///< Mesh-local tangent and bitangent, unit, not orthogonalised.
+  Lanes3 dPdu, dPdv;          ///< World; of the triangle, so constant on it.
+  /// World footprint: change of P when the image sample moves one pixel right
+  /// or down, already scaled to the distance between samples.
+  Lanes3 dPdx, dPdy;
+  Lanes3 dPdx_object, dPdy_object;  ///< The same, mesh-local.
+  Lanes2 dUVdx, dUVdy;
+  const std::uint32_t* geometry_id = nullptr;   ///< Index of the mesh in the scene.
+  const std::uint32_t* primitive_id = nullptr;  ///< Triangle of that mesh.
+  const PrimvarLanes* primvars = nullptr;       ///< As many as requested, in that order.
+  /// Row-major 4x4 for column vectors. Null unless asked for.
+  const float* object_to_world = nullptr;
+  const float* world_to_object = nullptr;
+
+  float time = 0.f;   ///< Seconds.
+  float frame = 1.f;  ///< MaterialX `frame`.
+};
+
+enum SampleFlag : std::uint32_t {
+  sample_valid = 1u << 0,  ///< Clear: absorbed; every other output of the lane is ignored.
+  sample_delta =
+      1u << 1,  ///< From a Dirac lobe: `pdf` is a probability and light sampling is blind.
+  sample_transmitted = 1u << 2,
+};
+
+struct SampleLanes {
+  Lanes3 wi;                       ///< World, away from the surface, unit length.
+  Lanes3 weight;                   ///< rgb: f·cos/pdf.
+  float* pdf = nullptr;            ///< Forward, per solid angle, over all lobes.
+  std::uint32_t* flags = nullptr;  ///< SampleFlag bits.
+};
+
+struct EvaluateLanes {
+  Lanes3 value;          ///< rgb: f·|cos|, Dirac lobes excluded.
+  float* pdf = nullptr;  ///< Forward; 0 where sample() cannot go.
+};
+
+struct Capabilities {
+  bool emits = false;        ///< emission() may be non-zero.
+  bool has_opacity = false;  ///< opacity() may differ from 1.
+  bool scatters = true;      ///< False: emission only; begin, sample, evaluate are never called.
+  bool only_delta = false;   ///< evaluate() is always 0: no light sampling, no call.
+  std::uint32_t attributes = 0;  ///< Attribute bits read by any of the kernels.
+  /// When not empty, batches hold points of one mesh only.
+  std::vector<PrimvarRequest> primvars;
+};
+
+/// The kernels of one surface. Calls are const and come from several threads at
+/// once; what a batch needs between begin() and its other kernels is in `state`,
+/// memory of the calling thread. Results must not depend on a point's lane, its
+/// neighbours or `count`: the host promises images that are the same for any
+/// number of threads.
+class Shader {
+ public:
+  virtual ~Shader() = default;
+
+  /// Constant during a render; asked once.
+  virtual Capabilities capabilities() const = 0;
+
+  /// Bytes of state for a batch of up to `capacity` points; 64-byte aligned.
+  virtual std::size_t state_bytes(std::uint32_t capacity) const = 0;
+
+  /// Fills `state` from the points. The other two only see states so filled,
+  /// with the same batch.
+  virtual void begin(const ShadingBatch& batch, void* state) const = 0;
+
+  /// Draws one direction per point; `u` holds three numbers in [0, 1) per
+  /// point: u.x chooses the lobe, (u.y, u.z) the direction.
+  virtual void sample(const ShadingBatch& batch, const void* state, Lanes3 u,
+                      SampleLanes out) const = 0;
+
+  /// Value and density for one given direction per point.
+  virtual void evaluate(const ShadingBatch& batch, const void* state, Lanes3 wi,
+                        EvaluateLanes out) const = 0;
+
+  /// Radiance (rgb) towards `wo`. Needs no state. Called when `emits`.
+  virtual void emission(const ShadingBatch& batch, Lanes3 radiance) const = 0;
+
+  /// rgb in [0, 1]: what is not let through unbent. Scales scattering and
+  /// emission. Needs no state. Called when `has_opacity`.
+  virtual void opacity(const ShadingBatch& batch, Lanes3 rgb) const = 0;
+};
+
+}  // namespace nacre::host
