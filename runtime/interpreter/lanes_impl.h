@@ -72,7 +72,7 @@ struct Lanes {
   static I truncate_saturated(F x) {
     const I converted = xsimd::to_int(x);
     const auto too_large = integer_mask(x >= F(2147483648.0f));
-    const auto is_nan = integer_mask(x != x);
+    const auto is_nan = integer_mask(!(x == x));
     // Below the range x86 gives the smallest integer by itself.
     return xsimd::select(is_nan, I(0), xsimd::select(too_large, I(INT32_MAX), converted));
   }
@@ -90,7 +90,7 @@ struct Lanes {
   }
 
   static I canonical_bits(F x) {
-    return xsimd::select(integer_mask(x != x), I(0x7fc00000),
+    return xsimd::select(integer_mask(!(x == x)), I(0x7fc00000),
                          xsimd::bitwise_cast<I>(x));
   }
 
@@ -140,7 +140,7 @@ LaneOps make_lane_ops() {
   NACRE_UNARY(Op::trunc, F, xsimd::trunc(x));
   NACRE_UNARY(Op::round, F, xsimd::nearbyint(x));
   NACRE_BINARY(Op::eq, F, x == y);
-  NACRE_BINARY(Op::ne, F, x != y);
+  NACRE_BINARY(Op::ne, F, !(x == y));  // xsimd's != is ordered on AVX-512.
   NACRE_BINARY(Op::lt, F, x < y);
   NACRE_BINARY(Op::le, F, x <= y);
   NACRE_BINARY(Op::iadd, I, x + y);
