@@ -28,6 +28,7 @@ target_link_libraries(nacre_oiio INTERFACE ${NACRE_OIIO_LIBRARY} ${NACRE_OIIO_UT
 
 if(NACRE_BUILD_TESTS)
   find_package(GTest REQUIRED)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
   include(GoogleTest)
 endif()
 if(NACRE_BUILD_BENCH)

@@ -19,7 +19,7 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # nacre_library(NAME SOURCES...): one folder of the library as a static archive.
-# Tests link the archives they need; libnacre.so is all of them together.
+# Tests link the archives they need; libnacre.so is all of runtime, nodes, pbs and jit.
 function(nacre_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PRIVATE nacre_flags)

@@ -6,12 +6,13 @@ include(GNUInstallDirs)
 get_property(nacre_archives GLOBAL PROPERTY NACRE_ARCHIVES)
 get_property(nacre_headers GLOBAL PROPERTY NACRE_PUBLIC_HEADERS)
 
-# Every archive whole: node bodies and engines register themselves, so a linker
-# that only takes what is referred to would drop them.
-add_library(nacre SHARED)
+# Every object of every archive: node bodies and engines register themselves, so a linker
+# that takes only what is referred to would drop them. The archives are named as well for
+# the libraries they need; by then nothing of theirs is missing, so nothing comes twice.
+list(TRANSFORM nacre_archives REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE nacre_objects)
+add_library(nacre SHARED ${nacre_objects})
 add_library(nacre::nacre ALIAS nacre)
-list(JOIN nacre_archives "," nacre_archives_joined)
-target_link_libraries(nacre PRIVATE "$<LINK_LIBRARY:WHOLE_ARCHIVE,${nacre_archives_joined}>")
+target_link_libraries(nacre PRIVATE ${nacre_archives})
 target_sources(nacre PUBLIC FILE_SET HEADERS
   BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${nacre_headers})
 target_compile_features(nacre INTERFACE cxx_std_20)
@@ -30,12 +31,7 @@ target_link_options(nacre PRIVATE
 install(TARGETS nacre EXPORT nacre
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre)
-if(TARGET nacre_tool)
-  set_target_properties(nacre_tool PROPERTIES
-    INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-  install(TARGETS nacre_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
-# The tool finds this folder from its own place: <bin>/../share/nacre/libraries.
+# Programs find this folder from their own place: <bin>/../share/nacre/libraries.
 install(DIRECTORY "${NACRE_MATERIALX_LIBRARIES}/" DESTINATION share/nacre/libraries
   PATTERN .requirement EXCLUDE)
 install(FILES LICENSE DESTINATION share/nacre)
@@ -50,3 +46,9 @@ write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/nacreConfigVersion
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/nacreConfig.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/nacreConfigVersion.cmake"
   DESTINATION ${nacre_package})
+
+# nacre_install_program(TARGET): a program for users, which may link libnacre.so.
+function(nacre_install_program target)
+  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  install(TARGETS ${target} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()

@@ -1,0 +1,108 @@
+"""Which folder may include which, and where a heavy dependency may show."""
+
+import pathlib
+
+import tree
+
+# Folder -> folders it may include. The longest folder that holds a file decides.
+MAY_INCLUDE = {
+    "runtime": ("runtime",),
+    "nodes": ("nodes", "runtime"),
+    "pbs": ("pbs", "runtime"),
+    "jit": ("jit", "nodes", "pbs", "runtime"),
+    "bench": ("bench", "jit", "nodes", "pbs", "runtime"),
+    "examples": ("examples", "jit", "nodes", "pbs", "runtime"),
+    "tests": ("jit", "nodes", "pbs", "runtime", "tests"),
+    "tests/examples": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
+}
+
+# The path through jit/: a stage includes itself and what comes before, never what comes after.
+JIT_STAGES = ("jit/document", "jit/graph", "jit/passes", "jit/llvm")
+
+# Start of an include from outside -> the folders that may have it.
+QUARANTINE = {
+    "benchmark/": ("bench",),
+    "embree": ("examples",),
+    "gtest/": ("tests",),
+    "gmock/": ("tests",),
+    "llvm-c/": ("jit/llvm",),
+    "llvm/": ("jit/llvm",),
+    "pugixml": ("jit/document",),
+    "tiny_gltf": ("examples",),
+}
+
+
+# Headers of the C library that a public header for C may have.
+C_HEADERS = {"stdbool.h", "stddef.h", "stdint.h"}
+
+
+def allowed(file: str) -> tuple[str, ...]:
+    folder = max((f for f in MAY_INCLUDE if tree.inside(file, f)), key=len)
+    return MAY_INCLUDE[folder]
+
+
+def folders(root: pathlib.Path) -> list[str]:
+    """Includes of our own follow the direction of the design."""
+    faults = []
+    for include in tree.includes(root):
+        top = include.name.split("/")[0]
+        if top in tree.FOLDERS and not any(
+                tree.inside(include.name, folder) for folder in allowed(include.file)):
+            faults.append(f'{include.where()}: includes "{include.name}", but files here may only '
+                          f"include {', '.join(allowed(include.file))}")
+    return faults
+
+
+def stages(root: pathlib.Path) -> list[str]:
+    """The stages of jit/ know those before them only."""
+    faults = []
+    for include in tree.includes(root):
+        here = [i for i, stage in enumerate(JIT_STAGES) if tree.inside(include.file, stage)]
+        there = [i for i, stage in enumerate(JIT_STAGES) if tree.inside(include.name, stage)]
+        if here and there and there[0] > here[0]:
+            faults.append(f'{include.where()}: includes "{include.name}", a later stage; '
+                          f"the order is {' -> '.join(JIT_STAGES)}")
+    return faults
+
+
+def paths(root: pathlib.Path) -> list[str]:
+    """A quoted include names a file of ours from the root."""
+    return [f'{include.where()}: "{include.name}" is no file from the root of the project; '
+            f"write the whole path, or <> if it is not ours"
+            for include in tree.includes(root)
+            if include.quoted and not (root / include.name).is_file()
+            and not tree.inside(include.file, "tests/install")
+            and not tree.inside(include.file, "examples/embed")]
+
+
+def quarantine(root: pathlib.Path) -> list[str]:
+    """Heavy dependencies stay in the one folder that wraps them."""
+    faults = []
+    for include in tree.includes(root):
+        for start, homes in QUARANTINE.items():
+            if include.name.startswith(start) and not any(
+                    tree.inside(include.file, home) for home in homes):
+                faults.append(f"{include.where()}: includes <{include.name}>, which only "
+                              f"{', '.join(homes)} may")
+    return faults
+
+
+def public(root: pathlib.Path) -> list[str]:
+    """A host that has our headers and a compiler needs nothing else."""
+    headers = tree.public_headers(root)
+    faults = [f"{where}: public header {name} does not exist"
+              for name, where in headers.items() if not (root / name).is_file()]
+    for include in tree.includes(root):
+        if include.file not in headers:
+            continue
+        if include.quoted and include.name not in headers:
+            faults.append(f'{include.where()}: a public header includes "{include.name}", which is '
+                          f"not public; list it in nacre_public_headers() or do without it")
+        elif (not include.quoted and include.name not in C_HEADERS
+              and ("/" in include.name or "." in include.name)):
+            faults.append(f"{include.where()}: a public header includes <{include.name}>, which is "
+                          f"not of the C++ standard library")
+    return faults
+
+
+CHECKS = (folders, stages, paths, quarantine, public)

@@ -1,0 +1,79 @@
+"""Size of files and order of lists."""
+
+import pathlib
+import re
+
+import tree
+
+MOST_LINES = 500
+
+# Calls of CMake whose arguments are a list in alphabetical order, and how many come first.
+SORTED_CALLS = {"nacre_bench": 1, "nacre_library": 1, "nacre_public_headers": 0, "nacre_test": 1}
+KEYWORDS = {"FULL"}
+
+
+def length(root: pathlib.Path) -> list[str]:
+    """One unit is one small file."""
+    faults = []
+    for file in tree.files(root, tree.WRITTEN | {"CMakeLists.txt"}):
+        lines = (root / file).read_text(encoding="utf-8").count("\n")
+        if lines > MOST_LINES:
+            faults.append(f"{file}: {lines} lines, at most {MOST_LINES}; split it by unit")
+    return faults
+
+
+def out_of_order(items: list[str]) -> str | None:
+    """The first item that stands behind a greater one, and that one; or nothing."""
+    for before, after in zip(items, items[1:]):
+        if after < before:
+            return f'"{after}" comes after "{before}"'
+        if after == before:
+            return f'"{after}" is there twice'
+    return None
+
+
+def cmake_lists(root: pathlib.Path) -> list[str]:
+    """Sources, headers and test folders are listed alphabetically."""
+    faults = []
+    for file in tree.files(root, {"CMakeLists.txt"}):
+        text = re.sub(r"#.*", "", (root / file).read_text(encoding="utf-8"))
+        lists = []
+        for call in re.finditer(r"^\s*(\w+)\(([^)]*)\)", text, re.MULTILINE):
+            if call[1] in SORTED_CALLS:
+                items = [i for i in call[2].split() if i not in KEYWORDS]
+                lists.append((f"{call[1]}()", items[SORTED_CALLS[call[1]]:]))
+        if tree.inside(file, "tests"):
+            lists.append(("add_subdirectory()", re.findall(r"^\s*add_subdirectory\((\S+)\)", text,
+                                                           re.MULTILINE)))
+        faults += [f"{file}: {name}: {fault}" for name, items in lists
+                   if (fault := out_of_order(items))]
+    return faults
+
+
+def marked_lists(root: pathlib.Path) -> list[str]:
+    """Lines between "keep-sorted start" and "keep-sorted end" are in order."""
+    faults = []
+    for file in tree.files(root, tree.CODE | {".cmake", "CMakeLists.txt"}):
+        block = None
+        for number, line in enumerate((root / file).read_text(encoding="utf-8").split("\n"), 1):
+            if "keep-sorted start" in line:
+                block = []
+            elif "keep-sorted end" in line and block is not None:
+                if fault := out_of_order(block):
+                    faults.append(f"{file}:{number}: {fault}")
+                block = None
+            elif block is not None and line.strip():
+                block.append(line.strip())
+        if block is not None:
+            faults.append(f'{file}: "keep-sorted start" has no end')
+    return faults
+
+
+def packages(root: pathlib.Path) -> list[str]:
+    """The list of Debian packages is in order."""
+    lines = (root / ".packages.txt").read_text(encoding="utf-8").split("\n")
+    fault = out_of_order([line for line in lines if line and not line.startswith("#")])
+    return [f".packages.txt: {fault}"] if fault else []
+
+
+CHECKS = (length, cmake_lists, marked_lists, packages)
