@@ -18,20 +18,6 @@ std::uint32_t pair(std::uint32_t low, std::uint32_t high) { return low | high <<
 
 }  // namespace
 
-float half_to_float(std::uint16_t half) {
-  const std::uint32_t sign = static_cast<std::uint32_t>(half & 0x8000u) << 16;
-  const std::uint32_t magnitude = half & 0x7fffu;
-  std::uint32_t bits;
-  if (magnitude >= 0x7c00u) {
-    bits = (magnitude << 13) + (224u << 23);  // Infinity, NaN.
-  } else if (magnitude >= 0x0400u) {
-    bits = (magnitude << 13) + (112u << 23);
-  } else {
-    bits = std::bit_cast<std::uint32_t>(static_cast<float>(magnitude) * 0x1p-24f);
-  }
-  return std::bit_cast<float>(bits | sign);
-}
-
 std::uint16_t float_to_half(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
   const std::uint32_t sign = bits >> 16 & 0x8000u;

@@ -3,17 +3,17 @@
 #include <array>
 #include <cstdint>
 
+#include "runtime/program/fold.h"
 #include "runtime/texture/layout.h"
 
 namespace nacre {
 
 using Rgba = std::array<float, 4>;
 
-/// Exact. In integer steps, for a recorder: with m = h & 0x7fff and s = h & 0x8000,
-/// the bits of a normal half are (m << 13) + (112 << 23), those of a denormal one
-/// (m < 0x400) the bits of float(m) * 2^-24; then or s << 16. The store holds no
-/// infinite or NaN halves.
-float half_to_float(std::uint16_t half);
+// half_to_float is that of runtime/program/fold.h. In integer steps, for a recorder: with m = h &
+// 0x7fff and s = h & 0x8000, the bits of a normal half are (m << 13) + (112 << 23), those of a
+// denormal one (m < 0x400) the bits of float(m) * 2^-24; then or s << 16. The store holds no
+// infinite or NaN halves.
 
 /// Nearest, ties to even; magnitudes above 65504 give 65504. Requires a finite value.
 std::uint16_t float_to_half(float value);
