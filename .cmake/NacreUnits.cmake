@@ -1,0 +1,51 @@
+# nacre_units(TARGET LIST FUNCTION): the node bodies named in a text file, one
+# sorted line each:
+#
+#     folder/category          [replaces]
+#
+# adds folder/category.cpp to the target and the body, `void record_<category>(NodeCall&)`,
+# to the table that FUNCTION returns. "replaces" prefers it to the data library's node graph.
+function(nacre_units target list function)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
+  file(STRINGS ${list} lines REGEX "^[a-z]")
+  set(sorted ${lines})
+  list(SORT sorted)
+  if(NOT sorted STREQUAL lines)
+    message(FATAL_ERROR "${list}: lines are not sorted")
+  endif()
+  set(declarations "")
+  set(rows "")
+  foreach(line IN LISTS lines)
+    string(REGEX MATCH "^([a-z0-9_/]+)[ \t]*(replaces)?$" matched "${line}")
+    if(NOT matched)
+      message(FATAL_ERROR "${list}: not 'folder/category [replaces]': ${line}")
+    endif()
+    set(path ${CMAKE_MATCH_1})
+    set(replaces false)
+    if(CMAKE_MATCH_2)
+      set(replaces true)
+    endif()
+    get_filename_component(category ${path} NAME)
+    target_sources(${target} PRIVATE ${path}.cpp)
+    string(APPEND declarations "void record_${category}(NodeCall& call);\n")
+    string(APPEND rows "      {\"${category}\", record_${category}, ${replaces}},\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp CONTENT
+"// Written by CMake from @list@.
+#include <vector>
+
+#include \"runtime/node/node_call.h\"
+
+namespace nacre {
+
+@declarations@
+const std::vector<NodeBody>& @function@() {
+  static const std::vector<NodeBody> bodies{
+@rows@  };
+  return bodies;
+}
+
+}  // namespace nacre
+" @ONLY)
+  target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
+endfunction()

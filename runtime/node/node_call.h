@@ -1,0 +1,95 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/diagnostic.h"
+#include "runtime/node/recorded.h"
+#include "runtime/node/texture_source.h"
+#include "runtime/program/recorder.h"
+
+namespace nacre {
+
+/// One node being recorded: a body reads its inputs, records operations, and
+/// sets its outputs. Port names and types are those of the nodedef; asking for
+/// another is a fault of the body (an assert).
+class NodeCall {
+ public:
+  struct Port {
+    std::string name;
+    Recorded value;
+  };
+
+  NodeCall(Recorder& recorder, std::string_view category, std::string_view nodedef,
+           std::vector<Port> inputs, std::vector<Port> outputs, Accuracy accuracy,
+           TextureProvider* textures, Diagnostics& diagnostics, SourceLocation where);
+
+  Recorder& recorder() { return recorder_; }
+  std::string_view category() const { return category_; }
+  std::string_view nodedef() const { return nodedef_; }
+  /// What the closure approximations and tables should aim at.
+  Accuracy accuracy() const { return accuracy_; }
+  /// Null where the host has no textures.
+  TextureProvider* textures() { return textures_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
+  const SourceLocation& where() const { return where_; }
+
+  bool has(std::string_view name) const;
+  const Recorded& in(std::string_view name) const;
+  Type type(std::string_view name) const { return in(name).type; }
+  Float number(std::string_view name) const;
+  Int integer(std::string_view name) const;
+  Bool boolean(std::string_view name) const;
+  Float2 vector2(std::string_view name) const;
+  Float3 vector3(std::string_view name) const;  ///< vector3 or color3.
+  Float4 vector4(std::string_view name) const;  ///< vector4 or color4.
+  const std::string& text(std::string_view name) const;
+  const ClosurePtr& closure(std::string_view name) const;
+
+  /// Type of the first output, or of the one named.
+  Type out_type() const { return outputs_.front().value.type; }
+  Type out_type(std::string_view name) const;
+  const std::vector<Port>& inputs() const { return inputs_; }
+  const std::vector<Port>& outputs() const { return outputs_; }
+
+  /// Sets the first output. Scalars and vectors take the output's type.
+  void set(Float x) { put(outputs_.front(), {x.ref()}); }
+  void set(Int x) { put(outputs_.front(), {x.ref()}); }
+  void set(Bool x) { put(outputs_.front(), {x.ref()}); }
+  void set(Float2 v) { put(outputs_.front(), {v.x.ref(), v.y.ref()}); }
+  void set(Float3 v) { put(outputs_.front(), {v.x.ref(), v.y.ref(), v.z.ref()}); }
+  void set(Float4 v) {
+    put(outputs_.front(), {v.x.ref(), v.y.ref(), v.z.ref(), v.w.ref()});
+  }
+  void set(ClosurePtr closure);
+  void set(std::vector<Ref> parts) { put(outputs_.front(), std::move(parts)); }
+  /// Sets the output of that name.
+  void set(std::string_view name, std::vector<Ref> parts);
+  void set(std::string_view name, Float x) { set(name, std::vector<Ref>{x.ref()}); }
+  void set(std::string_view name, Float2 v) { set(name, {v.x.ref(), v.y.ref()}); }
+  void set(std::string_view name, Float3 v) { set(name, {v.x.ref(), v.y.ref(), v.z.ref()}); }
+
+ private:
+  static void put(Port& port, std::vector<Ref> parts);
+
+  Recorder& recorder_;
+  std::string category_;
+  std::string nodedef_;
+  std::vector<Port> inputs_;
+  std::vector<Port> outputs_;
+  Accuracy accuracy_;
+  TextureProvider* textures_;
+  Diagnostics& diagnostics_;
+  SourceLocation where_;
+};
+
+/// A native implementation of every nodedef of one category.
+struct NodeBody {
+  std::string_view category;
+  void (*record)(NodeCall& call);
+  /// Also in place of nodedefs for which the data library has a node graph.
+  bool replaces_graphs = false;
+};
+
+}  // namespace nacre

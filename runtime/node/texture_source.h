@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/texture/layout.h"
+#include "runtime/value/value.h"
+
+namespace nacre {
+
+/// One image as a node body sees it while recording: what is known of it now,
+/// and the slot under which the kernel will find it.
+struct TextureSource {
+  enum class State {
+    resident,  ///< Texels through Op::texel, laid out as runtime/texture/layout.h says.
+    on_host,   ///< Too large: look up through Op::texture_call.
+    missing,   ///< No image: the node's default colour.
+  };
+  State state = State::missing;
+  Int slot;                                    ///< A literal.
+  texture_layout::TexelFormat format{};        ///< Fixed in the kernel.
+  int channels = 0;                            ///< In the file, at most 4.
+};
+
+/// What a file name with or without <UDIM> / <UVTILE> stands for.
+struct TextureSources {
+  std::vector<TextureSource> images;  ///< One, or one a tile; empty: missing.
+  /// For tile sets the table of runtime/texture/tile_set.h; empty for one image.
+  std::vector<std::uint32_t> directory;
+};
+
+/// Finds images for node bodies; the compiler of a document implements it.
+class TextureProvider {
+ public:
+  virtual ~TextureProvider() = default;
+  /// `name` as the node has it, prefixes applied; `layer` as `image` defines it.
+  virtual TextureSources find(const std::string& name, const std::string& layer) = 0;
+};
+
+}  // namespace nacre
