@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "jit/document/value_text.h"
+#include <charconv>
 
 namespace nacre {
 
@@ -77,9 +76,11 @@ void Definitions::read_units() {
   for (const Element& element : document_.root().children()) {
     if (element.category() != "unitdef") continue;
     for (const Element& unit : element.children()) {
-      const auto scale = parse_value(Type::float_, unit.attribute("scale"));
-      if (unit.category() != "unit" || !scale || scale->floats[0] <= 0) continue;
-      units_.emplace(unit.name(), Unit{element.attribute("unittype"), scale->floats[0]});
+      const std::string_view text = unit.attribute("scale");
+      double scale = 0;
+      std::from_chars(text.data(), text.data() + text.size(), scale);
+      if (unit.category() != "unit" || !(scale > 0)) continue;
+      units_.emplace(unit.name(), Unit{element.attribute("unittype"), scale});
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "jit/document/read.h"
 #include "jit/document/value_text.h"
 
 namespace nacre {
@@ -71,7 +72,13 @@ NodeDefOutput read_output(const Element& element, Diagnostics& diagnostics) {
   output.type = parse_type(output.type_text).value_or(Type::none);
   // "default" in the specification, "value" in what people write.
   const char* attribute = element.has_attribute("default") ? "default" : "value";
-  read_default(output, attribute, diagnostics);
+  const std::string_view text = element.attribute(attribute);
+  if (is_numeric(output.type) && output.type != Type::boolean && is_valid_name(text)) {
+    output.default_geomprop = text;
+    output.default_value = zero_value(output.type);
+  } else {
+    read_default(output, attribute, diagnostics);
+  }
   return output;
 }
 

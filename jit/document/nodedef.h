@@ -37,6 +37,7 @@ struct NodeDefOutput {
   std::string_view type_text;
   Value default_value;
   bool has_default = false;
+  std::string_view default_geomprop;  ///< The default is this geometric property; "" if not.
   std::string_view defaultinput;  ///< Input that passes through when nothing implements the node.
   const Element* element = nullptr;
 };

@@ -1,0 +1,171 @@
+#include "jit/graph/build.h"
+
+#include <fmt/format.h>
+
+#include "jit/document/select.h"
+#include "jit/graph/prune.h"
+#include "jit/graph/resolver.h"
+
+namespace nacre {
+
+namespace {
+
+SourceLocation at_root(const Document& document, std::string path) {
+  SourceLocation where = location(document.root());
+  where.path = std::move(path);
+  return where;
+}
+
+// The element that a path names, from the root down; null if there is none.
+const Element* find_element(const Document& document, std::string_view path) {
+  const Element* at = &document.root();
+  while (at != nullptr && !path.empty()) {
+    const std::size_t slash = path.find('/');
+    at = at->child(path.substr(0, slash));
+    path = slash == std::string_view::npos ? std::string_view{} : path.substr(slash + 1);
+  }
+  return at;
+}
+
+class GraphBuild {
+ public:
+  GraphBuild(const Document& document, const Definitions& definitions, const GraphOptions& options,
+             Diagnostics& diagnostics)
+      : document_(document),
+        diagnostics_(diagnostics),
+        resolver_(document, definitions, options, diagnostics) {}
+
+  void add_output(const std::string& name) {
+    const Element* element = find_element(document_, name);
+    if (element == nullptr || element == &document_.root()) {
+      diagnostics_.error("unknown-request", at_root(document_, name),
+                         "the document has no such output", "GRAPH/NAME or NAME",
+                         fmt::format("'{}'", name));
+      return;
+    }
+    if (element->category() == "nodegraph") {
+      const Element* only = nullptr;
+      for (const Element& child : element->children()) {
+        if (child.category() != "output") continue;
+        if (only != nullptr) return report_several(*element);
+        only = &child;
+      }
+      if (only != nullptr) element = only;
+    }
+    if (element->category() == "output") {
+      add(name, resolver_.resolve_port(*element, context_around(*element)));
+    } else if (is_node(*element) && element->parent() == &document_.root()) {
+      add_node(name, *element);
+    } else {
+      diagnostics_.error("unknown-request", location(*element), "this is not an output",
+                         "an <output>, a graph or a node of the document");
+    }
+  }
+
+  void add_material(const std::string& name) {
+    const Element* element = find_element(document_, name);
+    if (element == nullptr || !(is_node(*element) || element->category() == "output")) {
+      diagnostics_.error("unknown-request", at_root(document_, name),
+                         "the document has no such material", "the name of a material node",
+                         fmt::format("'{}'", name));
+      return;
+    }
+    const Resolver::Result result = element->category() == "output"
+                                        ? resolver_.resolve_port(*element, context_around(*element))
+                                        : resolver_.resolve_node(*element, "");
+    if (result.failed) return;
+    if (result.type != Type::material) {
+      diagnostics_.error("not-a-material", location(*element), "this is not a material",
+                         "a node of type material", std::string(type_name(result.type)));
+      return;
+    }
+    add_shaders(result.source, *element);
+  }
+
+  Graph take() {
+    prune(resolver_.graph());
+    return std::move(resolver_.graph());
+  }
+
+ private:
+  const Context* context_around(const Element& output) {
+    // Graphs within graphs: one context for each, outermost first.
+    std::vector<const Element*> graphs;
+    for (const Element* at = output.parent(); at->parent() != nullptr; at = at->parent()) {
+      graphs.push_back(at);
+    }
+    const Context* context = nullptr;
+    for (auto graph = graphs.rbegin(); graph != graphs.rend(); ++graph) {
+      context = resolver_.compound_context(**graph, context);
+    }
+    return context;
+  }
+
+  void report_several(const Element& element) {
+    diagnostics_.error("output-required", location(element),
+                       "the graph has several outputs and none is named", "GRAPH/NAME");
+  }
+
+  void add(const std::string& name, const Resolver::Result& result) {
+    if (!result.failed) resolver_.graph().outputs.push_back({name, result.type, result.source});
+  }
+
+  void add_node(const std::string& name, const Element& node) {
+    const NodeDef* def = resolver_.nodedef_of(node);
+    if (def == nullptr) return;
+    if (def->outputs.size() == 1) return add(name, resolver_.resolve_node(node, ""));
+    for (const NodeDefOutput& output : def->outputs) {
+      add(name + '/' + std::string(output.name), resolver_.resolve_node(node, output.name));
+    }
+  }
+
+  // A material is its shaders; nodes that pass materials on are looked through.
+  void add_shaders(Source source, const Element& element) {
+    Graph& graph = resolver_.graph();
+    while (source.kind == Source::Kind::link && graph.nodes[source.node].category == "dot") {
+      Source next = graph.nodes[source.node].inputs[0].source;
+      source = std::move(next);
+    }
+    const std::string_view category = source.kind == Source::Kind::link
+                                          ? std::string_view(graph.nodes[source.node].category)
+                                          : std::string_view{};
+    if (category != "surfacematerial" && category != "volumematerial") {
+      diagnostics_.error("not-a-material", location(element),
+                         "the material does not lead to a <surfacematerial> or <volumematerial>");
+      return;
+    }
+    const std::vector<GraphInput> inputs = graph.nodes[source.node].inputs;
+    for (const GraphInput& input : inputs) {
+      if (input.source.kind != Source::Kind::link) continue;
+      graph.outputs.push_back({input.name, input.type, input.source});
+    }
+  }
+
+  const Document& document_;
+  Diagnostics& diagnostics_;
+  Resolver resolver_;
+};
+
+}  // namespace
+
+std::optional<Graph> build_graph(const Document& document, const Definitions& definitions,
+                                 const GraphRequest& request, const GraphOptions& options,
+                                 Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.error_count();
+  GraphBuild build(document, definitions, options, diagnostics);
+  for (const std::string& name : request.outputs) build.add_output(name);
+  if (!request.material.empty()) build.add_material(request.material);
+  if (diagnostics.error_count() != errors) return std::nullopt;
+  return build.take();
+}
+
+std::optional<Graph> build_graph(const Document& document, const Library& library,
+                                 const GraphRequest& request, const GraphOptions& options,
+                                 Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.error_count();
+  const Definitions definitions(document, &library.definitions(), diagnostics);
+  if (diagnostics.error_count() != errors) return std::nullopt;
+  return build_graph(document, definitions, request, options, diagnostics);
+}
+
+}  // namespace nacre

@@ -1,0 +1,54 @@
+#include "jit/graph/colorspace.h"
+
+#include <array>
+
+namespace nacre {
+
+namespace {
+
+struct Alias {
+  std::string_view name;
+  std::string_view canonical;
+};
+
+// Names that MaterialX 1.39's default colour management takes for its own, the
+// Color Interop Forum's scene-referred names, and common names of OCIO configs.
+constexpr std::array aliases = std::to_array<Alias>({
+    {"none", ""},
+    {"raw", ""},
+    {"Raw", ""},
+    {"data", ""},
+    {"gamma18", "g18_rec709"},
+    {"gamma22", "g22_rec709"},
+    {"gamma24", "rec709_display"},
+    {"lin_ap1", "acescg"},
+    {"lin_ap1_scene", "acescg"},
+    {"ACEScg", "acescg"},
+    {"lin_rec709_scene", "lin_rec709"},
+    {"lin_srgb", "lin_rec709"},
+    {"srgb_rec709_scene", "srgb_texture"},
+    {"srgb_tx", "srgb_texture"},
+    {"Utility - sRGB - Texture", "srgb_texture"},
+    {"g18_rec709_scene", "g18_rec709"},
+    {"g22_rec709_scene", "g22_rec709"},
+    {"Gamma 2.4 Encoded Rec.709", "rec709_display"},
+    {"g22_ap1_scene", "g22_ap1"},
+    {"g22_adobergb_scene", "adobergb"},
+    {"Gamma 2.2 Encoded AdobeRGB", "adobergb"},
+    {"lin_adobergb_scene", "lin_adobergb"},
+    {"lin_p3d65_scene", "lin_displayp3"},
+    {"Linear P3-D65", "lin_displayp3"},
+    {"srgb_p3d65_scene", "srgb_displayp3"},
+    {"sRGB Encoded P3-D65", "srgb_displayp3"},
+});
+
+}  // namespace
+
+std::string_view canonical_colorspace(std::string_view name) {
+  for (const Alias& alias : aliases) {
+    if (alias.name == name) return alias.canonical;
+  }
+  return name;
+}
+
+}  // namespace nacre

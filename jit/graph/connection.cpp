@@ -1,0 +1,126 @@
+#include "jit/graph/connection.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "jit/document/document.h"
+#include "jit/document/select.h"
+
+namespace nacre {
+
+namespace {
+
+const Element* find_in(const Element& scope, std::string_view name, const Element& user) {
+  const std::string qualified = qualified_name(user, name);
+  if (const Element* found = scope.child(qualified)) return found;
+  return scope.child(name);
+}
+
+Connection invalid() { return {Connection::Kind::invalid, nullptr, {}}; }
+
+Connection connect_to_graph(const Element& port, const Element& graph, Diagnostics& diagnostics) {
+  const std::string_view wanted = port.attribute("output");
+  const Element* only = nullptr;
+  int count = 0;
+  for (const Element& child : graph.children()) {
+    if (child.category() != "output") continue;
+    if (!wanted.empty() && child.name() == wanted) {
+      return {Connection::Kind::output, &child, {}};
+    }
+    only = &child;
+    ++count;
+  }
+  if (wanted.empty() && count == 1) return {Connection::Kind::output, only, {}};
+  if (wanted.empty() && count > 1) {
+    diagnostics.error("output-required", location(port),
+                      fmt::format("'{}' has several outputs and none is named", graph.name()),
+                      "output=\"NAME\"");
+  } else {
+    diagnostics.error("unknown-output", location(port),
+                      fmt::format("the node graph '{}' has no such output", graph.name()),
+                      "the name of an output", fmt::format("'{}'", wanted));
+  }
+  return invalid();
+}
+
+Connection connect_to_node(const Element& port, Diagnostics& diagnostics) {
+  const std::string_view name = port.attribute("nodename");
+  const Element* target = find_in(scope_of(port), name, port);
+  if (target != nullptr && target->category() == "nodegraph") {
+    return connect_to_graph(port, *target, diagnostics);
+  }
+  if (target == nullptr || !is_node(*target)) {
+    diagnostics.error("unknown-nodename", location(port), "there is no node of this name here",
+                      "the name of a node beside this one", fmt::format("'{}'", name));
+    return invalid();
+  }
+  return {Connection::Kind::node, target, port.attribute("output")};
+}
+
+Connection connect_to_nodegraph(const Element& port, Diagnostics& diagnostics) {
+  const std::string_view name = port.attribute("nodegraph");
+  const Element* target = find_in(scope_of(port), name, port);
+  if (target == nullptr) target = find_in(port.document().root(), name, port);
+  if (target == nullptr || target->category() != "nodegraph") {
+    diagnostics.error("unknown-nodegraph", location(port), "there is no node graph of this name",
+                      "the name of a node graph", fmt::format("'{}'", name));
+    return invalid();
+  }
+  return connect_to_graph(port, *target, diagnostics);
+}
+
+Connection connect_to_document_output(const Element& port, Diagnostics& diagnostics) {
+  const std::string_view name = port.attribute("output");
+  const Element* target = find_in(port.document().root(), name, port);
+  if (target == nullptr || target->category() != "output") {
+    diagnostics.error("unknown-output", location(port), "the document has no such output",
+                      "the name of an output", fmt::format("'{}'", name));
+    return invalid();
+  }
+  return {Connection::Kind::output, target, {}};
+}
+
+}  // namespace
+
+const Element& enclosing_graph(const Element& element) {
+  const Element* at = element.parent();
+  while (at->parent() != nullptr && at->category() != "nodegraph") at = at->parent();
+  return *at;
+}
+
+const Element& scope_of(const Element& port) {
+  const Element& owner = *port.parent();
+  if (port.category() == "output" || owner.parent() == nullptr) return owner;
+  return *owner.parent();
+}
+
+Connection find_connection(const Element& port, Diagnostics& diagnostics) {
+  constexpr std::array<std::string_view, 3> ways{"nodename", "nodegraph", "interfacename"};
+  std::string_view way;
+  for (std::string_view candidate : ways) {
+    if (port.attribute(candidate).empty()) continue;
+    if (!way.empty()) {
+      diagnostics.error("several-sources", location(port), "the port is fed from two places",
+                        "one of nodename, nodegraph and interfacename",
+                        fmt::format("{} and {}", way, candidate));
+      return invalid();
+    }
+    way = candidate;
+  }
+  const bool only_output = way.empty() && !port.attribute("output").empty();
+  if ((!way.empty() || only_output) && port.has_attribute("value")) {
+    diagnostics.warning("value-and-connection", location(port),
+                        "the port is connected, so its value is not used");
+  }
+  if (way == "nodename") return connect_to_node(port, diagnostics);
+  if (way == "nodegraph") return connect_to_nodegraph(port, diagnostics);
+  if (way == "interfacename") {
+    return {Connection::Kind::interface, nullptr, port.attribute("interfacename")};
+  }
+  if (only_output) return connect_to_document_output(port, diagnostics);
+  if (port.has_attribute("value")) return {Connection::Kind::value, nullptr, {}};
+  return {};
+}
+
+}  // namespace nacre

@@ -1,0 +1,101 @@
+// Colour spaces and units: nodes put between a value and who reads it.
+#include <fmt/format.h>
+
+#include "jit/document/value_text.h"
+#include "jit/graph/colorspace.h"
+#include "jit/graph/resolver.h"
+
+namespace nacre {
+
+// The nearest `colorspace` up the tree says what the numbers mean; the
+// library's node "A_to_B" turns them into the working space (Specification,
+// "Color Spaces and Color Management Systems").
+std::optional<Resolver::Key> Resolver::convert_colour(const Source& source, Type type,
+                                                      std::string_view space,
+                                                      const std::string& path,
+                                                      const Element& user) {
+  if (type != Type::color3 && type != Type::color4) return std::nullopt;
+  if (source.kind == Source::Kind::unconnected) return std::nullopt;
+  const std::string_view from = canonical_colorspace(space);
+  const std::string_view to = canonical_colorspace(options_.working_space);
+  if (from.empty() || from == to) return std::nullopt;
+  const std::string transform = fmt::format("{}_to_{}", from, to);
+  const NodeDef* def = definitions_.nodedef(fmt::format("ND_{}_{}", transform, type_name(type)));
+  if (def == nullptr || def->inputs.empty() || def->outputs.size() != 1) {
+    warning("unknown-colorspace", user,
+            "there is no transform from this colour space, so the values are used as they are",
+            fmt::format("a space with a transform to {}", to), fmt::format("'{}'", space));
+    return std::nullopt;
+  }
+  Instance& instance = add_instance(*def, path + ':' + transform, &user);
+  instance.inputs.emplace_back(def->inputs[0].name, source);
+  return Key{Kind::output, 0, &instance, nullptr};
+}
+
+// From the unit a value is given in to the one its reader wants. A literal is
+// converted on the spot; a file name keeps its unit for the texels read.
+std::optional<Resolver::Key> Resolver::convert_unit(Result& result, const NodeDefInput& input,
+                                                    const std::string& path, const Element& user) {
+  if (result.unit.empty() || result.failed || input.type == Type::filename) return std::nullopt;
+  const std::string_view from = result.unit;
+  result.unit = {};
+  const bool scales = input.type == Type::float_ || input.type == Type::vector2 ||
+                      input.type == Type::vector3 || input.type == Type::vector4;
+  if (!scales) return std::nullopt;
+  const std::optional<double> factor = unit_factor(from, &input, user);
+  result.failed = !factor;
+  if (!factor || *factor == 1) return std::nullopt;
+  if (result.source.kind == Source::Kind::literal) {
+    for (float& number : result.source.value.floats) {
+      number = static_cast<float>(number * *factor);
+    }
+    return std::nullopt;
+  }
+  return scale(result.source, input.type, *factor, path, user);
+}
+
+std::optional<double> Resolver::unit_factor(std::string_view from, const NodeDefInput* input,
+                                            const Element& user) {
+  const auto source = definitions_.unit(from);
+  if (!source) {
+    error("unknown-unit", user, "there is no unit of this name", "the name of a <unit>",
+          fmt::format("'{}'", from));
+    return std::nullopt;
+  }
+  std::string_view wanted = from;
+  if (input != nullptr && !input->unit.empty()) {
+    wanted = input->unit;
+  } else if (source->type == "distance") {
+    wanted = options_.distance_unit;
+  } else if (source->type == "angle") {
+    wanted = "degree";
+  }
+  const auto target = definitions_.unit(wanted);
+  if (!target || target->type != source->type) {
+    error("unit-type", user, "the unit measures something else",
+          fmt::format("a unit like {}", wanted), fmt::format("'{}'", from));
+    return std::nullopt;
+  }
+  return source->scale / target->scale;
+}
+
+std::optional<Resolver::Key> Resolver::scale(const Source& source, Type type, double factor,
+                                             const std::string& path, const Element& user) {
+  const std::string name =
+      type == Type::float_ ? "ND_multiply_float" : fmt::format("ND_multiply_{}FA", type_name(type));
+  const NodeDef* def = definitions_.nodedef(name);
+  if (def == nullptr) {
+    error("unknown-nodedef", user, "units cannot be converted without the standard library", name);
+    return std::nullopt;
+  }
+  Source second;
+  second.kind = Source::Kind::literal;
+  second.value = zero_value(Type::float_);
+  second.value.floats[0] = static_cast<float>(factor);
+  Instance& instance = add_instance(*def, path + ":unit", &user);
+  instance.inputs.emplace_back("in1", source);
+  instance.inputs.emplace_back("in2", second);
+  return Key{Kind::output, 0, &instance, nullptr};
+}
+
+}  // namespace nacre

@@ -1,0 +1,190 @@
+// Instances of nodes and the contexts they stand in.
+#include <fmt/format.h>
+
+#include "jit/document/select.h"
+#include "jit/document/value_text.h"
+#include "jit/graph/resolver.h"
+
+namespace nacre {
+
+namespace {
+
+// Graphs that implement nodes of graphs that implement nodes: deeper is a fault.
+constexpr int max_context_depth = 1024;
+
+bool says_something(const Element& input) {
+  for (const Attribute& attribute : input.attributes()) {
+    if (attribute.name == "value") return true;
+    const bool connects = attribute.name == "nodename" || attribute.name == "nodegraph" ||
+                          attribute.name == "interfacename" || attribute.name == "output";
+    if (connects && !attribute.value.empty()) return true;
+  }
+  return false;
+}
+
+Source literal(Value value) {
+  Source source;
+  source.kind = Source::Kind::literal;
+  source.value = std::move(value);
+  return source;
+}
+
+std::string join(const Context* context, std::string_view name) {
+  if (context == nullptr) return std::string(name);
+  return context->path + '/' + std::string(name);
+}
+
+}  // namespace
+
+bool Resolver::is_native(const NodeDef& def) const {
+  // What a material consists of is asked of the node itself, never of a graph.
+  if (def.category == "surfacematerial" || def.category == "volumematerial") return true;
+  if (options_.is_native) return options_.is_native(def.name);
+  return definitions_.graph_of(def) == nullptr;
+}
+
+const NodeDef* Resolver::nodedef_of(const Element& node) {
+  const auto known = nodedefs_.find(&node);
+  if (known != nodedefs_.end()) return known->second;
+  const NodeDef* def = find_nodedef(node, definitions_, diagnostics_);
+  nodedefs_.emplace(&node, def);
+  return def;
+}
+
+const Instance* Resolver::instance_of(const Element& element, const Context* context) {
+  const auto [place, is_new] = instance_of_.try_emplace({&element, context}, nullptr);
+  if (!is_new) return place->second;
+  const NodeDef* def = nodedef_of(element);
+  if (def == nullptr) return nullptr;
+  Instance& instance = instances_.emplace_back();
+  instance.element = &element;
+  instance.def = def;
+  instance.context = context;
+  instance.path = join(context, element.name().empty() ? element.category() : element.name());
+  instance.origin = &element;
+  return place->second = &instance;
+}
+
+Instance& Resolver::add_instance(const NodeDef& def, std::string path, const Element* origin) {
+  Instance& instance = instances_.emplace_back();
+  instance.def = &def;
+  instance.path = std::move(path);
+  instance.origin = origin;
+  return instance;
+}
+
+const Context* Resolver::compound_context(const Element& graph, const Context* parent) {
+  const auto [place, is_new] = compounds_.try_emplace({&graph, parent}, nullptr);
+  if (!is_new) return place->second;
+  Context& context = contexts_.emplace_back();
+  context.graph = &graph;
+  context.parent = parent;
+  context.path = join(parent, graph.name());
+  // A graph that implements a nodedef, looked at on its own: the nodedef's
+  // defaults stand for its inputs.
+  const std::string_view def_name = graph.attribute("nodedef");
+  const NodeDef* def = definitions_.nodedef(qualified_name(graph, def_name));
+  if (def == nullptr) def = definitions_.nodedef(def_name);
+  if (def != nullptr) {
+    context.instance = &add_instance(*def, context.path, &graph);
+    context.def = def;
+  }
+  return place->second = &context;
+}
+
+const Context* Resolver::functional_context(const Instance& instance, const Element& graph) {
+  const auto known = functionals_.find(&instance);
+  if (known != functionals_.end()) return known->second;
+  int depth = 0;
+  for (const Context* at = instance.context; at != nullptr;) {
+    if (at->graph == &graph || ++depth > max_context_depth) {
+      error(at->graph == &graph ? "recursive-graph" : "too-deep", *instance.origin,
+            "the graph that implements the node contains the node itself", "",
+            instance.path.substr(0, 200));
+      functionals_.emplace(&instance, nullptr);
+      return nullptr;
+    }
+    at = at->instance != nullptr ? at->instance->context : at->parent;
+  }
+  Context& context = contexts_.emplace_back();
+  context.graph = &graph;
+  context.instance = &instance;
+  context.def = instance.def;
+  context.path = instance.path;
+  functionals_.emplace(&instance, &context);
+  return &context;
+}
+
+const Element* Resolver::input_element(const Instance& instance, std::string_view name) const {
+  // An instance may inherit inputs from another of its class (Specification,
+  // "Shader Nodes"); the chain is bounded in case it is a circle.
+  const Element* element = instance.element;
+  for (int depth = 0; element != nullptr && depth < 64; ++depth) {
+    const Element* input = element->child(name);
+    if (input != nullptr && input->category() == "input" && says_something(*input)) return input;
+    const std::string_view base = element->attribute("inherit");
+    element = base.empty() ? nullptr : element->parent()->child(base);
+  }
+  return nullptr;
+}
+
+std::optional<std::uint32_t> Resolver::output_index(const NodeDef& def, std::string_view name,
+                                                    const Element& user) {
+  if (name.empty()) {
+    if (def.outputs.size() == 1) return 0;
+    error("output-required", user,
+          fmt::format("'{}' has several outputs and none is named", def.category),
+          "output=\"NAME\"");
+    return std::nullopt;
+  }
+  for (std::uint32_t i = 0; i < def.outputs.size(); ++i) {
+    if (def.outputs[i].name == name) return i;
+  }
+  std::string names;
+  for (const NodeDefOutput& output : def.outputs) {
+    names += (names.empty() ? "" : ", ") + std::string(output.name);
+  }
+  error("unknown-output", user, fmt::format("'{}' has no such output", def.category), names,
+        fmt::format("'{}'", name));
+  return std::nullopt;
+}
+
+// "Nworld" becomes the node that its geompropdef describes, once per graph.
+const Instance* Resolver::geomprop_instance(std::string_view name, const Element& user) {
+  const auto known = geomprops_.find(name);
+  if (known != geomprops_.end()) return known->second;
+  const Element* geomprop = definitions_.geompropdef(name);
+  if (geomprop == nullptr) {
+    error("unknown-geomprop", user, "there is no geometric property of this name",
+          "the name of a <geompropdef>", fmt::format("'{}'", name));
+    return nullptr;
+  }
+  const std::string_view type = geomprop->attribute("type");
+  const std::string_view kind = geomprop->attribute("geomprop");
+  const NodeDef* def = definitions_.nodedef(fmt::format("ND_{}_{}", kind, type));
+  const bool is_custom = def == nullptr;
+  if (is_custom) def = definitions_.nodedef(fmt::format("ND_geompropvalue_{}", type));
+  if (def == nullptr) {
+    error("unknown-geomprop", *geomprop, "no node gives this geometric property", "",
+          fmt::format("{} of type {}", kind, type));
+    return nullptr;
+  }
+  Instance& added = add_instance(*def, std::string(name), &user);
+  for (const NodeDefInput& input : def->inputs) {
+    std::string_view text = geomprop->attribute(input.name);
+    if (is_custom && input.name == "geomprop" && text.empty()) text = geomprop->name();
+    if (text.empty()) continue;
+    auto value = parse_value(input.type, text);
+    if (!value) {
+      error("bad-value", *geomprop,
+            fmt::format("the {} does not fit the type {}", input.name, input.type_text),
+            expected_text(input.type), fmt::format("'{}'", text));
+      return nullptr;
+    }
+    added.inputs.emplace_back(input.name, literal(std::move(*value)));
+  }
+  geomprops_.emplace(name, &added);
+  return &added;
+}
+
+}  // namespace nacre

@@ -1,0 +1,196 @@
+// Values as written: literals, live parameters, file names.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "jit/document/select.h"
+#include "jit/document/value_text.h"
+#include "jit/graph/filename.h"
+#include "jit/graph/resolver.h"
+
+namespace nacre {
+
+namespace {
+
+// A range for a slider; type none if there is none or it makes no sense.
+Value ui_bound(const Element* input, const Element* declared, Type type, std::string_view soft,
+               std::string_view hard) {
+  for (const Element* element : {input, declared}) {
+    if (element == nullptr) continue;
+    for (std::string_view attribute : {soft, hard}) {
+      if (!element->has_attribute(attribute)) continue;
+      return parse_value(type, element->attribute(attribute)).value_or(Value{});
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element& carrier, Type type,
+                                                    const Context* context) {
+  Result& result = frame.result;
+  result.type = type;
+  result.carrier = &carrier;
+  result.unit = carrier.attribute("unit");
+  const std::string_view text = carrier.attribute("value");
+  std::optional<Value> value = parse_value(type, text);
+  if (!value) {
+    error("bad-value", carrier, fmt::format("the value does not fit the type {}", type_name(type)),
+          expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
+    result.failed = true;
+    return std::nullopt;
+  }
+  // "" on a closure or shader means that nothing is connected.
+  if (!is_numeric(type) && !is_text(type) && !is_array(type)) return std::nullopt;
+  if (type == Type::filename) {
+    result.source = filename_source(carrier, *value, context);
+    return std::nullopt;
+  }
+  result.source = literal_or_parameter(carrier, std::move(*value), result.unit);
+  return convert_colour(result.source, type, carrier.inherited_attribute("colorspace"),
+                        element_path(carrier), carrier);
+}
+
+Source Resolver::literal_or_parameter(const Element& carrier, Value value, std::string_view unit) {
+  Source source;
+  const bool is_live = is_numeric(value.type) && &carrier.document() == &document_ &&
+                       carrier.category() == "input" && carrier.attribute("uniform") != "true";
+  if (!is_live) {
+    source.kind = Source::Kind::literal;
+    source.value = std::move(value);
+    return source;
+  }
+  source.kind = Source::Kind::parameter;
+  const auto next = static_cast<std::uint32_t>(graph_.parameters.size());
+  const auto [place, is_new] = parameters_.emplace(&carrier, next);
+  source.parameter = place->second;
+  if (!is_new) return source;
+
+  const Element& owner = *carrier.parent();
+  const NodeDef* def = is_node(owner) ? nodedef_of(owner) : nullptr;
+  const NodeDefInput* input = def == nullptr ? nullptr : def->input(carrier.name());
+  const Element* declared = input == nullptr ? nullptr : input->element;
+  Parameter parameter;
+  parameter.path = element_path(carrier);
+  parameter.type = value.type;
+  if (value.type == Type::color3 || value.type == Type::color4) {
+    parameter.colorspace = carrier.inherited_attribute("colorspace");
+  }
+  parameter.unit = unit;
+  if (def != nullptr) parameter.nodedef = def->name;
+  parameter.input = carrier.name();
+  parameter.ui_name = carrier.attribute("uiname");
+  if (parameter.ui_name.empty() && declared != nullptr) {
+    parameter.ui_name = declared->attribute("uiname");
+  }
+  parameter.ui_min = ui_bound(&carrier, declared, value.type, "uisoftmin", "uimin");
+  parameter.ui_max = ui_bound(&carrier, declared, value.type, "uisoftmax", "uimax");
+  parameter.where = location(carrier);
+  parameter.value = std::move(value);
+  graph_.parameters.push_back(std::move(parameter));
+  return source;
+}
+
+Source Resolver::filename_source(const Element& carrier, const Value& value,
+                                 const Context* context) {
+  Source source;
+  source.kind = Source::Kind::literal;
+  source.value = value;
+  source.colorspace = carrier.inherited_attribute("colorspace");
+  source.document = carrier.document().file_of(carrier);
+  std::string& text = source.value.texts[0];
+  if (text.empty()) return source;
+  text.insert(0, carrier.inherited_attribute("fileprefix"));
+  const auto token = [&](std::string_view name) { return find_token(name, carrier, context); };
+  text = substitute_filename(text, token, options_.frame);
+  return source;
+}
+
+// From the element outwards; out of a graph that implements a node, to that
+// node and its nodedef. The first one found counts.
+std::optional<std::string> Resolver::find_token(std::string_view name, const Element& user,
+                                                const Context* context) const {
+  const auto token_of = [&](const Element& scope) -> const Element* {
+    const Element* token = scope.child(name);
+    return token != nullptr && token->category() == "token" ? token : nullptr;
+  };
+  const Element* at = &user;
+  while (at != nullptr) {
+    if (const Element* token = token_of(*at)) {
+      const std::string_view outer = token->attribute("interfacename");
+      if (outer.empty()) return std::string(token->attribute("value"));
+      name = outer;
+    }
+    const bool leaves = context != nullptr && at == context->graph;
+    const bool is_functional = leaves && context->instance != nullptr;
+    if (is_functional) {
+      const Element* instance = context->instance->element;
+      const Element* token = instance == nullptr ? nullptr : token_of(*instance);
+      if (token == nullptr) token = token_of(*context->def->element);
+      if (token != nullptr && token->attribute("interfacename").empty()) {
+        return std::string(token->attribute("value"));
+      }
+      at = instance == nullptr ? nullptr : instance->parent();
+      if (token != nullptr) name = token->attribute("interfacename");
+      context = context->instance->context;
+      continue;
+    }
+    if (leaves) context = context->parent;
+    at = at->parent();
+  }
+  return std::nullopt;
+}
+
+bool Resolver::check_enum(const NodeDefInput& input, const Result& result) {
+  if (input.type != Type::string || input.enums.empty()) return true;
+  if (result.source.kind != Source::Kind::literal) return true;
+  const std::string& text = result.source.value.texts[0];
+  const std::vector<std::string_view> values = split_list(input.enum_values);
+  for (const auto* list : {&input.enums, &values}) {
+    if (std::find(list->begin(), list->end(), text) != list->end()) return true;
+  }
+  std::string allowed;
+  for (std::string_view word : input.enums) {
+    allowed += (allowed.empty() ? "" : ", ") + std::string(word);
+  }
+  const Element& where = result.carrier != nullptr ? *result.carrier : *input.element;
+  error("bad-enum", where, fmt::format("'{}' does not take this value", input.name), allowed,
+        fmt::format("'{}'", text));
+  return false;
+}
+
+// A uniform input takes values, and constants passed along by nodes
+// (Specification, "Inputs").
+void Resolver::make_uniform(Result& result, const NodeDefInput& input, const Element& user) {
+  Source& source = result.source;
+  while (source.kind == Source::Kind::link) {
+    const GraphNode& node = graph_.nodes[source.node];
+    const GraphInput* from = node.category == "constant" ? node.input("value")
+                             : node.category == "dot"    ? node.input("in")
+                                                         : nullptr;
+    if (from == nullptr) break;
+    Source next = from->source;
+    source = std::move(next);
+  }
+  if (source.kind == Source::Kind::parameter) {
+    source.value = graph_.parameters[source.parameter].value;
+    source.kind = Source::Kind::literal;
+    source.parameter = 0;
+  }
+  if (source.kind != Source::Kind::link) return;
+  const GraphNode& node = graph_.nodes[source.node];
+  const NodeDef* def = definitions_.nodedef(node.nodedef);
+  const Element* output = def == nullptr ? nullptr : def->outputs[source.output].element;
+  if (output != nullptr && output->attribute("uniform") == "true") return;
+  const std::string message = fmt::format("'{}' must not vary over the surface", input.name);
+  const std::string expected = "a value, or constants passed along by dot nodes";
+  if (is_numeric(input.type)) {
+    warning("varying-uniform", user, message, expected, fmt::format("<{}>", node.category));
+    return;
+  }
+  error("varying-uniform", user, message, expected, fmt::format("<{}>", node.category));
+  result.failed = true;
+}
+
+}  // namespace nacre

@@ -1,0 +1,111 @@
+#include "jit/graph/resolver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace nacre {
+
+std::size_t Resolver::KeyHash::operator()(const Key& key) const {
+  const std::hash<const void*> hash;
+  const std::size_t a = hash(key.subject);
+  const std::size_t b = hash(key.context) * 0x9E3779B97F4A7C15u;
+  return a ^ (b >> 7) ^ (std::size_t{key.index} << 3) ^ static_cast<std::size_t>(key.kind);
+}
+
+Resolver::Result Resolver::run(Key key) {
+  if (const auto known = slots_.find(key); known != slots_.end()) return known->second.result;
+  std::vector<Frame> stack;
+  const auto open = [&](const Key& wanted) {
+    slots_[wanted] = {};
+    stack.push_back({wanted, 0, {}, {}});
+  };
+  open(key);
+  while (!stack.empty()) {
+    Frame& frame = stack.back();
+    const std::optional<Key> wanted = step(frame);
+    if (!wanted) {
+      slots_[frame.key] = {true, std::move(frame.result)};
+      stack.pop_back();
+      continue;
+    }
+    frame.waiting_for = *wanted;
+    const auto known = slots_.find(*wanted);
+    if (known == slots_.end()) {
+      open(*wanted);
+    } else if (!known->second.done) {
+      // In a cycle each waits for the next; whoever closes it fails, and the
+      // failure travels back along the stack.
+      report_cycle(stack, *wanted);
+      frame.result.failed = true;
+      slots_[frame.key] = {true, frame.result};
+      stack.pop_back();
+    }
+  }
+  return slots_.at(key).result;
+}
+
+std::optional<Resolver::Key> Resolver::step(Frame& frame) {
+  switch (frame.key.kind) {
+    case Kind::node: return step_node(frame);
+    case Kind::output: return step_output(frame);
+    case Kind::input: return step_input(frame);
+    case Kind::port: return step_port(frame);
+  }
+  return std::nullopt;
+}
+
+void Resolver::report_cycle(const std::vector<Frame>& stack, const Key& again) {
+  const auto first = std::find_if(stack.begin(), stack.end(),
+                                  [&](const Frame& frame) { return frame.key == again; });
+  std::string path;
+  const Element* where = nullptr;
+  std::size_t shown = 0;
+  std::string last;
+  for (auto frame = first; frame != stack.end(); ++frame) {
+    std::string name;
+    if (frame->key.kind == Kind::port) {
+      const auto& port = *static_cast<const Element*>(frame->key.subject);
+      if (where == nullptr) where = &port;
+      name = element_path(port);
+    } else {
+      name = static_cast<const Instance*>(frame->key.subject)->path;
+    }
+    if (name == last) continue;
+    last = name;
+    if (++shown <= 16) path += (path.empty() ? "" : " <- ") + name;
+  }
+  if (shown > 16) path += fmt::format(" <- ({} more)", shown - 16);
+  if (where == nullptr) where = &document_.root();
+  error("cycle", *where, "the connections form a cycle", "", path);
+}
+
+Resolver::Result Resolver::resolve_port(const Element& port, const Context* context) {
+  return run({Kind::port, 0, &port, context});
+}
+
+Resolver::Result Resolver::resolve_node(const Element& node, std::string_view output) {
+  Result failure;
+  failure.failed = true;
+  const Instance* instance = instance_of(node, nullptr);
+  if (instance == nullptr) return failure;
+  const auto index = output_index(*instance->def, output, node);
+  return index ? run({Kind::output, *index, instance, nullptr}) : failure;
+}
+
+void Resolver::error(std::string code, const Element& element, std::string message,
+                     std::string expected, std::string found) {
+  diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
+                     std::move(found));
+}
+
+void Resolver::warning(std::string code, const Element& element, std::string message,
+                       std::string expected, std::string found) {
+  // Inlined graphs meet the same element in many contexts.
+  if (!reported_.emplace(code + element_path(element), true).second) return;
+  diagnostics_.warning(std::move(code), location(element), std::move(message), std::move(expected),
+                       std::move(found));
+}
+
+}  // namespace nacre

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "jit/document/definitions.h"
+#include "jit/graph/build.h"
+#include "jit/graph/graph.h"
+
+namespace nacre {
+
+struct Context;
+
+/// A node as it occurs once in the inlined graph: an element in one context, or
+/// a node that the resolver itself put there (then `element` is null).
+struct Instance {
+  const Element* element = nullptr;
+  const NodeDef* def = nullptr;
+  const Context* context = nullptr;  ///< Where it stands; null at the root.
+  std::string path;
+  const Element* origin = nullptr;  ///< Whose location diagnostics show.
+  /// Inputs of a node without element; others take the nodedef's default.
+  std::vector<std::pair<std::string_view, Source>> inputs;
+};
+
+/// A node graph being looked into. One that implements a nodedef has the
+/// instance it stands for; a compound one has none.
+struct Context {
+  const Element* graph = nullptr;
+  const Instance* instance = nullptr;
+  const NodeDef* def = nullptr;
+  const Context* parent = nullptr;  ///< Context of what its inputs connect to.
+  std::string path;
+};
+
+/// Turns elements into the nodes of a Graph, on demand: asked for one port, it
+/// visits what that port depends on and nothing else. A stack of its own takes
+/// the place of recursion, so that depth is bounded by memory only.
+class Resolver {
+ public:
+  Resolver(const Document& document, const Definitions& definitions, const GraphOptions& options,
+           Diagnostics& diagnostics)
+      : document_(document),
+        definitions_(definitions),
+        options_(options),
+        diagnostics_(diagnostics) {}
+
+  struct Result {
+    bool failed = false;
+    Type type = Type::none;
+    Source source;
+    std::string_view unit;             ///< Still to be converted from; "" if not.
+    const Element* carrier = nullptr;  ///< The element that wrote the literal.
+  };
+
+  /// What an <output> or an unowned <input> in a context comes to.
+  Result resolve_port(const Element& port, const Context* context);
+  /// An output of a root node; "" for its only one.
+  Result resolve_node(const Element& node, std::string_view output);
+  const NodeDef* nodedef_of(const Element& node);
+  const Context* compound_context(const Element& graph, const Context* parent);
+
+  Graph& graph() { return graph_; }
+
+ private:
+  enum class Kind : std::uint8_t { node, output, input, port };
+  /// What is being resolved: an instance's node, output or input `index`, or a
+  /// port element in a context.
+  struct Key {
+    Kind kind;
+    std::uint32_t index;
+    const void* subject;
+    const Context* context;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+  struct Frame {
+    Key key;
+    std::uint32_t stage = 0;
+    Key waiting_for{};
+    Result result;
+  };
+  struct Slot {
+    bool done = false;
+    Result result;
+  };
+
+  // The machine (resolver.cpp).
+  Result run(Key key);
+  std::optional<Key> step(Frame& frame);
+  void report_cycle(const std::vector<Frame>& stack, const Key& again);
+  const Result& waited(const Frame& frame) { return slots_.at(frame.waiting_for).result; }
+
+  // One step of each kind (steps.cpp): what it has to wait for, or nothing when
+  // the frame's result stands.
+  std::optional<Key> step_node(Frame& frame);
+  std::optional<Key> step_output(Frame& frame);
+  std::optional<Key> start_output(Frame& frame, const Instance& instance);
+  std::optional<Key> finish_native_output(Frame& frame, const Instance& instance);
+  std::optional<Key> step_input(Frame& frame);
+  std::optional<Key> start_input(Frame& frame, const Instance& instance, const NodeDefInput& input);
+  std::optional<Key> check_input(Frame& frame, const Instance& instance, const NodeDefInput& input);
+  std::optional<Key> step_port(Frame& frame);
+  std::optional<Key> follow_interface(Frame& frame, const Element& port, std::string_view name,
+                                      const Context* context);
+  std::optional<Key> port_without_source(Frame& frame, const Element& port);
+  void check_port_type(Frame& frame, const Element& port);
+
+  // Instances and contexts (instances.cpp).
+  const Instance* instance_of(const Element& element, const Context* context);
+  const Context* functional_context(const Instance& instance, const Element& graph);
+  Instance& add_instance(const NodeDef& def, std::string path, const Element* origin);
+  const Instance* geomprop_instance(std::string_view name, const Element& user);
+  const Element* input_element(const Instance& instance, std::string_view name) const;
+  std::optional<std::uint32_t> output_index(const NodeDef& def, std::string_view name,
+                                            const Element& user);
+  bool is_native(const NodeDef& def) const;
+
+  // Literals (literals.cpp).
+  std::optional<Key> take_literal(Frame& frame, const Element& carrier, Type type,
+                                  const Context* context);
+  Source literal_or_parameter(const Element& carrier, Value value, std::string_view unit);
+  Source filename_source(const Element& carrier, const Value& value, const Context* context);
+  std::optional<std::string> find_token(std::string_view name, const Element& user,
+                                        const Context* context) const;
+  bool check_enum(const NodeDefInput& input, const Result& result);
+  void make_uniform(Result& result, const NodeDefInput& input, const Element& user);
+
+  // Conversions (conversions.cpp). The key of the converted value, or nothing
+  // when there is nothing to convert.
+  std::optional<Key> convert_colour(const Source& source, Type type, std::string_view space,
+                                    const std::string& path, const Element& user);
+  std::optional<Key> convert_unit(Result& result, const NodeDefInput& input,
+                                  const std::string& path, const Element& user);
+  std::optional<double> unit_factor(std::string_view from, const NodeDefInput* input,
+                                    const Element& user);
+  std::optional<Key> scale(const Source& source, Type type, double factor, const std::string& path,
+                           const Element& user);
+
+  void error(std::string code, const Element& element, std::string message,
+             std::string expected = {}, std::string found = {});
+  void warning(std::string code, const Element& element, std::string message,
+               std::string expected = {}, std::string found = {});
+
+  const Document& document_;
+  const Definitions& definitions_;
+  const GraphOptions& options_;
+  Diagnostics& diagnostics_;
+  Graph graph_;
+
+  std::unordered_map<Key, Slot, KeyHash> slots_;
+  std::deque<Instance> instances_;
+  std::deque<Context> contexts_;
+  std::map<std::pair<const Element*, const Context*>, const Instance*> instance_of_;
+  std::map<std::pair<const Element*, const Context*>, const Context*> compounds_;
+  std::unordered_map<const Instance*, const Context*> functionals_;
+  std::unordered_map<const Element*, const NodeDef*> nodedefs_;
+  std::map<std::string_view, const Instance*> geomprops_;
+  std::unordered_map<const Element*, std::uint32_t> parameters_;
+  std::unordered_map<std::string, bool> reported_;  // warnings given once
+};
+
+}  // namespace nacre

@@ -1,0 +1,345 @@
+// One step of each kind of thing the resolver resolves. A step either names
+// what it has to wait for next or leaves its result in the frame.
+#include <fmt/format.h>
+
+#include "jit/document/value_text.h"
+#include "jit/graph/colorspace.h"
+#include "jit/graph/connection.h"
+#include "jit/graph/resolver.h"
+
+namespace nacre {
+
+namespace {
+
+// Stages of a frame.
+constexpr std::uint32_t start = 0;
+constexpr std::uint32_t received = 1;   // the source is known, still to be checked
+constexpr std::uint32_t converted = 2;  // what was waited for is the result
+
+const Instance& instance_in(const void* subject) { return *static_cast<const Instance*>(subject); }
+
+bool may_be_string(Type wanted, Type found) {
+  return wanted == Type::filename && found == Type::string;
+}
+
+}  // namespace
+
+std::optional<Resolver::Key> Resolver::step_node(Frame& frame) {
+  const Instance& instance = instance_in(frame.key.subject);
+  const NodeDef& def = *instance.def;
+  if (frame.stage < def.inputs.size()) return Key{Kind::input, frame.stage++, &instance, nullptr};
+
+  GraphNode node;
+  node.category = def.category;
+  node.nodedef = def.name;
+  node.path = instance.path;
+  node.where = location(*instance.origin);
+  for (std::uint32_t i = 0; i < def.inputs.size(); ++i) {
+    const Result& result = slots_.at({Kind::input, i, &instance, nullptr}).result;
+    if (result.failed) frame.result.failed = true;
+    node.inputs.push_back({std::string(def.inputs[i].name), def.inputs[i].type, result.source});
+  }
+  for (const NodeDefOutput& output : def.outputs) {
+    node.outputs.push_back({std::string(output.name), output.type,
+                            output.has_default ? output.default_value : Value{}});
+  }
+  if (frame.result.failed) return std::nullopt;
+  if (graph_.nodes.size() >= options_.max_nodes) {
+    if (reported_.emplace("too-many-nodes", true).second) {
+      error("too-many-nodes", *instance.origin, "the graph has too many nodes",
+            fmt::format("at most {}", options_.max_nodes));
+    }
+    frame.result.failed = true;
+    return std::nullopt;
+  }
+  frame.result.source.kind = Source::Kind::link;
+  frame.result.source.node = static_cast<std::uint32_t>(graph_.nodes.size());
+  graph_.nodes.push_back(std::move(node));
+  return std::nullopt;
+}
+
+std::optional<Resolver::Key> Resolver::step_output(Frame& frame) {
+  const Instance& instance = instance_in(frame.key.subject);
+  switch (frame.stage) {
+    case start: return start_output(frame, instance);
+    case received: return finish_native_output(frame, instance);
+    default: {
+      const Type type = instance.def->outputs[frame.key.index].type;
+      frame.result = waited(frame);
+      if (!frame.result.failed && frame.result.type != type) {
+        error("type-mismatch", *instance.origin,
+              fmt::format("the graph of '{}' gives another type than its nodedef says",
+                          instance.def->name),
+              std::string(type_name(type)), std::string(type_name(frame.result.type)));
+        frame.result.failed = true;
+      }
+      return std::nullopt;
+    }
+  }
+}
+
+std::optional<Resolver::Key> Resolver::start_output(Frame& frame, const Instance& instance) {
+  const NodeDef& def = *instance.def;
+  const NodeDefOutput& output = def.outputs[frame.key.index];
+  const Element* graph = definitions_.graph_of(def);
+  if (is_native(def)) {
+    frame.stage = received;
+    return Key{Kind::node, 0, &instance, nullptr};
+  }
+  frame.stage = converted;
+  if (graph != nullptr) {
+    const Element* port = graph->child(output.name);
+    const Context* context = functional_context(instance, *graph);
+    if (context != nullptr && port != nullptr && port->category() == "output") {
+      return Key{Kind::port, 0, port, context};
+    }
+    if (context != nullptr) {
+      error(
+          "missing-output", *graph,
+          fmt::format("the graph lacks an output of the nodedef '{}' that it implements", def.name),
+          fmt::format("output '{}'", output.name));
+    }
+    frame.result.failed = true;
+    return std::nullopt;
+  }
+  warning("no-implementation", *instance.origin,
+          fmt::format("nothing implements '{}': its default is used", def.name));
+  for (std::uint32_t i = 0; i < def.inputs.size(); ++i) {
+    if (!output.defaultinput.empty() && def.inputs[i].name == output.defaultinput) {
+      return Key{Kind::input, i, &instance, nullptr};
+    }
+  }
+  if (!output.default_geomprop.empty()) {
+    if (const Instance* geomprop = geomprop_instance(output.default_geomprop, *instance.origin)) {
+      return Key{Kind::output, 0, geomprop, nullptr};
+    }
+    frame.result.failed = true;
+    return std::nullopt;
+  }
+  frame.result.type = output.type;
+  frame.result.source.value = output.default_value;
+  frame.result.source.kind = is_numeric(output.type) || is_text(output.type)
+                                 ? Source::Kind::literal
+                                 : Source::Kind::unconnected;
+  return std::nullopt;
+}
+
+// A texture node says in which space and unit its file is; what comes out is
+// converted here.
+std::optional<Resolver::Key> Resolver::finish_native_output(Frame& frame,
+                                                            const Instance& instance) {
+  const Result& node = waited(frame);
+  if (node.failed) {
+    frame.result.failed = true;
+    return std::nullopt;
+  }
+  frame.result.type = instance.def->outputs[frame.key.index].type;
+  frame.result.source = node.source;
+  frame.result.source.output = frame.key.index;
+  for (std::uint32_t i = 0; i < instance.def->inputs.size(); ++i) {
+    const NodeDefInput& input = instance.def->inputs[i];
+    if (input.type != Type::filename) continue;
+    const Result& file = slots_.at({Kind::input, i, &instance, nullptr}).result;
+    frame.stage = converted;
+    const Type type = frame.result.type;
+    if (type == Type::color3 || type == Type::color4) {
+      return convert_colour(frame.result.source, type, file.source.colorspace, instance.path,
+                            *instance.origin);
+    }
+    const bool scales = type == Type::float_ || type == Type::vector2 || type == Type::vector3 ||
+                        type == Type::vector4;
+    if (!scales || file.unit.empty()) return std::nullopt;
+    const auto factor = unit_factor(file.unit, nullptr, *instance.origin);
+    frame.result.failed = !factor;
+    if (!factor || *factor == 1) return std::nullopt;
+    return scale(frame.result.source, type, *factor, instance.path, *instance.origin);
+  }
+  return std::nullopt;
+}
+
+std::optional<Resolver::Key> Resolver::step_input(Frame& frame) {
+  const Instance& instance = instance_in(frame.key.subject);
+  const NodeDefInput& input = instance.def->inputs[frame.key.index];
+  if (frame.stage == start) return start_input(frame, instance, input);
+  if (frame.stage == received) {
+    frame.result = waited(frame);
+    return check_input(frame, instance, input);
+  }
+  frame.result = waited(frame);
+  return std::nullopt;
+}
+
+std::optional<Resolver::Key> Resolver::start_input(Frame& frame, const Instance& instance,
+                                                   const NodeDefInput& input) {
+  Result& result = frame.result;
+  result.type = input.type;
+  frame.stage = converted;
+  for (const auto& [name, source] : instance.inputs) {
+    if (name != input.name) continue;
+    result.source = source;
+    return std::nullopt;
+  }
+  if (const Element* element = input_element(instance, input.name)) {
+    frame.stage = received;
+    return Key{Kind::port, 0, element, instance.context};
+  }
+  if (!input.defaultgeomprop.empty()) {
+    const Instance* geomprop = geomprop_instance(input.defaultgeomprop, *instance.origin);
+    result.failed = geomprop == nullptr;
+    if (geomprop == nullptr) return std::nullopt;
+    return Key{Kind::output, 0, geomprop, nullptr};
+  }
+  if (input.type == Type::none) {
+    error("unsupported-type", *instance.origin,
+          fmt::format("input '{}' has a type that is not supported", input.name), "",
+          std::string(input.type_text));
+    result.failed = true;
+    return std::nullopt;
+  }
+  const bool has_literal = is_numeric(input.type) || is_text(input.type) || is_array(input.type);
+  if (!has_literal) return std::nullopt;
+  result.source.kind = Source::Kind::literal;
+  result.source.value = input.default_value;
+  result.carrier = input.element;
+  if (input.type == Type::filename) {
+    result.source = filename_source(*input.element, input.default_value, nullptr);
+  }
+  return convert_colour(result.source, input.type, input.colorspace,
+                        instance.path + '/' + std::string(input.name), *instance.origin);
+}
+
+std::optional<Resolver::Key> Resolver::check_input(Frame& frame, const Instance& instance,
+                                                   const NodeDefInput& input) {
+  Result& result = frame.result;
+  if (result.failed) return std::nullopt;
+  const Element& element = *input_element(instance, input.name);
+  if (may_be_string(input.type, result.type)) {
+    result.type = input.type;
+    result.source.value.type = input.type;
+  }
+  if (result.type != input.type) {
+    error("type-mismatch", element, "what is connected here has another type",
+          std::string(type_name(input.type)), std::string(type_name(result.type)));
+    result.failed = true;
+    return std::nullopt;
+  }
+  result.failed = !check_enum(input, result);
+  if (input.uniform) make_uniform(result, input, element);
+  frame.stage = converted;
+  return convert_unit(result, input, instance.path + '/' + std::string(input.name), element);
+}
+
+std::optional<Resolver::Key> Resolver::step_port(Frame& frame) {
+  const Element& port = *static_cast<const Element*>(frame.key.subject);
+  const Context* context = frame.key.context;
+  if (frame.stage == received) {
+    frame.result = waited(frame);
+    check_port_type(frame, port);
+    return std::nullopt;
+  }
+  if (frame.stage == converted) {
+    const Element* carrier = frame.result.carrier;
+    frame.result = waited(frame);
+    frame.result.carrier = carrier;
+    return std::nullopt;
+  }
+  frame.stage = received;
+  const Connection connection = find_connection(port, diagnostics_);
+  switch (connection.kind) {
+    case Connection::Kind::invalid: frame.result.failed = true; return std::nullopt;
+    case Connection::Kind::none: return port_without_source(frame, port);
+    case Connection::Kind::interface:
+      return follow_interface(frame, port, connection.output, context);
+    case Connection::Kind::node: {
+      const Instance* instance = instance_of(*connection.target, context);
+      const auto index = instance == nullptr
+                             ? std::nullopt
+                             : output_index(*instance->def, connection.output, port);
+      frame.result.failed = !index;
+      if (!index) return std::nullopt;
+      return Key{Kind::output, *index, instance, nullptr};
+    }
+    case Connection::Kind::output: {
+      const Element& owner = *connection.target->parent();
+      if (owner.parent() == nullptr) return Key{Kind::port, 0, connection.target, nullptr};
+      const Context* outside = owner.parent()->parent() == nullptr ? nullptr : context;
+      return Key{Kind::port, 0, connection.target, compound_context(owner, outside)};
+    }
+    case Connection::Kind::value: {
+      const auto type = parse_type(port.attribute("type"));
+      if (!type) {
+        error("unsupported-type", port, "the type is not supported", "a standard type",
+              fmt::format("'{}'", port.attribute("type")));
+        frame.result.failed = true;
+        return std::nullopt;
+      }
+      frame.stage = converted;
+      return take_literal(frame, port, *type, context);
+    }
+  }
+  return std::nullopt;
+}
+
+// A name inside a graph stands for the input of that graph, or, if the graph
+// implements a nodedef, for the input of the node it stands for.
+std::optional<Resolver::Key> Resolver::follow_interface(Frame& frame, const Element& port,
+                                                        std::string_view name,
+                                                        const Context* context) {
+  if (context != nullptr && context->instance != nullptr) {
+    const std::vector<NodeDefInput>& inputs = context->def->inputs;
+    for (std::uint32_t i = 0; i < inputs.size(); ++i) {
+      if (inputs[i].name == name) return Key{Kind::input, i, context->instance, nullptr};
+    }
+  } else {
+    const Element& graph = context == nullptr ? port.document().root() : *context->graph;
+    const Element* input = graph.child(name);
+    if (input != nullptr && input->category() == "input") {
+      return Key{Kind::port, 0, input, context == nullptr ? nullptr : context->parent};
+    }
+  }
+  error("unknown-interface", port, "the graph around it has no such input",
+        "the name of an input of the graph", fmt::format("'{}'", name));
+  frame.result.failed = true;
+  return std::nullopt;
+}
+
+// Only graph interfaces and outputs come here: a node's input without a source
+// takes the nodedef's default.
+std::optional<Resolver::Key> Resolver::port_without_source(Frame& frame, const Element& port) {
+  const auto type = parse_type(port.attribute("type"));
+  frame.result.type = type.value_or(Type::none);
+  frame.stage = converted;
+  if (port.category() == "output") {
+    error("unconnected-output", port, "the output is not connected to anything",
+          "nodename or nodegraph");
+    frame.result.failed = true;
+    return std::nullopt;
+  }
+  const std::string_view geomprop_name = port.attribute("defaultgeomprop");
+  if (!geomprop_name.empty()) {
+    const Instance* geomprop = geomprop_instance(geomprop_name, port);
+    frame.result.failed = geomprop == nullptr;
+    if (geomprop == nullptr) return std::nullopt;
+    return Key{Kind::output, 0, geomprop, nullptr};
+  }
+  if (!is_numeric(frame.result.type) && !is_text(frame.result.type)) return std::nullopt;
+  frame.result.source.kind = Source::Kind::literal;
+  frame.result.source.value = zero_value(frame.result.type);
+  return std::nullopt;
+}
+
+void Resolver::check_port_type(Frame& frame, const Element& port) {
+  Result& result = frame.result;
+  if (result.failed) return;
+  const Type type = parse_type(port.attribute("type")).value_or(Type::none);
+  if (may_be_string(type, result.type)) {
+    result.type = type;
+    result.source.value.type = type;
+  }
+  if (result.type == type) return;
+  error("type-mismatch", port, "what is connected here has another type",
+        std::string(port.attribute("type")), std::string(type_name(result.type)));
+  result.failed = true;
+}
+
+}  // namespace nacre
