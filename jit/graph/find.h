@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "jit/document/definitions.h"
+#include "jit/document/document.h"
+#include "runtime/diagnostic.h"
+#include "runtime/type.h"
+
+namespace nacre {
+
+struct FoundOutput {
+  std::string name;  ///< As build_graph takes it: "NG_marble/out", "out".
+  Type type = Type::none;
+  SourceLocation where;
+};
+
+/// The outputs of compound node graphs, then those at the root, in document
+/// order. Graphs that implement nodedefs are not among them.
+std::vector<FoundOutput> find_outputs(const Document& document);
+
+struct FoundMaterial {
+  std::string name;
+  /// Nodes or graphs the shader inputs name; "" where nothing is connected.
+  std::string surfaceshader;
+  std::string backsurfaceshader;
+  std::string displacementshader;
+  std::string volumeshader;
+  SourceLocation where;
+};
+
+/// Root nodes of type material, in document order.
+std::vector<FoundMaterial> find_materials(const Document& document);
+
+/// Names of root nodes of a shader type that nothing at the root reads.
+std::vector<FoundOutput> find_loose_shaders(const Document& document,
+                                            const Definitions& definitions);
+
+struct Assignment {
+  std::string material;
+  std::string geom;        ///< Geometry expression, geomprefix applied; "" if only a collection.
+  std::string collection;  ///< Name of a <collection>; "" if none.
+  bool exclusive = true;
+};
+
+struct Look {
+  std::string name;
+  /// Inherited ones first; where two match, the later one wins.
+  std::vector<Assignment> assignments;
+};
+
+/// All looks with what they inherit. Reports looks that inherit from nowhere or
+/// in a circle.
+std::vector<Look> find_looks(const Document& document, Diagnostics& diagnostics);
+
+}  // namespace nacre
