@@ -1,5 +1,6 @@
 #include "runtime/texture/image_io.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -7,9 +8,11 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <vector>
 
 #include "runtime/texture/image_format.h"
+#include "runtime/texture/png_chunks.h"
 
 namespace nacre {
 
@@ -83,7 +86,8 @@ bool within(int value, int limit) { return value >= 1 && value <= limit; }
 
 /// The header's sizes against the limits, before anything is allocated from them.
 std::optional<Diagnostic> check_header(const OIIO::ImageSpec& spec, const std::string& path,
-                                       const ImageInfo& info, const ImageLimits& limits) {
+                                       const ImageInfo& info, const ImageLimits& limits,
+                                       std::uint64_t file_bytes) {
   if (!within(spec.width, limits.max_size) || !within(spec.height, limits.max_size) ||
       !within(spec.full_width, limits.max_size) || !within(spec.full_height, limits.max_size)) {
     return image_error("image-too-large", path, "the size of the image is outside the limits",
@@ -114,9 +118,7 @@ std::optional<Diagnostic> check_header(const OIIO::ImageSpec& spec, const std::s
                        fmt::format("at most {} bytes of pixels", limits.max_bytes),
                        fmt::format("{}", bytes));
   }
-  std::error_code code;
-  const std::uint64_t file_bytes = std::filesystem::file_size(path, code);
-  if (!code && bytes / limits.max_expansion > file_bytes) {
+  if (bytes / limits.max_expansion > file_bytes) {
     return image_error("broken-image", path, "the header promises more than the file can hold",
                        fmt::format("at most {} bytes of pixels", file_bytes * limits.max_expansion),
                        fmt::format("{}", bytes));
@@ -141,9 +143,26 @@ OIIO::ImageSpec reader_options() {
 }  // namespace
 
 struct ImageReader::Open {
+  std::string bytes;  ///< Of a PNG file; others are read in place.
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
 };
+
+std::optional<Diagnostic> ImageReader::take_png(Open& opened, std::uint64_t file_bytes) const {
+  std::ifstream stream(path_, std::ios::binary);
+  std::string file(static_cast<std::size_t>(file_bytes), '\0');
+  stream.read(file.data(), static_cast<std::streamsize>(file.size()));
+  file.resize(static_cast<std::size_t>(stream.gcount()));
+  std::string reason;
+  auto essential = essential_png(file, reason);
+  if (!essential) return broken(path_, reason);
+  opened.bytes = std::move(*essential);
+  opened.memory =
+      std::make_unique<OIIO::Filesystem::IOMemReader>(opened.bytes.data(), opened.bytes.size());
+  opened.input->set_ioproxy(opened.memory.get());
+  return std::nullopt;
+}
 
 ImageReader::ImageReader() = default;
 ImageReader::~ImageReader() = default;
@@ -155,10 +174,20 @@ std::optional<Diagnostic> ImageReader::open(const std::string& path, const std::
   Diagnostic error;
   const auto format = probe_image(path, error);
   if (!format) return error;
+  std::error_code code;
+  const std::uint64_t file_bytes = std::filesystem::file_size(path, code);
+  if (code || file_bytes > limits.max_file_bytes) {
+    return image_error("image-too-large", path, "the file is too large",
+                       fmt::format("at most {} bytes", limits.max_file_bytes),
+                       fmt::format("{}", file_bytes));
+  }
 
   auto opened = std::make_unique<Open>();
   opened->input = OIIO::ImageInput::create(std::string(reader_name(*format)));
   if (!opened->input) return broken(path, OIIO::geterror());
+  if (*format == ImageFormat::png) {
+    if (auto problem = take_png(*opened, file_bytes)) return problem;
+  }
   OIIO::ImageInput& input = *opened->input;
   if (!input.open(path, opened->spec, reader_options())) return broken(path, input.geterror());
   if (!select_layer(input, layer, info_)) {
@@ -174,7 +203,7 @@ std::optional<Diagnostic> ImageReader::open(const std::string& path, const std::
   info_.height = spec.full_height;
   info_.channels = spec.nchannels > 0 ? run_length(spec, info_.first_channel) : 0;
   info_.samples = sample_type(spec.format);
-  if (auto problem = check_header(spec, path, info_, limits)) return problem;
+  if (auto problem = check_header(spec, path, info_, limits, file_bytes)) return problem;
   open_ = std::move(opened);
   return std::nullopt;
 }
@@ -209,7 +238,8 @@ std::optional<Diagnostic> ImageReader::read(const std::function<void(int, const 
                                spec.z + 1, first, last, OIIO::TypeFloat, chunk.data())
             : input.read_scanlines(info_.subimage, 0, y, end, spec.z, first, last, OIIO::TypeFloat,
                                    chunk.data());
-    if (!good) return broken(path_, input.geterror());
+    // The TIFF reader says yes, and leaves an error behind, when a strip is cut short.
+    if (!good || input.has_error()) return broken(path_, input.geterror());
     blank_until(y);
     for (int line = std::max(y, y_begin); line < std::min(end, y_end); ++line, ++next) {
       const float* samples = &chunk[static_cast<std::size_t>(line - y) * data_row];

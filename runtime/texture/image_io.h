@@ -14,6 +14,7 @@ namespace nacre {
 struct ImageLimits {
   int max_size = 16384;                              ///< Of either side; at most 16384.
   std::uint64_t max_bytes = std::uint64_t{2} << 30;  ///< Decoded pixels of the part that is read.
+  std::uint64_t max_file_bytes = std::uint64_t{2} << 30;
   /// Decoded bytes for each byte of the file: more is a header that lies. Deflate reaches
   /// 1032, LZW under 4096.
   std::uint64_t max_expansion = 8192;
@@ -56,6 +57,8 @@ class ImageReader {
 
  private:
   struct Open;
+  std::optional<Diagnostic> take_png(Open& opened, std::uint64_t file_bytes) const;
+
   std::unique_ptr<Open> open_;
   std::string path_;
   ImageInfo info_;
