@@ -1,11 +1,11 @@
-# nacre_units(TARGET LIST FUNCTION): the node bodies named in a text file, one
-# sorted line each:
+# nacre_units(TARGET LIST FUNCTION PREFIX): the node bodies named in a text file,
+# one sorted line each:
 #
 #     folder/category          [replaces]
 #
-# adds folder/category.cpp to the target and the body, `void record_<category>(NodeCall&)`,
+# adds folder/category.cpp to the target and the body, `void <PREFIX>_<category>(NodeCall&)`,
 # to the table that FUNCTION returns. "replaces" prefers it to the data library's node graph.
-function(nacre_units target list function)
+function(nacre_units target list function prefix)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
   file(STRINGS ${list} lines REGEX "^[a-z]")
   set(sorted ${lines})
@@ -27,8 +27,8 @@ function(nacre_units target list function)
     endif()
     get_filename_component(category ${path} NAME)
     target_sources(${target} PRIVATE ${path}.cpp)
-    string(APPEND declarations "void record_${category}(NodeCall& call);\n")
-    string(APPEND rows "      {\"${category}\", record_${category}, ${replaces}},\n")
+    string(APPEND declarations "void ${prefix}_${category}(NodeCall& call);\n")
+    string(APPEND rows "      {\"${category}\", ${prefix}_${category}, ${replaces}},\n")
   endforeach()
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp CONTENT
 "// Written by CMake from @list@.

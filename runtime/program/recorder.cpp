@@ -122,7 +122,9 @@ Ref Recorder::emit(Op op, std::span<const Ref> operands, std::uint32_t imm) {
 Ref Recorder::keep(Ref x) {
   if (!is_varying(x)) return x;
   assert(open_.size() == 1 && open_.back().regions.size() == 1);
-  if (program_.entry().code[x.id].op == Op::keep) return x;
+  // A kept value, or an input that every kernel can load by itself.
+  const Op op = program_.entry().code[x.id].op;
+  if (op == Op::keep || op == Op::input) return x;
   if (const auto found = keeps_.find(x.id); found != keeps_.end()) {
     return {this, found->second, x.type};
   }
@@ -196,6 +198,8 @@ void Recorder::begin_if(Ref mask) { open_region(Op::if_any, mask, 0); }
 
 Ref Recorder::merge(Ref inner, Ref outer) {
   assert(inner.type == outer.type);
+  const Ref both[]{inner, outer};
+  if (const std::optional<Ref> equal = simplify(Op::merge, both)) return *equal;
   Instruction instruction = leaf(Op::merge, inner.type, 0);
   instruction.count = 2;
   instruction.operands = {materialize(inner), materialize(outer), no_value};

@@ -1,0 +1,222 @@
+#include "pbs/kernels.h"
+
+#include "runtime/node/geometry.h"
+#include "runtime/value/control.h"
+
+namespace nacre {
+
+namespace {
+
+/// A lobe as the kernels use it.
+struct Term {
+  LobePtr lobe;
+  Color3 weight;
+  Float probability;  ///< With which `sample` picks it.
+};
+
+/// A pair of directions evaluated over all lobes.
+struct Total {
+  Color3 f = Color3(0.0f);
+  Float pdf = 0.0f;
+};
+
+class SurfaceRecorder {
+ public:
+  SurfaceRecorder(Recorder& recorder, const Surface& surface, Accuracy accuracy,
+                  const KernelRequest& request)
+      : recorder_(recorder), surface_(surface), request_(request) {
+    view_ = {.recorder = &recorder,
+             .accuracy = accuracy,
+             .wo = view_direction(recorder),
+             .thin_walled = surface.thin_walled};
+  }
+
+  SurfaceKernels run() {
+    terms_ = select_lobes(view_, true);
+    for (const Term& term : terms_) kernels_.lobes.emplace_back(term.lobe->name());
+    if (!terms_.empty()) {
+      record_evaluate();
+      record_sample();
+      record_albedo();
+    } else {
+      kernels_.manifest.push_back("evaluate, sample, albedo: no lobe has a weight");
+    }
+    record_emission();
+    record_opacity();
+    return std::move(kernels_);
+  }
+
+ private:
+  /// The lobes seen from `view`, with weights and probabilities. For the real
+  /// view direction they are kept, and what is left out goes to the manifest.
+  std::vector<Term> select_lobes(const View& view, bool from_viewer) {
+    std::vector<WeightedLobe> lobes;
+    if (surface_.bsdf != nullptr) surface_.bsdf->flatten(view, Color3(1.0f), lobes);
+    std::vector<Term> terms;
+    Float total = 0.0f;
+    for (const WeightedLobe& each : lobes) {
+      if ((each.lobe->kinds() & request_.lobes) == 0) {
+        if (from_viewer) note(*each.lobe, "of a kind that was not requested");
+        continue;
+      }
+      Term term{each.lobe, max(each.weight, Color3(0.0f)), Float(0.0f)};
+      if (request_.lobe_mask) term.weight = masked(*each.lobe, term.weight);
+      term.probability = max_component(term.weight * each.lobe->albedo(view));
+      // A weight of NaN must not silence the other lobes.
+      term.probability = select(term.probability > 0.0f, term.probability, 0.0f);
+      total = total + term.probability;
+      terms.push_back(std::move(term));
+    }
+    const Float scale = select(total > 0.0f, 1.0f / total, 0.0f);
+    for (Term& term : terms) {
+      term.probability = terms.size() == 1 ? select(total > 0.0f, Float(1.0f), Float(0.0f))
+                                           : term.probability * scale;
+      if (!from_viewer) continue;
+      term.weight = keep(recorder_, term.weight);
+      term.probability = keep(recorder_, term.probability);
+    }
+    return terms;
+  }
+
+  Color3 masked(const Lobe& lobe, Color3 weight) {
+    const Int mask(recorder_.parameter("lobe_mask", Scalar::i32, lobe_all));
+    return select((mask & Int(lobe.kinds())) == Int(0), Color3(0.0f), weight);
+  }
+
+  void note(const Lobe& lobe, std::string_view reason) {
+    kernels_.manifest.push_back(std::string(lobe.name()) + ": " + std::string(reason));
+  }
+
+  /// All lobes along (view.wo, wi).
+  Total evaluate(const View& view, const std::vector<Term>& terms, Float3 wi) {
+    Total total;
+    for (const Term& term : terms) {
+      const LobeValue none{.f = Color3(0.0f), .pdf = 0.0f};
+      const LobeValue value = if_any(term.probability > 0.0f, none,
+                                     [&] { return term.lobe->evaluate(view, wi); });
+      total.f = fma(term.weight, value.f, total.f);
+      total.pdf = fma(term.probability, value.pdf, total.pdf);
+    }
+    return total;
+  }
+
+  /// The density of wo given wi: everything again, seen from wi.
+  Float reverse_pdf(Float3 wi) {
+    View reversed = view_;
+    reversed.wo = wi;
+    return evaluate(reversed, select_lobes(reversed, false), view_.wo).pdf;
+  }
+
+  void record_evaluate() {
+    const Float3 wi = channel3(recorder_, "wi");
+    const Total total = evaluate(view_, terms_, wi);
+    kernels_.evaluate = {{"f.x", total.f.x.ref()},
+                         {"f.y", total.f.y.ref()},
+                         {"f.z", total.f.z.ref()},
+                         {"pdf", total.pdf.ref()}};
+    if (request_.reverse_pdf) {
+      kernels_.evaluate.push_back({"pdf_reverse", reverse_pdf(wi).ref()});
+    }
+  }
+
+  void record_sample() {
+    const Float3 u = channel3(recorder_, "u");
+    LobeSample chosen{.wi = Float3(0.0f, 0.0f, 1.0f), .valid = false};
+    Int lobe = -1;
+    Color3 weight = Color3(1.0f);
+    Float probability = 1.0f;
+    Float below = 0.0f;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      const Term& term = terms_[i];
+      const Float above = i + 1 == terms_.size() ? Float(2.0f) : below + term.probability;
+      const Bool mine = (u.z >= below) & (u.z < above) & (term.probability > 0.0f);
+      // The number that chose the lobe is uniform again within its interval.
+      const Float again = terms_.size() == 1
+                              ? u.z
+                              : min(max((u.z - below) / term.probability, 0.0f), 0x1.fffffep-1f);
+      chosen = if_any(mine, chosen, [&] {
+        return term.lobe->sample(view_, {u.x, u.y, again});
+      });
+      lobe = select(mine, Int(static_cast<int>(i)), lobe);
+      weight = select(mine, term.weight, weight);
+      probability = select(mine, term.probability, probability);
+      below = below + term.probability;
+    }
+    finish_sample(chosen, lobe, weight, probability);
+  }
+
+  void finish_sample(const LobeSample& chosen, Int lobe, Color3 weight, Float probability) {
+    const Total total = evaluate(view_, terms_, chosen.wi);
+    const Bool smooth = chosen.valid & !chosen.delta & (total.pdf > 0.0f);
+    const Bool delta = chosen.valid & chosen.delta & (chosen.delta_probability > 0.0f);
+    const Bool valid = smooth | delta;
+    const Float inverse = 1.0f / total.pdf;
+    const Color3 ratio = select(smooth, total.f * Color3(inverse), Color3(0.0f));
+    const Color3 discrete = chosen.delta_weight * weight * Color3(1.0f / probability);
+    const Color3 out = select(delta, discrete, ratio);
+    const Float pdf = select(delta, chosen.delta_probability * probability,
+                             select(smooth, total.pdf, 0.0f));
+    const Float3 wi = chosen.wi;
+    const Float3 n = channel3(recorder_, "N");
+    const Bool crosses = dot(n, wi) * dot(n, view_.wo) < 0.0f;
+    const Int flags = select(valid, Int(sample_valid), Int(0)) |
+                      select(delta, Int(sample_delta), Int(0)) |
+                      select(valid & crosses, Int(sample_transmission), Int(0));
+    kernels_.sample = {{"wi.x", wi.x.ref()},        {"wi.y", wi.y.ref()},
+                       {"wi.z", wi.z.ref()},        {"weight.x", out.x.ref()},
+                       {"weight.y", out.y.ref()},   {"weight.z", out.z.ref()},
+                       {"pdf", pdf.ref()},          {"lobe", lobe.ref()},
+                       {"flags", flags.ref()}};
+    if (request_.reverse_pdf) {
+      const Float reverse = select(delta, pdf, select(smooth, reverse_pdf(wi), Float(0.0f)));
+      kernels_.sample.push_back({"pdf_reverse", reverse.ref()});
+    }
+  }
+
+  void record_albedo() {
+    Color3 total = Color3(0.0f);
+    for (const Term& term : terms_) total = fma(term.weight, term.lobe->albedo(view_), total);
+    kernels_.albedo = {{"albedo.x", total.x.ref()},
+                       {"albedo.y", total.y.ref()},
+                       {"albedo.z", total.z.ref()}};
+  }
+
+  void record_emission() {
+    const Color3 radiance =
+        surface_.edf == nullptr ? Color3(0.0f) : surface_.edf->radiance(view_);
+    if (is_zero(radiance)) {
+      kernels_.manifest.push_back("emission: always black");
+      return;
+    }
+    kernels_.emission = {{"emission.x", radiance.x.ref()},
+                         {"emission.y", radiance.y.ref()},
+                         {"emission.z", radiance.z.ref()}};
+  }
+
+  void record_opacity() {
+    if (surface_.opacity.is_constant(1.0f) && is_zero(surface_.transmission)) {
+      kernels_.manifest.push_back("opacity: always opaque");
+      return;
+    }
+    kernels_.opacity = {{"opacity", surface_.opacity.ref()},
+                        {"transmission.x", surface_.transmission.x.ref()},
+                        {"transmission.y", surface_.transmission.y.ref()},
+                        {"transmission.z", surface_.transmission.z.ref()}};
+  }
+
+  Recorder& recorder_;
+  const Surface& surface_;
+  const KernelRequest& request_;
+  View view_;
+  std::vector<Term> terms_;
+  SurfaceKernels kernels_;
+};
+
+}  // namespace
+
+SurfaceKernels record_kernels(Recorder& recorder, const Surface& surface, Accuracy accuracy,
+                              const KernelRequest& request) {
+  return SurfaceRecorder(recorder, surface, accuracy, request).run();
+}
+
+}  // namespace nacre

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pbs/surface.h"
+#include "runtime/program/slice.h"
+
+namespace nacre {
+
+/// What a host wants of a surface's kernels; only this is recorded.
+struct KernelRequest {
+  std::int32_t lobes = lobe_all;  ///< LobeKind bits; others are left out for good.
+  bool lobe_mask = false;         ///< Lobes can be switched off by the slot "lobe_mask" too.
+  bool reverse_pdf = false;       ///< The density of wo given wi as well.
+};
+
+/// The recorded entry points of one surface: named values for `slice`, all of
+/// one recording. Empty: that kernel has nothing to compute.
+///
+///   evaluate  in:  wi.*, state, geometry
+///             out: f.x f.y f.z (f |cos wi|), pdf [, pdf_reverse]
+///   sample    in:  u.x u.y u.z, state, geometry
+///             out: wi.x wi.y wi.z, weight.x .y .z (f |cos| / pdf), pdf
+///                  [, pdf_reverse], lobe (i32: which), flags (i32: SampleFlag)
+///   albedo    out: albedo.x .y .z     fraction of light that scatters, at wo
+///   emission  out: emission.x .y .z   radiance towards wo
+///   opacity   out: opacity, transmission.x .y .z: of a ray that meets the
+///             surface, 1 - opacity + opacity * transmission goes straight on
+struct SurfaceKernels {
+  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity;
+  /// One line for each thing that was left out, with the reason.
+  std::vector<std::string> manifest;
+  /// Names of the lobes; `lobe` counts in this order.
+  std::vector<std::string> lobes;
+};
+
+enum SampleFlag : std::int32_t {
+  sample_valid = 1,         ///< Else weight and pdfs are 0.
+  sample_delta = 2,         ///< pdf is a discrete probability; evaluate gives 0.
+  sample_transmission = 4,  ///< wi is on the other side of the surface.
+};
+
+/// Records the kernels of `surface`. Everything in `surface` must have been
+/// recorded on `recorder`, at top level.
+SurfaceKernels record_kernels(Recorder& recorder, const Surface& surface, Accuracy accuracy,
+                              const KernelRequest& request);
+
+}  // namespace nacre

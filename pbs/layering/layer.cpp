@@ -1,0 +1,12 @@
+#include "pbs/bsdf.h"
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+/// layer: top over base, base scaled by what top lets pass. MaterialX PBS 1.39,
+/// "layer". Energy-conserving, not reciprocal: the scale depends on wo alone.
+void record_closure_layer(NodeCall& call) {
+  call.set(std::make_shared<LayerBsdf>(as_bsdf(call.closure("top")), as_bsdf(call.closure("base"))));
+}
+
+}  // namespace nacre

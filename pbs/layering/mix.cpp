@@ -1,0 +1,59 @@
+#include "pbs/bsdf.h"
+#include "pbs/edf.h"
+#include "pbs/surface.h"
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+namespace {
+
+class MixEdf final : public Edf {
+ public:
+  MixEdf(EdfPtr fg, EdfPtr bg, Float mix) : fg_(std::move(fg)), bg_(std::move(bg)), mix_(mix) {}
+  Color3 radiance(const View& view) const override {
+    const Color3 fg = fg_ == nullptr ? Color3(0.0f) : fg_->radiance(view);
+    const Color3 bg = bg_ == nullptr ? Color3(0.0f) : bg_->radiance(view);
+    return weigh(mix_, fg) + weigh(1.0f - mix_, bg);
+  }
+
+ private:
+  EdfPtr fg_, bg_;
+  Float mix_;
+};
+
+/// An unconnected shader: present, black.
+SurfacePtr or_black(SurfacePtr surface) {
+  return surface != nullptr ? std::move(surface) : std::make_shared<Surface>();
+}
+
+std::shared_ptr<Surface> mix_surfaces(SurfacePtr fg, SurfacePtr bg, Float mix) {
+  auto surface = std::make_shared<Surface>();
+  surface->bsdf = std::make_shared<MixBsdf>(fg->bsdf, bg->bsdf, mix);
+  if (fg->edf != nullptr || bg->edf != nullptr) {
+    surface->edf = std::make_shared<MixEdf>(fg->edf, bg->edf, mix);
+  }
+  surface->opacity = lerp(bg->opacity, fg->opacity, mix);
+  surface->transmission = lerp(bg->transmission, fg->transmission, mix);
+  // PBS 1.39, "Surfaces": if either is thin-walled, both are.
+  surface->thin_walled = fg->thin_walled | bg->thin_walled;
+  return surface;
+}
+
+}  // namespace
+
+/// mix of closures: fg in proportion mix, bg in 1 - mix, mix clamped to [0, 1].
+/// MaterialX PBS 1.39, "mix"; of surface shaders, their closures and opacities.
+void record_closure_mix(NodeCall& call) {
+  const Float mix = keep(call.recorder(), saturate(call.number("mix")));
+  const ClosurePtr& fg = call.closure("fg");
+  const ClosurePtr& bg = call.closure("bg");
+  switch (call.out_type()) {
+    case Type::edf: call.set(std::make_shared<MixEdf>(as_edf(fg), as_edf(bg), mix)); break;
+    case Type::surfaceshader:
+      call.set(mix_surfaces(or_black(as_surface(fg)), or_black(as_surface(bg)), mix));
+      break;
+    default: call.set(std::make_shared<MixBsdf>(as_bsdf(fg), as_bsdf(bg), mix)); break;
+  }
+}
+
+}  // namespace nacre

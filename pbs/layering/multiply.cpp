@@ -1,0 +1,38 @@
+#include "pbs/bsdf.h"
+#include "pbs/edf.h"
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+namespace {
+
+class MultiplyEdf final : public Edf {
+ public:
+  MultiplyEdf(EdfPtr in1, Color3 tint) : in1_(std::move(in1)), tint_(tint) {}
+  Color3 radiance(const View& view) const override {
+    return in1_ == nullptr || is_zero(tint_) ? Color3(0.0f) : in1_->radiance(view) * tint_;
+  }
+
+ private:
+  EdfPtr in1_;
+  Color3 tint_;
+};
+
+}  // namespace
+
+/// multiply of a closure by a float or colour. MaterialX PBS 1.39, "multiply".
+/// For a BSDF the factor is clamped to [0, 1], as the data library's own
+/// implementations do; an EDF's only from below.
+void record_closure_multiply(NodeCall& call) {
+  const Recorded& factor = call.in("in2");
+  const Color3 tint =
+      factor.parts.size() == 1 ? Color3(factor.number()) : call.vector3("in2");
+  if (call.out_type() == Type::edf) {
+    call.set(std::make_shared<MultiplyEdf>(as_edf(call.closure("in1")), max(tint, Color3(0.0f))));
+  } else {
+    call.set(std::make_shared<MultiplyBsdf>(as_bsdf(call.closure("in1")),
+                                            keep(call.recorder(), saturate(tint))));
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "pbs/view.h"
+
+namespace nacre {
+
+/// What a host may ask for or switch off.
+enum LobeKind : std::int32_t {
+  lobe_diffuse_reflection = 1 << 0,
+  lobe_glossy_reflection = 1 << 1,
+  lobe_diffuse_transmission = 1 << 2,
+  lobe_glossy_transmission = 1 << 3,
+  lobe_all = 0xf,
+};
+
+/// A lobe seen along one pair of directions.
+struct LobeValue {
+  Color3 f;   ///< Scattering function times |cos(wi)|; finite, at least 0.
+  Float pdf;  ///< Of wi, by solid angle, given wo; 0 where the lobe does not scatter.
+};
+
+struct LobeSample {
+  Float3 wi;           ///< Unit, world space; anything where not valid.
+  Bool valid;          ///< False: the sample is lost (its energy is, too).
+  Bool delta = false;  ///< wi is one of finitely many directions; evaluate() gives 0 there.
+  /// Only where delta: f cos / probability of the choice made with u.
+  Color3 delta_weight = Color3(0.0f);
+  /// Only where delta: that probability.
+  Float delta_probability = 0.0f;
+};
+
+template <class F>
+void visit(LobeValue& value, F&& f) {
+  visit(value.f, f), f(value.pdf);
+}
+template <class F>
+void visit(LobeSample& sample, F&& f) {
+  visit(sample.wi, f), f(sample.valid), f(sample.delta);
+  visit(sample.delta_weight, f), f(sample.delta_probability);
+}
+
+/// One term of a BSDF, of weight 1. Its members are recorded values, prepared
+/// and kept (pbs/view.h: keep) by the node body that makes it; the functions
+/// record what the kernels do with them. They hold for any bits in any member:
+/// prepare clamps.
+///
+/// The scattering functions do not scale radiance by the square of the relative
+/// index on transmission: what leaves is what entered. A renderer that carries
+/// radiance across an index change applies (eta_o / eta_i)^2 itself.
+class Lobe {
+ public:
+  virtual ~Lobe() = default;
+  virtual std::string_view name() const = 0;
+  /// One or more LobeKind bits.
+  virtual std::int32_t kinds() const = 0;
+
+  virtual LobeValue evaluate(const View& view, Float3 wi) const = 0;
+  /// u: three independent numbers in [0, 1).
+  virtual LobeSample sample(const View& view, Float3 u) const = 0;
+  /// Fraction of the light from wo that leaves again: in [0, 1]. What lobes are
+  /// selected by, and the `albedo` kernel's answer.
+  virtual Color3 albedo(const View& view) const = 0;
+  /// What passes to a layer below, for a lobe of weight 1: 1 - albedo for an
+  /// interface, 0 for an opaque lobe. MaterialX PBS 1.39, "Layering".
+  virtual Color3 throughput(const View& view) const = 0;
+  /// How a weight w enters the throughput. Interfaces let 1 - w (1 - throughput)
+  /// pass; opaque lobes 0 whatever their weight (the library's 1.39.5 closures).
+  virtual bool is_opaque() const { return false; }
+};
+using LobePtr = std::shared_ptr<const Lobe>;
+
+}  // namespace nacre

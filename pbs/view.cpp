@@ -1,0 +1,39 @@
+#include "pbs/view.h"
+
+namespace nacre {
+
+Frame make_frame(Float3 n) {
+  const Float sign = copysign(1.0f, n.z);
+  const Float a = -1.0f / (sign + n.z);
+  const Float b = n.x * n.y * a;
+  return {{fma(sign * n.x * n.x, a, 1.0f), sign * b, -sign * n.x},
+          {b, fma(n.y * n.y, a, sign), -n.y},
+          n};
+}
+
+Frame make_frame(Float3 n, Float3 tangent) {
+  const Float3 projected = tangent - n * Float3(dot(n, tangent));
+  const Float squared = dot(projected, projected);
+  const Frame any = make_frame(n);
+  // Below this the direction is rounding: |tangent| is 1 or the host's mistake.
+  const Bool usable = squared > 1e-10f;
+  const Float3 x = select(usable, projected * Float3(1.0f / sqrt(squared)), any.x);
+  return {x, cross(n, x), n};
+}
+
+Float3 facing(Float3 n, Float3 wo) {
+  const Bool away = dot(n, wo) < 0.0f;
+  return select(away, -n, n);
+}
+
+Float keep(Recorder& recorder, Float x) { return Float(recorder.keep(x.ref())); }
+Int keep(Recorder& recorder, Int x) { return Int(recorder.keep(x.ref())); }
+Bool keep(Recorder& recorder, Bool x) { return Bool(recorder.keep(x.ref())); }
+
+Float2 keep(Recorder& recorder, Float2 v) { return {keep(recorder, v.x), keep(recorder, v.y)}; }
+
+Float3 keep(Recorder& recorder, Float3 v) {
+  return {keep(recorder, v.x), keep(recorder, v.y), keep(recorder, v.z)};
+}
+
+}  // namespace nacre

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "runtime/program/program.h"
+#include "runtime/program/recorder.h"
+#include "runtime/value/vector.h"
+
+namespace nacre {
+
+/// From where a closure is looked at, while recording.
+struct View {
+  Recorder* recorder = nullptr;
+  Accuracy accuracy = Accuracy::standard;
+  Float3 wo;                 ///< Unit, world space, from the point to the viewer.
+  Bool thin_walled = false;  ///< Light that enters leaves at the same point.
+};
+
+/// A local frame: x and y tangents, z the normal; unit and orthogonal.
+struct Frame {
+  Float3 x, y, z;
+  Float3 to_local(Float3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+  Float3 to_world(Float3 v) const {
+    return fma(Float3(v.x), x, fma(Float3(v.y), y, Float3(v.z) * z));
+  }
+};
+
+/// Any frame around a unit normal. Duff et al., "Building an Orthonormal Basis,
+/// Revisited", JCGT 6(1), 2017: deviation below 2e-7 everywhere.
+Frame make_frame(Float3 normal);
+
+/// The frame whose x is the tangent made orthogonal to the normal; make_frame
+/// where the tangent is zero or along the normal.
+Frame make_frame(Float3 normal, Float3 tangent);
+
+/// The normal on the viewer's side: n or -n.
+Float3 facing(Float3 n, Float3 wo);
+
+/// Keeps a value for the kernels after `begin`; see Recorder::keep. A value
+/// that is an input channel itself is read again instead.
+Float keep(Recorder& recorder, Float x);
+Int keep(Recorder& recorder, Int x);
+Bool keep(Recorder& recorder, Bool x);
+Float2 keep(Recorder& recorder, Float2 v);
+Float3 keep(Recorder& recorder, Float3 v);
+
+}  // namespace nacre
