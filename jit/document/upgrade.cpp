@@ -92,18 +92,22 @@ std::optional<std::string> change_of_element(const Element& element, int version
   return std::nullopt;
 }
 
+// The element after this one in reading order, within `root`; null at the end.
+const Element* next_in_order(const Element& root, const Element& element) {
+  if (element.child_count() > 0) return &*element.children().begin();
+  const Element* at = &element;
+  while (at != &root && at->next() == nullptr) at = at->parent();
+  return at == &root ? nullptr : at->next();
+}
+
 void report_changes(const Element& root, int version, std::string_view text,
                     Diagnostics& diagnostics) {
-  std::vector<const Element*> pending{&root};
-  while (!pending.empty()) {
-    const Element* element = pending.back();
-    pending.pop_back();
-    if (const auto change = change_of_element(*element, version)) {
-      diagnostics.error("needs-upgrade", location(*element),
+  for (const Element* at = &root; at != nullptr; at = next_in_order(root, *at)) {
+    if (const auto change = change_of_element(*at, version)) {
+      diagnostics.error("needs-upgrade", location(*at),
                         fmt::format("{} changed since version {} of the format", *change, text),
                         "a document of version 1.39");
     }
-    for (const Element& child : element->children()) pending.push_back(&child);
   }
 }
 

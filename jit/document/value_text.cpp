@@ -24,7 +24,17 @@ std::string_view without_plus(std::string_view text) {
   return text;
 }
 
-std::optional<float> parse_float(std::string_view text) {
+// Where a number ended before its text did.
+bool accept_rest(std::string_view text, const char* rest, bool* leftover) {
+  if (rest == text.data() + text.size()) return true;
+  if (leftover == nullptr || rest == text.data()) return false;
+  // "1e" and "0x10" are no numbers with something behind them.
+  if (*rest != '.') return false;
+  *leftover = true;
+  return true;
+}
+
+std::optional<float> parse_float(std::string_view text, bool* leftover) {
   text = without_plus(text);
   const char* end = text.data() + text.size();
   float number = 0;
@@ -38,16 +48,17 @@ std::optional<float> parse_float(std::string_view text) {
     rest = wide_rest;
     error = wide_error;
   }
-  if (error != std::errc{} || rest != end || !std::isfinite(number)) return std::nullopt;
+  if (error != std::errc{} || !std::isfinite(number)) return std::nullopt;
+  if (!accept_rest(text, rest, leftover)) return std::nullopt;
   return number;
 }
 
-std::optional<std::int32_t> parse_integer(std::string_view text) {
+std::optional<std::int32_t> parse_integer(std::string_view text, bool* leftover) {
   text = without_plus(text);
   const char* end = text.data() + text.size();
   std::int32_t number = 0;
   const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || rest != end) return std::nullopt;
+  if (error != std::errc{} || !accept_rest(text, rest, leftover)) return std::nullopt;
   return number;
 }
 
@@ -66,12 +77,12 @@ bool next_token(std::string_view& text, std::string_view& token) {
 }
 
 template <typename Number, typename Parse>
-bool parse_list(std::string_view text, std::vector<Number>& numbers, Parse parse) {
+bool parse_list(std::string_view text, std::vector<Number>& numbers, Parse parse, bool* leftover) {
   text = trim(text);
   while (!text.empty()) {
     std::string_view token;
     if (!next_token(text, token)) return false;
-    const std::optional<Number> number = parse(token);
+    const std::optional<Number> number = parse(token, leftover);
     if (!number) return false;
     numbers.push_back(*number);
   }
@@ -114,31 +125,31 @@ int floats_per_element(Type type) {
   }
 }
 
-bool parse_array(Type type, std::string_view text, Value& value) {
-  if (type == Type::integer_array) return parse_list(text, value.ints, parse_integer);
+bool parse_array(Type type, std::string_view text, Value& value, bool* leftover) {
+  if (type == Type::integer_array) return parse_list(text, value.ints, parse_integer, leftover);
   if (const int each = floats_per_element(type)) {
-    return parse_list(text, value.floats, parse_float) &&
+    return parse_list(text, value.floats, parse_float, leftover) &&
            value.floats.size() % static_cast<std::size_t>(each) == 0;
   }
   value.texts = split_strings(text);
   return true;
 }
 
-bool parse_into(Type type, std::string_view text, Value& value) {
+bool parse_into(Type type, std::string_view text, Value& value, bool* leftover) {
   if (type == Type::boolean) {
     const std::string_view word = trim(text);
     value.ints = {word == "true"};
     return word == "true" || word == "false";
   }
   if (type == Type::integer) {
-    return parse_list(text, value.ints, parse_integer) && value.ints.size() == 1;
+    return parse_list(text, value.ints, parse_integer, leftover) && value.ints.size() == 1;
   }
   if (is_numeric(type)) {
     const auto count = static_cast<std::size_t>(component_count(type));
     value.floats.reserve(count);
-    return parse_list(text, value.floats, parse_float) && value.floats.size() == count;
+    return parse_list(text, value.floats, parse_float, leftover) && value.floats.size() == count;
   }
-  if (is_array(type)) return parse_array(type, text, value);
+  if (is_array(type)) return parse_array(type, text, value, leftover);
   if (is_text(type)) {
     value.texts.emplace_back(text);
     return true;
@@ -148,10 +159,10 @@ bool parse_into(Type type, std::string_view text, Value& value) {
 
 }  // namespace
 
-std::optional<Value> parse_value(Type type, std::string_view text) {
+std::optional<Value> parse_value(Type type, std::string_view text, bool* leftover) {
   Value value;
   value.type = type;
-  if (!parse_into(type, text, value)) return std::nullopt;
+  if (!parse_into(type, text, value, leftover)) return std::nullopt;
   return value;
 }
 

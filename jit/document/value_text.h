@@ -14,7 +14,10 @@ namespace nacre {
 /// Booleans are exactly "true" or "false". Infinities and NaN are refused, as is
 /// anything left over. In arrays of strings "\," "\;" and "\\" stand for the
 /// character alone (Specification, "MaterialX Data Types").
-std::optional<Value> parse_value(Type type, std::string_view text);
+///
+/// With `leftover`, text behind a number ("0.5.0", "3.7" for an integer) is
+/// dropped, as the reference does, and `leftover` becomes true.
+std::optional<Value> parse_value(Type type, std::string_view text, bool* leftover = nullptr);
 
 /// What parse_value would have taken: "3 numbers", "true or false".
 std::string expected_text(Type type);

@@ -133,7 +133,8 @@ class Checker {
 
   void check_value(const Element& port, Type type) {
     const std::string_view text = port.attribute("value");
-    if (!parse_value(type, text)) {
+    bool leftover = false;  // building warns of it
+    if (!parse_value(type, text, &leftover)) {
       error("bad-value", port, fmt::format("the value does not fit the type {}", type_name(type)),
             expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
     }
@@ -249,6 +250,7 @@ class Checker {
     if (element.attribute("node").empty()) {
       error("missing-node", element, "the nodedef does not say which node it defines",
             "node=\"CATEGORY\"");
+      return;
     }
     const NodeDef* def = definitions_.nodedef(element.name());
     if (def == nullptr) return;

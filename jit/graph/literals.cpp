@@ -34,7 +34,12 @@ std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element&
   result.carrier = &carrier;
   result.unit = carrier.attribute("unit");
   const std::string_view text = carrier.attribute("value");
-  std::optional<Value> value = parse_value(type, text);
+  bool leftover = false;
+  std::optional<Value> value = parse_value(type, text, &leftover);
+  if (leftover) {
+    warning("number-leftover", carrier, "what follows a number in the value is not used",
+            expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
+  }
   if (!value) {
     error("bad-value", carrier, fmt::format("the value does not fit the type {}", type_name(type)),
           expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
