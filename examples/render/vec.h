@@ -33,6 +33,11 @@ inline Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline float max_component(Vec3 a) { return std::max(a.x, std::max(a.y, a.z)); }
+/// Each component to [0, 1]; NaN becomes 0.
+inline Vec3 clamp_unit(Vec3 a) {
+  const auto f = [](float v) { return v >= 0.f ? std::min(v, 1.f) : 0.f; };
+  return {f(a.x), f(a.y), f(a.z)};
+}
 inline bool is_finite(Vec3 a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }

@@ -1,0 +1,56 @@
+#include "examples/render/batch_buffer.h"
+
+#include <cassert>
+#include <cstring>
+#include <new>
+
+namespace nacre::host {
+
+namespace {
+
+/// Float arrays in a BatchBuffer besides its primvars, counted generously; an
+/// assert in take() would notice too few.
+constexpr std::size_t array_count = 96;
+
+}  // namespace
+
+LaneMemory::LaneMemory(std::size_t bytes) : size_(rounded(bytes)) {
+  block_.reset(static_cast<std::byte*>(::operator new(size_, std::align_val_t(alignment))));
+  std::memset(block_.get(), 0, size_);
+}
+
+void* LaneMemory::take(std::size_t bytes) {
+  assert(used_ + rounded(bytes) <= size_);
+  void* piece = block_.get() + used_;
+  used_ += rounded(bytes);
+  return piece;
+}
+
+BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::size_t primvar_count)
+    : capacity_(capacity),
+      memory_((array_count + 4 * primvar_count) * LaneMemory::lane_bytes(capacity) +
+              LaneMemory::rounded(state_bytes)) {
+  ShadingBatch& b = batch;
+  for (Lanes3* lanes : {&b.P,        &b.N,        &b.Ng,          &b.wo,          &b.T,    &b.B,
+                        &b.P_object, &b.N_object, &b.T_object,    &b.B_object,    &b.dPdu, &b.dPdv,
+                        &b.dPdx,     &b.dPdy,     &b.dPdx_object, &b.dPdy_object, &u,      &wi,
+                        &rgb,        &sample.wi,  &sample.weight, &value.value}) {
+    *lanes = memory_.lanes3(capacity);
+  }
+  for (Lanes2* lanes : {&b.uv, &b.dUVdx, &b.dUVdy}) *lanes = memory_.lanes2(capacity);
+  sample.pdf = memory_.floats(capacity);
+  value.pdf = memory_.floats(capacity);
+  const std::size_t id_bytes = LaneMemory::lane_bytes(capacity);
+  sample.flags = static_cast<std::uint32_t*>(memory_.take(id_bytes));
+  geometry_id = static_cast<std::uint32_t*>(memory_.take(id_bytes));
+  primitive_id = static_cast<std::uint32_t*>(memory_.take(id_bytes));
+  primvars.resize(primvar_count);
+  for (PrimvarLanes& p : primvars) {
+    for (float*& component : p.component) component = memory_.floats(capacity);
+  }
+  state = memory_.take(state_bytes);
+  b.geometry_id = geometry_id;
+  b.primitive_id = primitive_id;
+}
+
+}  // namespace nacre::host

@@ -1,0 +1,116 @@
+#include "examples/render/bvh.h"
+
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cstring>
+
+namespace nacre::host {
+
+namespace {
+
+/// Rays per call; the packet lies on the stack.
+constexpr std::size_t stream_size = 128;
+
+RTCRay to_embree(const Ray& ray) {
+  RTCRay r{};
+  r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+  r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+  r.tnear = 0.f;
+  r.tfar = ray.far;
+  r.mask = ~0u;
+  return r;
+}
+
+bool add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(Vec3), mesh.position.size());
+  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          sizeof(Triangle), mesh.triangles.size());
+  const bool ok = vertices != nullptr && indices != nullptr;
+  if (ok) {
+    std::memcpy(vertices, mesh.position.data(), mesh.position.size() * sizeof(Vec3));
+    std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);  // numbered as they come: the mesh index
+  }
+  rtcReleaseGeometry(geometry);
+  return ok;
+}
+
+}  // namespace
+
+struct Bvh::Embree {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  bool ok = false;
+
+  ~Embree() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+};
+
+Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_unique<Embree>()) {
+  embree_->device = rtcNewDevice(nullptr);
+  if (embree_->device != nullptr) {
+    embree_->scene = rtcNewScene(embree_->device);
+    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+    bool ok = true;
+    for (const Mesh& mesh : scene.meshes) {
+      ok = ok && add_mesh(embree_->device, embree_->scene, mesh);
+    }
+    if (ok) rtcCommitScene(embree_->scene);
+  }
+  const RTCError error = rtcGetDeviceError(embree_->device);
+  embree_->ok = error == RTC_ERROR_NONE && embree_->device != nullptr;
+  if (!embree_->ok) {
+    diagnostics.error("bvh-failed", {}, "the acceleration structure could not be built", {},
+                      fmt::format("Embree error {}", static_cast<int>(error)));
+  }
+}
+
+Bvh::~Bvh() = default;
+
+bool Bvh::ok() const { return embree_->ok; }
+
+void Bvh::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
+  assert(rays.size() == hits.size());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags =
+      coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  RTCRayHit stream[stream_size];
+  for (std::size_t first = 0; first < rays.size(); first += stream_size) {
+    const std::size_t count = std::min(stream_size, rays.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      stream[i].ray = to_embree(rays[first + i]);
+      stream[i].hit.geomID = stream[i].hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect1M(embree_->scene, &context, stream, static_cast<unsigned>(count),
+                   sizeof(RTCRayHit));
+    for (std::size_t i = 0; i < count; ++i) {
+      const RTCHit& h = stream[i].hit;
+      static_assert(Hit::none == RTC_INVALID_GEOMETRY_ID);
+      hits[first + i] = {h.geomID, h.primID, h.u, h.v, stream[i].ray.tfar};
+    }
+  }
+}
+
+void Bvh::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+  assert(rays.size() == blocked.size());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay stream[stream_size];
+  for (std::size_t first = 0; first < rays.size(); first += stream_size) {
+    const std::size_t count = std::min(stream_size, rays.size() - first);
+    for (std::size_t i = 0; i < count; ++i) stream[i] = to_embree(rays[first + i]);
+    rtcOccluded1M(embree_->scene, &context, stream, static_cast<unsigned>(count), sizeof(RTCRay));
+    // Embree sets tfar to minus infinity where it found something.
+    for (std::size_t i = 0; i < count; ++i) blocked[first + i] = stream[i].tfar < 0.f ? 1 : 0;
+  }
+}
+
+}  // namespace nacre::host

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "examples/render/scene.h"
+#include "runtime/diagnostic.h"
+
+namespace nacre::host {
+
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;        ///< Unit length.
+  float far = INFINITY;  ///< Hits at or beyond do not count.
+};
+
+struct Hit {
+  static constexpr std::uint32_t none = ~0u;
+  std::uint32_t mesh = none;
+  std::uint32_t triangle = none;
+  float u = 0.f, v = 0.f;  ///< P = (1-u-v) p0 + u p1 + v p2.
+  float distance = 0.f;
+
+  bool missed() const { return mesh == none; }
+};
+
+/// Embree's ray tracing over the triangles of a scene, robust (watertight) mode.
+class Bvh {
+ public:
+  /// Copies what it needs. `ok` is false, with an error, when memory ran out.
+  Bvh(const Scene& scene, Diagnostics& diagnostics);
+  ~Bvh();
+  Bvh(const Bvh&) = delete;
+  Bvh& operator=(const Bvh&) = delete;
+
+  bool ok() const;
+
+  /// The nearest hit of each ray. `coherent`: neighbours in the span are neighbours in space.
+  void intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const;
+
+  /// 1 where anything is between origin and far, else 0.
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace nacre::host

@@ -1,0 +1,75 @@
+#include "examples/render/camera.h"
+
+#include <numbers>
+
+namespace nacre::host {
+
+namespace {
+
+/// The square to the unit disk with equal areas: Shirley and Chiu 1997, "A Low
+/// Distortion Map Between Disk and Square", JGT 2(3).
+Vec2 to_disk(Uniform2 u) {
+  const float a = 2.f * u.x - 1.f, b = 2.f * u.y - 1.f;
+  if (a == 0.f && b == 0.f) return {};
+  constexpr float quarter = std::numbers::pi_v<float> / 4.f;
+  const bool wide = std::abs(a) > std::abs(b);
+  const float r = wide ? a : b;
+  const float phi = wide ? quarter * (b / a) : 2.f * quarter - quarter * (a / b);
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+}  // namespace
+
+Camera look_at(Vec3 position, Vec3 target, float vertical_fov) {
+  Camera camera;
+  camera.position = position;
+  camera.forward = normalize_or(target - position, {0.f, 0.f, -1.f});
+  camera.right = normalize_or(cross(camera.forward, {0.f, 1.f, 0.f}), {1.f, 0.f, 0.f});
+  camera.up = cross(camera.right, camera.forward);
+  camera.vertical_fov = vertical_fov;
+  camera.focus_distance = length(target - position);
+  return camera;
+}
+
+Camera fit_camera(const Bounds& box, float aspect) {
+  constexpr float fov = 0.6f;
+  const Vec3 centre = box.empty() ? Vec3{} : 0.5f * (box.low + box.high);
+  const float radius = box.empty() ? 1.f : 0.5f * length(box.high - box.low);
+  const float half = std::atan(std::tan(0.5f * fov) * std::min(aspect, 1.f));
+  const float distance = std::max(radius, 1e-20f) / std::sin(half);
+  return look_at(centre + distance * normalize({0.55f, 0.35f, 1.f}), centre, fov);
+}
+
+PixelCamera::PixelCamera(const Camera& camera, int width, int height, float sample_spacing)
+    : camera_(camera), spacing_(sample_spacing) {
+  const float distance = camera.lens_radius > 0.f ? camera.focus_distance : 1.f;
+  const float pixel =
+      2.f * distance * std::tan(0.5f * camera.vertical_fov) / static_cast<float>(height);
+  step_x_ = pixel * camera.right;
+  step_y_ = -pixel * camera.up;
+  corner_ = distance * camera.forward - 0.5f * static_cast<float>(width) * step_x_ -
+            0.5f * static_cast<float>(height) * step_y_;
+  angle_ = spacing_ * pixel / distance;
+}
+
+PixelCamera::Ray PixelCamera::ray(float x, float y, Uniform2 lens) const {
+  const Vec3 focus = corner_ + x * step_x_ + y * step_y_;
+  if (!(camera_.lens_radius > 0.f)) return {camera_.position, normalize(focus)};
+  const Vec2 disk = camera_.lens_radius * to_disk(lens);
+  const Vec3 shift = disk.x * camera_.right + disk.y * camera_.up;
+  return {camera_.position + shift, normalize(focus - shift)};
+}
+
+void PixelCamera::footprint(Vec3 direction, float distance, Vec3 n, Vec3& dPdx, Vec3& dPdy) const {
+  // D(x) = focus(x) - lens is not normalised and linear in x; P = O + s D.
+  const float focal = camera_.lens_radius > 0.f ? camera_.focus_distance : 1.f;
+  const float along = dot(direction, camera_.forward);
+  const float s = spacing_ * distance * along / focal;
+  const float cosine = dot(direction, n);
+  // A grazing footprint is as long as we like; a bound keeps it finite.
+  const float safe = std::copysign(std::max(std::abs(cosine), 1e-4f), cosine);
+  dPdx = s * (step_x_ - (dot(step_x_, n) / safe) * direction);
+  dPdy = s * (step_y_ - (dot(step_y_, n) / safe) * direction);
+}
+
+}  // namespace nacre::host

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "examples/render/sampler.h"
+#include "examples/render/scene.h"
+
+namespace nacre::host {
+
+/// A camera at `position` that sees `target` in the middle, +y up, with a
+/// vertical field of view in radians. In focus at the target.
+Camera look_at(Vec3 position, Vec3 target, float vertical_fov);
+
+/// A three-quarter view (from the right, a little above) whose bounding sphere
+/// fits the image. `aspect` is width / height.
+Camera fit_camera(const Bounds& box, float aspect);
+
+/// A camera set up for an image: what depends on its size is computed once.
+class PixelCamera {
+ public:
+  struct Ray {
+    Vec3 origin;
+    Vec3 direction;  ///< Unit length.
+  };
+
+  /// `sample_spacing`: distance of image samples in pixels, which scales footprints.
+  PixelCamera(const Camera& camera, int width, int height, float sample_spacing);
+
+  /// The ray through image position (x, y), in pixels from the upper left corner.
+  Ray ray(float x, float y, Uniform2 lens) const;
+
+  /// How far P moves, on the plane through P with unit normal n, when the image
+  /// position moves by one sample: Igehy 1999, "Tracing Ray Differentials",
+  /// sections 3.1.1 and 3.1.2, for a straight ray of this direction and length.
+  void footprint(Vec3 direction, float distance, Vec3 n, Vec3& dPdx, Vec3& dPdy) const;
+
+  /// Angle between neighbouring samples in the middle of the image, radians.
+  float sample_angle() const { return angle_; }
+
+ private:
+  Camera camera_;
+  Vec3 corner_;           ///< From the lens centre to the upper left of the focal plane.
+  Vec3 step_x_, step_y_;  ///< One pixel on the focal plane.
+  float spacing_;
+  float angle_;
+};
+
+}  // namespace nacre::host

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "examples/render/vec.h"
+
+namespace nacre::host {
+
+/// An image of radiance estimates, rows from the top.
+class Film {
+ public:
+  Film(int width, int height) : width_(width), height_(height), mean_(size()), variance_(size()) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// Mean over the samples of a pixel.
+  Vec3& mean(int x, int y) { return mean_[index(x, y)]; }
+  Vec3 mean(int x, int y) const { return mean_[index(x, y)]; }
+
+  /// Estimated variance of that mean; meaningful for independent samples, an
+  /// overestimate for stratified ones.
+  Vec3& variance(int x, int y) { return variance_[index(x, y)]; }
+  Vec3 variance(int x, int y) const { return variance_[index(x, y)]; }
+
+  /// width * height rgb triples.
+  const std::vector<Vec3>& pixels() const { return mean_; }
+
+ private:
+  std::size_t size() const {
+    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  int width_, height_;
+  std::vector<Vec3> mean_, variance_;
+};
+
+/// Samples of one pixel, added in the order of their index, in double so that
+/// many thousand do not stall.
+class PixelSum {
+ public:
+  void add(Vec3 rgb) {
+    const double v[3] = {rgb.x, rgb.y, rgb.z};
+    for (int c = 0; c < 3; ++c) sum_[c] += v[c], squares_[c] += v[c] * v[c];
+    ++count_;
+  }
+  Vec3 mean() const { return {mean(0), mean(1), mean(2)}; }
+  Vec3 variance_of_mean() const { return {variance(0), variance(1), variance(2)}; }
+
+ private:
+  float mean(int c) const { return count_ == 0 ? 0.f : static_cast<float>(sum_[c] / count_); }
+  float variance(int c) const {
+    if (count_ < 2) return 0.f;
+    const double spread = squares_[c] - sum_[c] * sum_[c] / count_;
+    return static_cast<float>(std::max(0.0, spread) / (count_ - 1) / count_);
+  }
+
+  double sum_[3] = {}, squares_[3] = {};
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace nacre::host

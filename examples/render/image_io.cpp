@@ -1,0 +1,136 @@
+#include "examples/render/image_io.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "examples/render/environment.h"
+
+namespace nacre::host {
+
+namespace {
+
+/// IEC 61966-2-1, the transfer from linear to coded values.
+float srgb_encode(float v) {
+  v = std::clamp(v, 0.f, 1.f);
+  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.f / 2.4f) - 0.055f;
+}
+
+std::vector<std::uint8_t> developed(const Film& film, const WriteOptions& options) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(film.pixels().size() * 3);
+  const float gain = std::exp2(options.exposure);
+  for (const Vec3 pixel : film.pixels()) {
+    Vec3 rgb = is_finite(pixel) ? gain * pixel : Vec3{};
+    const float l = luminance(rgb);
+    if (options.white > 0.f && l > 0.f) {
+      rgb = ((1.f + l / (options.white * options.white)) / (1.f + l)) * rgb;
+    }
+    for (const float v : {rgb.x, rgb.y, rgb.z}) {
+      bytes.push_back(static_cast<std::uint8_t>(255.f * srgb_encode(v) + 0.5f));
+    }
+  }
+  return bytes;
+}
+
+std::string temporary_name(const std::string& path) {
+  static std::atomic<unsigned> count = 0;
+  const std::filesystem::path p(path);
+  return (p.parent_path() / fmt::format(".{}.{}-{}.tmp", p.filename().string(), getpid(), count++))
+      .string();
+}
+
+/// Data reach the disk before the name does.
+bool sync_file(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool ok = ::fsync(file) == 0;
+  return ::close(file) == 0 && ok;
+}
+
+/// Empty when written; otherwise why not.
+std::string write_file(const Film& film, const std::string& path, bool exr,
+                       const WriteOptions& options) {
+  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(exr ? "openexr" : "png");
+  if (!out) return OIIO::geterror();
+  const OIIO::TypeDesc type =
+      !exr ? OIIO::TypeDesc::UINT8 : (options.half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+  OIIO::ImageSpec spec(film.width(), film.height(), 3, type);
+  spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
+  spec.attribute("compression", "zip");
+  if (!out->open(path, spec)) return out->geterror();
+  const std::vector<std::uint8_t> bytes =
+      exr ? std::vector<std::uint8_t>{} : developed(film, options);
+  const bool ok = exr ? out->write_image(OIIO::TypeDesc::FLOAT, film.pixels().data())
+                      : out->write_image(OIIO::TypeDesc::UINT8, bytes.data());
+  if (!ok || !out->close()) return out->geterror();
+  return {};
+}
+
+}  // namespace
+
+bool write_image(const Film& film, const std::string& path, const WriteOptions& options,
+                 Diagnostics& diagnostics) {
+  namespace fs = std::filesystem;
+  const std::string extension = fs::path(path).extension().string();
+  if (extension != ".exr" && extension != ".png") {
+    diagnostics.error("unknown-image-format", {path, 0, 0, {}}, "cannot write this kind of image",
+                      "a name ending in .exr or .png", "\"" + extension + "\"");
+    return false;
+  }
+  const std::string temporary = temporary_name(path);
+  std::error_code status;
+  std::string problem = write_file(film, temporary, extension == ".exr", options);
+  if (problem.empty() && !sync_file(temporary)) problem = "the data cannot be flushed";
+  if (problem.empty()) {
+    fs::rename(temporary, path, status);
+    if (!status) return true;
+    problem = status.message();
+  }
+  fs::remove(temporary, status);
+  diagnostics.error("cannot-write", {path, 0, 0, {}}, "the image could not be written", {},
+                    problem);
+  return false;
+}
+
+std::optional<Environment> Environment::load(const std::string& path, float scale, float rotation,
+                                             Diagnostics& diagnostics) {
+  constexpr int largest_side = 1 << 15;
+  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path);
+  if (!in) {
+    diagnostics.error("cannot-read", {path, 0, 0, {}}, "cannot open the environment", {},
+                      OIIO::geterror());
+    return {};
+  }
+  const OIIO::ImageSpec& spec = in->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.width > largest_side ||
+      spec.height > largest_side || spec.nchannels < 1) {
+    diagnostics.error("bad-environment", {path, 0, 0, {}}, "the environment has an unusable size",
+                      fmt::format("1 to {} on each side", largest_side),
+                      fmt::format("{} by {}", spec.width, spec.height));
+    return {};
+  }
+  const auto count = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
+  const int channels = std::min(spec.nchannels, 3);
+  std::vector<float> values(count * static_cast<std::size_t>(channels));
+  if (!in->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data())) {
+    diagnostics.error("cannot-read", {path, 0, 0, {}}, "cannot read the environment", {},
+                      in->geterror());
+    return {};
+  }
+  std::vector<Vec3> texels(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* v = &values[i * static_cast<std::size_t>(channels)];
+    texels[i] = channels == 3 ? Vec3{scale * v[0], scale * v[1], scale * v[2]}
+                              : Vec3{scale * v[0], scale * v[0], scale * v[0]};
+  }
+  return Environment(spec.width, spec.height, std::move(texels), rotation);
+}
+
+}  // namespace nacre::host

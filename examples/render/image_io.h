@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "examples/render/film.h"
+#include "runtime/diagnostic.h"
+
+namespace nacre::host {
+
+struct WriteOptions {
+  bool half = false;     ///< EXR: 16-bit floats instead of 32.
+  float exposure = 0.f;  ///< PNG: stops.
+  /// PNG: the luminance that becomes white, by L (1 + L/w²) / (1 + L), which
+  /// keeps hue (Reinhard et al. 2002, "Photographic Tone Reproduction for
+  /// Digital Images", equation 4). 0: no curve, clip at 1.
+  float white = 4.f;
+};
+
+/// Writes .exr (linear Rec. 709 radiance) or .png (8 bits, tone curve, sRGB
+/// transfer). A file appears complete or not at all: it is written beside its
+/// place and renamed. The bytes depend on nothing but the image and options.
+bool write_image(const Film& film, const std::string& path, const WriteOptions& options,
+                 Diagnostics& diagnostics);
+
+}  // namespace nacre::host

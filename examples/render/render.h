@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "examples/render/environment.h"
+#include "examples/render/film.h"
+#include "examples/render/sampler.h"
+#include "examples/render/scene.h"
+#include "examples/render/shader.h"
+#include "runtime/diagnostic.h"
+
+namespace nacre::host {
+
+/// How direct light is found. All three converge to the same image; the first
+/// two exist to show it.
+enum class Strategy {
+  bsdf_only,            ///< Only directions that the material draws.
+  light_only,           ///< Only directions that the lights draw (Dirac lobes excepted).
+  multiple_importance,  ///< Both, by the power heuristic.
+};
+
+enum class PixelFilter {
+  box,   ///< The pixel's square.
+  tent,  ///< Two pixels wide, by importance sampling, so pixels stay independent.
+};
+
+struct RenderSettings {
+  int width = 512, height = 512;
+  int samples = 16;          ///< Per pixel.
+  int max_depth = 8;         ///< Scattering events on a path; 0: emission only.
+  int roulette_depth = 4;    ///< Scattering events before Russian roulette; above max_depth: never.
+  int max_transparent = 64;  ///< Surfaces that one path or shadow ray passes through.
+  int threads = 0;           ///< 0: as many as the machine has.
+  std::uint32_t seed = 0;
+  SamplerKind sampler = SamplerKind::sobol;
+  Strategy strategy = Strategy::multiple_importance;
+  PixelFilter filter = PixelFilter::box;
+  float time = 0.f;
+  float frame = 1.f;
+  int tile_size = 32;              ///< Pixels on a side.
+  std::uint32_t batch_size = 512;  ///< Points per kernel call, at most.
+};
+
+struct RenderInput {
+  const Scene* scene = nullptr;
+  /// One per mesh of the scene; ignored, and may be null, for area lights.
+  std::vector<const Shader*> shaders;
+  const Environment* environment = nullptr;  ///< Null: black.
+  Camera camera;
+};
+
+struct RenderControl {
+  std::stop_token stop;  ///< Ends the render between batches of samples.
+  /// Called with the finished share, 0 to 1, from one thread at a time.
+  std::function<void(double)> progress;
+};
+
+struct RenderStatistics {
+  std::uint64_t paths = 0;
+  std::uint64_t rays = 0;  ///< Camera and scattered.
+  std::uint64_t shadow_rays = 0;
+  /// Kernel results that were not finite, and were dropped. Not 0: a bug in a shader.
+  std::uint64_t invalid_results = 0;
+  /// Seconds, summed over threads, within Shader calls and within Embree.
+  double shading_seconds = 0, tracing_seconds = 0;
+};
+
+/// Path traces the scene. The film is the same, bit for bit, for any number of
+/// threads. Empty when cancelled or when memory ran out (which gives an error).
+std::optional<Film> render(const RenderInput& input, const RenderSettings& settings,
+                           Diagnostics& diagnostics, const RenderControl& control = {},
+                           RenderStatistics* statistics = nullptr);
+
+}  // namespace nacre::host

@@ -1,0 +1,143 @@
+#include "examples/render/wavefront.h"
+
+#include <chrono>
+
+#include "examples/render/mis.h"
+
+namespace nacre::host {
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Stopwatch::Stopwatch(double& seconds) : seconds_(seconds), start_(now()) {}
+Stopwatch::~Stopwatch() { seconds_ += now() - start_; }
+
+Wavefront::Wavefront(const RenderContext& context, std::size_t max_paths)
+    : context_(context),
+      buffer_(context.settings.batch_size, context.state_bytes, context.primvars) {
+  buffer_.batch.time = context.settings.time;
+  buffer_.batch.frame = context.settings.frame;
+  for (auto* list : {&active_, &next_, &sorted_, &light_order_, &shadow_order_}) {
+    list->reserve(max_paths);
+  }
+  rays_.resize(max_paths);
+  ray_hits_.resize(max_paths);
+  hits_.resize(max_paths);
+  light_samples_.resize(max_paths);
+  light_points_.reserve(max_paths);
+  shadows_.reserve(max_paths);
+  blocked_.resize(max_paths);
+  points_.reserve(context.settings.batch_size);
+  groups_.resize(context.materials.size());
+  light_groups_.resize(context.materials.size());
+  shadow_groups_.resize(context.materials.size());
+}
+
+void Wavefront::trace(std::span<Path> paths) {
+  paths_ = paths;
+  statistics_.paths += paths.size();
+  active_.clear();
+  for (std::uint32_t i = 0; i < paths.size(); ++i) active_.push_back(i);
+  while (!active_.empty()) {
+    next_.clear();
+    shadows_.clear();
+    intersect();
+    add_environment();
+    group_by_material();
+    if (context_.any_opacity) apply_opacity();
+    if (connects()) sample_lights();
+    shade();
+    trace_shadows();
+    active_.swap(next_);
+  }
+}
+
+void Wavefront::intersect() {
+  const std::size_t count = active_.size();
+  bool straight = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Path& path = paths_[active_[i]];
+    rays_[i] = path.ray;
+    straight = straight && path.from_camera;
+  }
+  statistics_.rays += count;
+  {
+    const Stopwatch watch(statistics_.tracing_seconds);
+    context_.bvh.intersect({rays_.data(), count}, {ray_hits_.data(), count}, straight);
+  }
+  for (std::size_t i = 0; i < count; ++i) hits_[active_[i]] = ray_hits_[i];
+}
+
+void Wavefront::add_environment() {
+  if (context_.environment == nullptr) return;
+  for (const std::uint32_t i : active_) {
+    if (!hits_[i].missed()) continue;
+    Path& path = paths_[i];
+    const Vec3 direction = path.ray.direction;
+    const float light_pdf = context_.environment_chance * context_.environment->pdf(direction);
+    path.radiance +=
+        hit_weight(path, light_pdf) * (path.throughput * context_.environment->radiance(direction));
+  }
+}
+
+void Wavefront::group_by_material() {
+  group_by(active_.size(), sorted_, groups_, [this](std::size_t i) {
+    const Hit& hit = hits_[active_[i]];
+    return hit.missed() ? ~0u : context_.material_of_mesh[hit.mesh];
+  });
+  for (std::uint32_t& i : sorted_) i = active_[i];
+}
+
+SurfacePoint Wavefront::surface_point(std::uint32_t i) const {
+  const Hit& hit = hits_[i];
+  const Path& path = paths_[i];
+  const float distance = path.distance + hit.distance;
+  return {hit.mesh,
+          hit.triangle,
+          hit.u,
+          hit.v,
+          -path.ray.direction,
+          path.from_camera,
+          distance,
+          path.width + path.spread * distance};
+}
+
+void Wavefront::fill(std::span<const std::uint32_t> paths, const Material& material) {
+  points_.clear();
+  for (const std::uint32_t i : paths) points_.push_back(surface_point(i));
+  context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);
+}
+
+Uniform2 Wavefront::draw(const Path& path, Draw what) const {
+  return uniform2(context_.settings.sampler, path.key, what);
+}
+
+/// Density per area with which light sampling finds points of this triangle.
+float Wavefront::light_chance(std::uint32_t mesh, std::uint32_t triangle) const {
+  return (1.f - context_.environment_chance) * context_.lights.area_pdf(mesh, triangle);
+}
+
+bool Wavefront::connects() const {
+  return context_.settings.strategy != Strategy::bsdf_only &&
+         (context_.environment != nullptr || !context_.lights.empty());
+}
+
+/// Weight of light found by the path's own direction.
+float Wavefront::hit_weight(const Path& path, float light_pdf) const {
+  if (path.light_blind || context_.settings.strategy == Strategy::bsdf_only) return 1.f;
+  if (context_.settings.strategy == Strategy::light_only) return light_pdf > 0.f ? 0.f : 1.f;
+  return power_heuristic(path.pdf, light_pdf);
+}
+
+/// Weight of light found by light sampling.
+float Wavefront::connection_weight(float light_pdf, float material_pdf) const {
+  if (context_.settings.strategy == Strategy::light_only) return 1.f;
+  return power_heuristic(light_pdf, material_pdf);
+}
+
+}  // namespace nacre::host

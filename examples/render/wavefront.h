@@ -1,0 +1,168 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "examples/render/batch_buffer.h"
+#include "examples/render/render_context.h"
+#include "examples/render/sampler.h"
+
+namespace nacre::host {
+
+/// One light path on its way, and its result.
+struct Path {
+  SampleKey key;  ///< key.event counts intersections.
+  Ray ray;
+  Vec3 throughput = {1.f, 1.f, 1.f};
+  Vec3 radiance;   ///< What the path has brought so far.
+  int depth = 0;   ///< Scattering events.
+  int passes = 0;  ///< Transparent surfaces passed.
+
+  /// How the direction of `ray` was drawn, for multiple importance sampling.
+  Vec3 vertex;              ///< Where.
+  float pdf = 0.f;          ///< Per solid angle.
+  bool light_blind = true;  ///< By camera or Dirac lobe: light sampling cannot find it.
+
+  /// Footprint: exact while the path is straight from the camera, then a cone
+  /// (Akenine-Möller et al. 2021, "Improved Shader and Texture Level of Detail
+  /// Using Ray Cones", JCGT 10(1)).
+  bool from_camera = true;
+  float distance = 0.f;  ///< From `vertex` to ray.origin: not 0 behind transparent surfaces.
+  float width = 0.f;     ///< Of the cone at `vertex`.
+  float spread = 0.f;    ///< Radians.
+};
+
+/// Path i, as grouped: groups are materials.
+struct Group {
+  std::uint32_t begin = 0, end = 0;
+};
+
+/// Follows many paths at once, stage by stage, with the memory of one thread:
+/// trace, sort by material, opacity, choose light samples, shade, trace shadows.
+class Wavefront {
+ public:
+  Wavefront(const RenderContext& context, std::size_t max_paths);
+
+  /// Follows paths (ray and key set) to their ends; results are in `radiance`.
+  void trace(std::span<Path> paths);
+
+  const RenderStatistics& statistics() const { return statistics_; }
+
+ private:
+  struct LightSample {
+    Vec3 wi;
+    Vec3 radiance;
+    Vec3 target;      ///< Off the light's surface; unused for the environment.
+    float pdf = 0.f;  ///< Per solid angle, with all choices; 0: no sample.
+    bool infinite = false;
+  };
+  struct LightPoint {
+    std::uint32_t path;
+    SurfacePoint point;
+  };
+  struct ShadowRay {
+    Ray ray;
+    Vec3 contribution;
+    Vec3 target;
+    std::uint32_t path;
+    bool infinite;
+  };
+
+  // wavefront.cpp
+  void intersect();
+  void add_environment();
+  void group_by_material();
+  SurfacePoint surface_point(std::uint32_t path) const;
+  void fill(std::span<const std::uint32_t> paths, const Material& material);
+  Uniform2 draw(const Path& path, Draw what) const;
+  float light_chance(std::uint32_t mesh, std::uint32_t triangle) const;
+  float hit_weight(const Path& path, float light_pdf) const;
+  float connection_weight(float light_pdf, float material_pdf) const;
+  bool connects() const;
+
+  // wavefront_opacity.cpp
+  void apply_opacity();
+  std::uint32_t pass_through(const Material& material, std::span<std::uint32_t> paths);
+  void trace_shadows();
+  void trace_opaque_shadows();
+  void trace_transparent_shadows();
+  void attenuate(const Material& material, std::span<const std::uint32_t> shadows);
+
+  // wavefront_light.cpp
+  void sample_lights();
+  void sample_light(std::uint32_t path);
+  void light_emission(const Material& material, std::span<const std::uint32_t> points);
+
+  // wavefront_shade.cpp
+  void shade();
+  void shade_batch(const Material& material, std::span<const std::uint32_t> paths);
+  void add_emission(const Material& material, std::span<const std::uint32_t> paths);
+  void connect_lights(const Material& material, std::span<const std::uint32_t> paths);
+  void extend(const Material& material, std::span<const std::uint32_t> paths);
+  bool scatter(Path& path, std::size_t lane, float distance);
+
+  const RenderContext& context_;
+  BatchBuffer buffer_;
+  std::span<Path> paths_;
+  std::vector<std::uint32_t> active_, next_;  ///< Paths that have a ray now; and after this round.
+  std::vector<Ray> rays_;                     ///< Of the active paths, in their order.
+  std::vector<Hit> ray_hits_;
+  std::vector<Hit> hits_;                   ///< By path.
+  std::vector<std::uint32_t> sorted_;       ///< Paths that hit, by material.
+  std::vector<Group> groups_;               ///< Of sorted_; one per material.
+  std::vector<LightSample> light_samples_;  ///< By path.
+  std::vector<LightPoint> light_points_;
+  std::vector<std::uint32_t> light_order_;
+  std::vector<Group> light_groups_;
+  std::vector<ShadowRay> shadows_;
+  std::vector<std::uint32_t> shadow_order_;
+  std::vector<Group> shadow_groups_;
+  std::vector<std::uint8_t> blocked_;
+  std::vector<SurfacePoint> points_;  ///< Of the batch at hand.
+  RenderStatistics statistics_;
+};
+
+/// Counting sort, stable: `order` lists the indices 0 … count-1 by key(i), a
+/// number below the size of `groups`; those with key ~0 are left out.
+template <class Key>
+void group_by(std::size_t count, std::vector<std::uint32_t>& order, std::vector<Group>& groups,
+              Key key) {
+  for (Group& g : groups) g = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (key(i) != ~0u) ++groups[key(i)].end;
+  }
+  std::uint32_t total = 0;
+  for (Group& g : groups) {
+    const std::uint32_t size = g.end;
+    g.begin = g.end = total;
+    total += size;
+  }
+  order.resize(total);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (key(i) != ~0u) order[groups[key(i)].end++] = static_cast<std::uint32_t>(i);
+  }
+}
+
+/// Calls f(sub-span) on pieces of at most `size` elements.
+template <class T, class F>
+void for_batches(std::span<T> all, std::size_t size, F f) {
+  for (std::size_t first = 0; first < all.size(); first += size) {
+    f(all.subspan(first, std::min(size, all.size() - first)));
+  }
+}
+
+/// Adds the time of its life to a sum of seconds.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds);
+  ~Stopwatch();
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  double start_;
+};
+
+}  // namespace nacre::host

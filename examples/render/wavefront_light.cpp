@@ -1,0 +1,74 @@
+#include "examples/render/offset.h"
+#include "examples/render/wavefront.h"
+
+namespace nacre::host {
+
+/// One light sample for every path that can use one. Emission is evaluated in
+/// batches of its own, sorted by the material of the light.
+void Wavefront::sample_lights() {
+  light_points_.clear();
+  for (std::size_t m = 0; m < groups_.size(); ++m) {
+    const Capabilities& can = context_.materials[m].capabilities;
+    if (!can.scatters || can.only_delta) continue;
+    for (std::uint32_t k = groups_[m].begin; k < groups_[m].end; ++k) sample_light(sorted_[k]);
+  }
+  group_by(light_points_.size(), light_order_, light_groups_, [this](std::size_t i) {
+    return context_.material_of_mesh[light_points_[i].point.mesh];
+  });
+  for (std::size_t m = 0; m < light_groups_.size(); ++m) {
+    const Group g = light_groups_[m];
+    for_batches(std::span<const std::uint32_t>(light_order_.data() + g.begin, g.end - g.begin),
+                buffer_.capacity(), [&](std::span<const std::uint32_t> points) {
+                  light_emission(context_.materials[m], points);
+                });
+  }
+}
+
+void Wavefront::sample_light(std::uint32_t i) {
+  const Path& path = paths_[i];
+  LightSample& light = light_samples_[i];
+  light = {};
+  if (path.depth >= context_.settings.max_depth) return;
+  const Uniform2 choice = draw(path, Draw::light_choice);
+  const Uniform2 position = draw(path, Draw::light);
+  if (choice.x < context_.environment_chance) {
+    const Environment::Sample s = context_.environment->sample(position);
+    light = {s.wi, s.radiance, {}, context_.environment_chance * s.pdf, true};
+    return;
+  }
+  const AreaLights::Sample s = context_.lights.sample(choice.y, position);
+  const Mesh& mesh = context_.scene.meshes[s.mesh];
+  const Vec3 on_light = surface_position(mesh, s.triangle, s.u, s.v);
+  const Vec3 ng = surface_normal(mesh, s.triangle);
+  const Hit& hit = hits_[i];
+  const Vec3 from = surface_position(context_.scene.meshes[hit.mesh], hit.triangle, hit.u, hit.v);
+  const Vec3 way = on_light - from;
+  const float squared = dot(way, way);
+  if (!(squared > 0.f) || !std::isfinite(squared)) return;
+  const Vec3 wi = normalize(way);
+  const float cosine = dot(ng, wi);
+  const float area_pdf = (1.f - context_.environment_chance) * s.area_pdf;
+  const float pdf = area_pdf * squared / std::abs(cosine);
+  if (!std::isfinite(pdf)) return;  // edge on
+  light = {wi, {}, offset_point(on_light, cosine > 0.f ? -ng : ng), pdf, false};
+  light_points_.push_back({i, {s.mesh, s.triangle, s.u, s.v, -wi, false, 0.f, 0.f}});
+}
+
+void Wavefront::light_emission(const Material& material, std::span<const std::uint32_t> points) {
+  points_.clear();
+  for (const std::uint32_t k : points) points_.push_back(light_points_[k].point);
+  context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);
+  const Stopwatch watch(statistics_.shading_seconds);
+  material.shader->emission(buffer_.batch, buffer_.rgb);
+  for (std::size_t lane = 0; lane < points.size(); ++lane) {
+    light_samples_[light_points_[points[lane]].path].radiance = load(buffer_.rgb, lane);
+  }
+  if (!material.capabilities.has_opacity) return;
+  material.shader->opacity(buffer_.batch, buffer_.rgb);
+  for (std::size_t lane = 0; lane < points.size(); ++lane) {
+    light_samples_[light_points_[points[lane]].path].radiance *=
+        clamp_unit(load(buffer_.rgb, lane));
+  }
+}
+
+}  // namespace nacre::host

@@ -1,0 +1,153 @@
+#include <algorithm>
+
+#include "examples/render/offset.h"
+#include "examples/render/wavefront.h"
+
+namespace nacre::host {
+
+namespace {
+
+bool is_zero(Vec3 v) { return v.x == 0.f && v.y == 0.f && v.z == 0.f; }
+
+/// Opening angle for a direction drawn with this density: the cone that holds a
+/// quarter of the directions one sample stands for, at most a quarter radian.
+float scattered_spread(float pdf) {
+  return std::min(0.25f, 0.25f / std::sqrt(std::max(pdf, 1e-8f)));
+}
+
+}  // namespace
+
+void Wavefront::shade() {
+  for (std::size_t m = 0; m < groups_.size(); ++m) {
+    const Group g = groups_[m];
+    for_batches(std::span<const std::uint32_t>(sorted_.data() + g.begin, g.end - g.begin),
+                buffer_.capacity(), [&](std::span<const std::uint32_t> paths) {
+                  shade_batch(context_.materials[m], paths);
+                });
+  }
+}
+
+void Wavefront::shade_batch(const Material& material, std::span<const std::uint32_t> paths) {
+  const bool any_goes_on = std::any_of(paths.begin(), paths.end(), [this](std::uint32_t i) {
+    return paths_[i].depth < context_.settings.max_depth;
+  });
+  const bool scatters = material.capabilities.scatters && any_goes_on;
+  if (!scatters && !material.capabilities.emits) return;
+  fill(paths, material);
+  if (material.capabilities.emits) add_emission(material, paths);
+  if (!scatters) return;
+  {
+    const Stopwatch watch(statistics_.shading_seconds);
+    material.shader->begin(buffer_.batch, buffer_.state);
+  }
+  if (connects() && !material.capabilities.only_delta) connect_lights(material, paths);
+  extend(material, paths);
+}
+
+void Wavefront::add_emission(const Material& material, std::span<const std::uint32_t> paths) {
+  {
+    const Stopwatch watch(statistics_.shading_seconds);
+    material.shader->emission(buffer_.batch, buffer_.rgb);
+  }
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    Path& path = paths_[paths[lane]];
+    const Vec3 emitted = load(buffer_.rgb, lane);
+    if (is_zero(emitted)) continue;
+    if (!is_finite(emitted)) {
+      ++statistics_.invalid_results;
+      continue;
+    }
+    const Hit& hit = hits_[paths[lane]];
+    const Vec3 way = load(buffer_.batch.P, lane) - path.vertex;
+    const float cosine = std::abs(dot(load(buffer_.batch.Ng, lane), path.ray.direction));
+    const float light_pdf = light_chance(hit.mesh, hit.triangle) * dot(way, way) / cosine;
+    path.radiance += hit_weight(path, light_pdf) * (path.throughput * emitted);
+  }
+}
+
+void Wavefront::connect_lights(const Material& material, std::span<const std::uint32_t> paths) {
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    const LightSample& light = light_samples_[paths[lane]];
+    store(buffer_.wi, lane, light.pdf > 0.f ? light.wi : load(buffer_.batch.N, lane));
+  }
+  {
+    const Stopwatch watch(statistics_.shading_seconds);
+    material.shader->evaluate(buffer_.batch, buffer_.state, buffer_.wi, buffer_.value);
+  }
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    const LightSample& light = light_samples_[paths[lane]];
+    if (!(light.pdf > 0.f)) continue;
+    const Vec3 value = load(buffer_.value.value, lane);
+    const float weight = connection_weight(light.pdf, buffer_.value.pdf[lane]);
+    const Vec3 contribution =
+        (weight / light.pdf) * (paths_[paths[lane]].throughput * value * light.radiance);
+    if (is_zero(contribution)) continue;
+    if (!is_finite(contribution)) {
+      ++statistics_.invalid_results;
+      continue;
+    }
+    const Vec3 ng = load(buffer_.batch.Ng, lane);
+    const Vec3 origin =
+        offset_point(load(buffer_.batch.P, lane), dot(ng, light.wi) < 0.f ? -ng : ng);
+    Ray ray = {origin, light.wi, INFINITY};
+    if (!light.infinite) {
+      ray.far = length(light.target - origin);
+      ray.direction = normalize_or(light.target - origin, light.wi);
+    }
+    shadows_.push_back({ray, contribution, light.target, paths[lane], light.infinite});
+  }
+}
+
+void Wavefront::extend(const Material& material, std::span<const std::uint32_t> paths) {
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    const Path& path = paths_[paths[lane]];
+    const Uniform2 direction = draw(path, Draw::direction);
+    store(buffer_.u, lane, {draw(path, Draw::lobe).x, direction.x, direction.y});
+  }
+  {
+    const Stopwatch watch(statistics_.shading_seconds);
+    material.shader->sample(buffer_.batch, buffer_.state, buffer_.u, buffer_.sample);
+  }
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    Path& path = paths_[paths[lane]];
+    if (path.depth >= context_.settings.max_depth) continue;
+    if (scatter(path, lane, hits_[paths[lane]].distance)) next_.push_back(paths[lane]);
+  }
+}
+
+/// Gives a path its next ray. False when it ends here.
+bool Wavefront::scatter(Path& path, std::size_t lane, float distance) {
+  const std::uint32_t flags = buffer_.sample.flags[lane];
+  if ((flags & sample_valid) == 0) return false;
+  const Vec3 wi = load(buffer_.sample.wi, lane);
+  const Vec3 weight = load(buffer_.sample.weight, lane);
+  const float pdf = buffer_.sample.pdf[lane];
+  const float squared = dot(wi, wi);
+  if (!is_finite(weight) || !std::isfinite(pdf) || !(squared > 0.9f && squared < 1.1f)) {
+    ++statistics_.invalid_results;
+    return false;
+  }
+  path.throughput *= weight;
+  if (is_zero(path.throughput)) return false;
+  ++path.depth;
+  if (path.depth >= context_.settings.roulette_depth) {
+    const float survival = std::min(1.f, max_component(path.throughput));
+    if (!(draw(path, Draw::roulette).x < survival)) return false;
+    path.throughput = (1.f / survival) * path.throughput;
+  }
+  const bool delta = (flags & sample_delta) != 0;
+  if (path.from_camera) path.spread = context_.camera.sample_angle();
+  path.width += path.spread * (path.distance + distance);
+  path.distance = 0.f;
+  path.from_camera = false;
+  if (!delta) path.spread = std::max(path.spread, scattered_spread(pdf));
+  const Vec3 ng = load(buffer_.batch.Ng, lane);
+  path.vertex = load(buffer_.batch.P, lane);
+  path.pdf = pdf;
+  path.light_blind = delta;
+  path.ray = {offset_point(path.vertex, dot(ng, wi) < 0.f ? -ng : ng), wi, INFINITY};
+  ++path.key.event;
+  return true;
+}
+
+}  // namespace nacre::host
