@@ -215,6 +215,21 @@ Program slice(const Program& recorded, std::string name, std::span<const SliceOu
   return program;
 }
 
+std::vector<SliceOutput> state_outputs(Recorder& recorder,
+                                       std::span<const std::uint32_t> keeps) {
+  std::vector<SliceOutput> outputs(keeps.size());
+  const auto& code = recorder.program().entry().code;
+  for (std::size_t i = 0; i < code.size(); ++i) {
+    if (code[i].op != Op::keep) continue;
+    for (std::size_t k = 0; k < keeps.size(); ++k) {
+      if (code[i].imm != keeps[k]) continue;
+      outputs[k] = {std::string(state_prefix) + std::to_string(keeps[k]),
+                    {&recorder, static_cast<ValueId>(i), code[i].type}};
+    }
+  }
+  return outputs;
+}
+
 std::vector<std::uint32_t> state_channels(const Program& program) {
   std::vector<std::uint32_t> numbers;
   for (const Channel& input : program.inputs) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/program/program.h"
+#include "runtime/program/recorder.h"
 #include "runtime/value/ref.h"
 
 namespace nacre {
@@ -30,6 +31,9 @@ Program slice(const Program& recorded, std::string name, std::span<const SliceOu
 
 /// Removes what no store needs, in place; `slice` has done it already.
 void remove_dead(Program& program);
+
+/// For each k the value that keep k marks, as output "state.<k>": what `begin` stores.
+std::vector<SliceOutput> state_outputs(Recorder& recorder, std::span<const std::uint32_t> keeps);
 
 /// The numbers k of the channels "state.<k>" that a Program reads.
 std::vector<std::uint32_t> state_channels(const Program& program);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 /// What a texture lookup means: the recorded sampler, the host path and the tests'
 /// oracle all implement this page.
 ///
@@ -36,5 +38,20 @@ namespace nacre {
 
 enum class TextureFilter { closest, linear, cubic };
 enum class AddressMode { constant, clamp, periodic, mirror };
+
+/// Filter and address modes as one number: the immediate of Op::texture_call.
+struct TextureModes {
+  TextureFilter filter = TextureFilter::linear;
+  AddressMode u = AddressMode::periodic;
+  AddressMode v = AddressMode::periodic;
+};
+constexpr std::uint32_t pack_modes(TextureModes modes) {
+  return static_cast<std::uint32_t>(modes.filter) | static_cast<std::uint32_t>(modes.u) << 4 |
+         static_cast<std::uint32_t>(modes.v) << 8;
+}
+constexpr TextureModes unpack_modes(std::uint32_t packed) {
+  return {static_cast<TextureFilter>(packed & 3u), static_cast<AddressMode>((packed >> 4) & 3u),
+          static_cast<AddressMode>((packed >> 8) & 3u)};
+}
 
 }  // namespace nacre

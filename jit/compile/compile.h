@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/diagnostic.h"
+#include "runtime/kernel.h"
+
+namespace nacre {
+
+class CompileService;
+
+enum class Backend : std::uint8_t {
+  jit,          ///< Machine code through LLVM.
+  interpreter,  ///< Ready at once; the same bits.
+  reference,    ///< Double precision, slow: the oracle.
+};
+
+/// What one stage of compiling made, for people who look into it.
+struct StageReport {
+  std::string name;              ///< "derive", "expand_math", ...
+  double milliseconds = 0.0;
+  std::size_t instructions = 0;  ///< Of all functions, after the stage.
+  std::string text;              ///< The Program after it; only if asked for.
+};
+
+struct CompileOptions {
+  Accuracy accuracy = Accuracy::standard;
+  Backend backend = Backend::jit;
+  int lanes = 0;  ///< 1, 4, 8, 16; 0: the widest that pays on this machine. JIT only.
+  /// Treat every value as varying: slower, and must change no result.
+  bool all_varying = false;
+  /// Answer through the interpreter while the JIT compiles in the background.
+  bool asynchronous = false;
+  bool keep_text = false;  ///< Fill StageReport::text.
+};
+
+/// From a sliced recording to a kernel: every pass in order, then an engine.
+/// Null, with a diagnostic, if the JIT refuses. `stages` may be null; `service`
+/// may be null for the other backends.
+std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,
+                                      CompileService* service, Diagnostics& diagnostics,
+                                      std::vector<StageReport>* stages = nullptr);
+
+/// The passes alone: what the engines get.
+Program lower(Program program, const CompileOptions& options,
+              std::vector<StageReport>* stages = nullptr);
+
+}  // namespace nacre

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jit/graph/graph.h"
+#include "jit/record/bodies.h"
+#include "runtime/node/recorded.h"
+#include "runtime/node/texture_source.h"
+#include "runtime/program/recorder.h"
+
+namespace nacre {
+
+/// Whether the values that an author wrote stay changeable in the kernel.
+enum class ParameterMode {
+  frozen,  ///< Folded in: the smallest and fastest kernel.
+  live,    ///< Slots of the parameter block, named as Graph::parameters are, with
+           ///< ".x", ".y", ... for components; one kernel fits all variants.
+};
+
+struct RecordOptions {
+  Accuracy accuracy = Accuracy::standard;
+  ParameterMode parameters = ParameterMode::frozen;
+  TextureProvider* textures = nullptr;
+  /// The file that a name written in `document` stands for; the name itself if null.
+  std::function<std::string(const std::string& name, const std::string& document)> resolve_file;
+};
+
+/// Records every node of a graph, in order, and returns the values of its
+/// outputs. Nothing, with a diagnostic, for a node that has no body.
+std::optional<std::vector<Recorded>> record_graph(const Graph& graph, const Bodies& bodies,
+                                                  const RecordOptions& options, Recorder& recorder,
+                                                  Diagnostics& diagnostics);
+
+/// Slot name of component `i` of a parameter of `count` components.
+std::string slot_name(const std::string& parameter, int i, int count);
+
+}  // namespace nacre

@@ -1,0 +1,71 @@
+#include "jit/record/textures.h"
+
+#include <array>
+
+#include "runtime/texture/tile_set.h"
+
+namespace nacre {
+
+TextureSource RecordedTextures::add(const TextureHandle& texture, const std::string& key) {
+  TextureSource source;
+  source.slot = Int(recorder_.texture(key));
+  const auto slot = static_cast<std::size_t>(source.slot.constant());
+  if (slots_.size() <= slot) slots_.resize(slot + 1);
+  slots_[slot] = texture;
+  const auto words = texture->words();
+  source.state = texture->missing()    ? TextureSource::State::missing
+                 : texture->resident() ? TextureSource::State::resident
+                                       : TextureSource::State::on_host;
+  source.format =
+      static_cast<texture_layout::TexelFormat>(words[texture_layout::word_format]);
+  source.channels = static_cast<int>(words[texture_layout::word_channels]);
+  return source;
+}
+
+TextureSources RecordedTextures::find(const std::string& name, const std::string& layer) {
+  const std::string key = name + '|' + layer;
+  if (const auto known = found_.find(key); known != found_.end()) return known->second;
+  TextureSources sources;
+  if (name.empty()) {
+    // No file named: the node's default, without a complaint.
+  } else if (has_tile_token(name)) {
+    const TextureSet set = acquire_set(store_, {.path = name, .layer = layer}, diagnostics_);
+    sources.directory = set.directory;
+    for (std::size_t i = 0; i < set.textures.size(); ++i) {
+      sources.images.push_back(add(set.textures[i], key + '#' + std::to_string(i)));
+    }
+  } else {
+    sources.images.push_back(add(store_.acquire({.path = name, .layer = layer}, diagnostics_), key));
+  }
+  found_.emplace(key, sources);
+  return sources;
+}
+
+std::vector<TextureBinding> RecordedTextures::bindings() const {
+  std::vector<TextureBinding> bindings;
+  for (const TextureHandle& texture : slots_) {
+    bindings.push_back({texture->words().data(), texture->words().size()});
+  }
+  return bindings;
+}
+
+void RecordedTextures::look_up(void* user, const TextureCall* call) {
+  const auto* self = static_cast<const RecordedTextures*>(user);
+  if (call->slot >= self->slots_.size() || self->slots_[call->slot]->host() == nullptr) return;
+  const auto lanes = static_cast<std::size_t>(call->lanes);
+  const TextureModes modes = unpack_modes(call->modes);
+  const HostLookup lookup{.count = static_cast<int>(call->lanes),
+                          .u = call->u,
+                          .v = call->v,
+                          .dudx = call->dudx,
+                          .dvdx = call->dvdx,
+                          .dudy = call->dudy,
+                          .dvdy = call->dvdy,
+                          .filter = modes.filter,
+                          .u_mode = modes.u,
+                          .v_mode = modes.v};
+  self->slots_[call->slot]->host()->lookup(
+      lookup, {call->rgba, call->rgba + lanes, call->rgba + 2 * lanes, call->rgba + 3 * lanes});
+}
+
+}  // namespace nacre

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/kernel.h"
+#include "runtime/node/texture_source.h"
+#include "runtime/program/recorder.h"
+#include "runtime/texture/texture_set.h"
+#include "runtime/texture/texture_store.h"
+
+namespace nacre {
+
+/// The textures that one recording uses: finds them in the store while nodes
+/// are recorded, and binds them to kernels afterwards. Holds the handles, so it
+/// must live as long as a kernel runs.
+class RecordedTextures final : public TextureProvider {
+ public:
+  RecordedTextures(TextureStore& store, Recorder& recorder, Diagnostics& diagnostics)
+      : store_(store), recorder_(recorder), diagnostics_(diagnostics) {}
+
+  TextureSources find(const std::string& name, const std::string& layer) override;
+
+  /// For KernelArguments::textures: one binding a slot of the recording.
+  std::vector<TextureBinding> bindings() const;
+  /// For KernelArguments::texture_callback; `user` is the RecordedTextures.
+  static void look_up(void* user, const TextureCall* call);
+
+ private:
+  TextureSource add(const TextureHandle& texture, const std::string& key);
+
+  TextureStore& store_;
+  Recorder& recorder_;
+  Diagnostics& diagnostics_;
+  std::vector<TextureHandle> slots_;
+  std::map<std::string, TextureSources> found_;
+};
+
+}  // namespace nacre
