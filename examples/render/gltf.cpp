@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -303,8 +304,13 @@ Scene load_gltf(const std::string& path, Diagnostics& diagnostics) {
   std::string message, warning;
   const bool binary =
       fs::path(path).extension() != ".gltf" && fs::path(path).extension() != ".GLTF";
-  const bool ok = binary ? parser.LoadBinaryFromFile(&model, &message, &warning, path)
-                         : parser.LoadASCIIFromFile(&model, &message, &warning, path);
+  bool ok = false;
+  try {
+    ok = binary ? parser.LoadBinaryFromFile(&model, &message, &warning, path)
+                : parser.LoadASCIIFromFile(&model, &message, &warning, path);
+  } catch (const std::exception& fault) {  // tinygltf on an empty file, for one
+    message = fault.what();
+  }
   if (!ok) {
     diagnostics.error("bad-gltf", {path, 0, 0, {}}, "cannot read the scene", "a glTF 2.0 file",
                       one_line(message.empty() ? warning : message));

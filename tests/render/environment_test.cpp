@@ -1,0 +1,138 @@
+#include "examples/render/environment.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+#include <vector>
+
+namespace nacre::host {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Environment spotty(int width, int height, float rotation) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> value(0.f, 1.f);
+  std::vector<Vec3> texels;
+  for (int i = 0; i < width * height; ++i) {
+    const bool black = value(random) < 0.7f;
+    texels.push_back(black ? Vec3{} : Vec3{value(random), 30.f * value(random), value(random)});
+  }
+  return {width, height, std::move(texels), rotation};
+}
+
+Vec3 direction(double z_from_top, double azimuth) {
+  const double y = 1 - 2 * z_from_top, r = std::sqrt(std::max(0.0, 1 - y * y));
+  return {static_cast<float>(r * std::sin(azimuth)), static_cast<float>(y),
+          static_cast<float>(-r * std::cos(azimuth))};
+}
+
+TEST(Environment, DensityIntegratesToOne) {
+  for (const Environment& e : {spotty(16, 8, 0.3f), spotty(5, 3, -2.f), Environment::studio(),
+                               Environment::constant({2.f, 2.f, 2.f})}) {
+    constexpr int n = 1500;
+    double sum = 0;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) sum += e.pdf(direction((i + 0.5) / n, 2 * pi * (j + 0.5) / n));
+    }
+    EXPECT_NEAR(sum * 4 * pi / (double{n} * n), 1, 2e-3);
+  }
+}
+
+TEST(Environment, SamplesFollowTheDensity) {
+  const int width = 16, height = 8, n = 200000;
+  const Environment e = spotty(width, height, 0.f);
+  std::vector<double> counts(static_cast<std::size_t>(width * height));
+  std::vector<double> expected(counts.size());
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> u(0.f, 1.f);
+  for (int i = 0; i < n; ++i) {
+    const Environment::Sample s = e.sample({u(random), u(random)});
+    ASSERT_GT(s.pdf, 0.f);
+    ASSERT_NEAR(dot(s.wi, s.wi), 1.f, 1e-5f);
+    const double x = (std::atan2(s.wi.x, -s.wi.z) / (2 * pi) + 0.5) * width;
+    const double y = (0.5 - std::asin(s.wi.y) / pi) * height;
+    counts[static_cast<std::size_t>(std::min<int>(static_cast<int>(y), height - 1) * width +
+                                    std::min<int>(static_cast<int>(x), width - 1))] += 1;
+  }
+  double chi = 0;
+  int cells = 0;
+  for (int y = 0; y < height; ++y) {
+    const double solid =
+        2 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height));
+    for (int x = 0; x < width; ++x) {
+      const double azimuth = 2 * pi * ((x + 0.5) / width - 0.5);
+      const Vec3 centre = direction(0.5 - 0.5 * std::cos(pi * (y + 0.5) / height), azimuth);
+      const double want = n * e.pdf(centre) * solid;
+      const double got = counts[static_cast<std::size_t>(y * width + x)];
+      if (want < 5) {
+        EXPECT_LT(got, 30);
+        continue;
+      }
+      chi += (got - want) * (got - want) / want;
+      ++cells;
+    }
+  }
+  // 99.99 % quantile of chi² by Wilson and Hilferty 1931, z = 3.719.
+  const double k = cells - 1, h = 2 / (9 * k);
+  EXPECT_LT(chi, k * std::pow(1 - h + 3.719 * std::sqrt(h), 3));
+}
+
+TEST(Environment, SampleAgreesWithRadianceAndDensity) {
+  const Environment e = spotty(16, 8, 1.1f);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> u(0.f, 1.f);
+  int differ = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Environment::Sample s = e.sample({u(random), u(random)});
+    const Vec3 l = e.radiance(s.wi);
+    EXPECT_EQ(l.y, s.radiance.y);
+    // Rounding may carry a direction over the edge of its texel, seldom.
+    differ += std::abs(e.pdf(s.wi) - s.pdf) > 1e-4f * s.pdf;
+  }
+  EXPECT_LE(differ, 10);
+}
+
+TEST(Environment, NoLightWhereTheDensityIsZero) {
+  std::vector<Vec3> texels(64 * 32);
+  texels[10 * 64 + 20] = {1.f, 1.f, 1.f};
+  const Environment e(64, 32, std::move(texels));
+  for (int i = 0; i < 400; ++i) {
+    for (int j = 0; j < 400; ++j) {
+      const Vec3 d = direction((i + 0.5) / 400, 2 * pi * (j + 0.5) / 400);
+      if (luminance(e.radiance(d)) > 1e-6f) {
+        ASSERT_GT(e.pdf(d), 0.f);
+      }
+    }
+  }
+}
+
+TEST(Environment, TopRowIsUpAndTheMiddleIsMinusZ) {
+  std::vector<Vec3> texels(8 * 4);
+  for (int x = 0; x < 8; ++x) texels[static_cast<std::size_t>(x)] = {1.f, 0.f, 0.f};
+  for (int y = 1; y < 3; ++y) {
+    for (int x = 3; x < 5; ++x) texels[static_cast<std::size_t>(y * 8 + x)] = {0.f, 1.f, 0.f};
+    for (int x = 5; x < 7; ++x) texels[static_cast<std::size_t>(y * 8 + x)] = {0.f, 0.f, 1.f};
+  }
+  const Environment e(8, 4, texels);
+  EXPECT_EQ(e.radiance({0.f, 1.f, 0.f}).x, 1.f);
+  EXPECT_EQ(e.radiance({0.f, 0.f, -1.f}).y, 1.f);
+  EXPECT_EQ(e.radiance({1.f, 0.f, 0.f}).z, 1.f);
+  EXPECT_EQ(e.radiance({-1.f, 0.f, 0.f}).z, 0.f);
+}
+
+TEST(Environment, BlackGivesNoSample) {
+  EXPECT_EQ(Environment::constant({}).sample({0.3f, 0.4f}).pdf, 0.f);
+  const float nan = std::nanf("");
+  EXPECT_EQ(Environment::constant({nan, -1.f, INFINITY}).mean_luminance(), 0.f);
+}
+
+TEST(Environment, MissingFileIsADiagnostic) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(Environment::load("/nonexistent/sky.hdr", 1.f, 0.f, diagnostics));
+  EXPECT_EQ(diagnostics.error_count(), 1u);
+}
+
+}  // namespace
+}  // namespace nacre::host
