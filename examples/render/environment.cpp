@@ -50,7 +50,7 @@ Environment::Environment(int width, int height, std::vector<Vec3> texels, float 
 }
 
 Vec3 Environment::texel(int x, int y) const {
-  const int wrapped = (x % width_ + width_) % width_;
+  const int wrapped = x < 0 ? x + width_ : (x >= width_ ? x - width_ : x);  // x in [-1, width]
   const int clamped = std::clamp(y, 0, height_ - 1);
   return texels_[static_cast<std::size_t>(clamped) * static_cast<std::size_t>(width_) +
                  static_cast<std::size_t>(wrapped)];

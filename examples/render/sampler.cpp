@@ -32,12 +32,11 @@ std::uint32_t reverse_bits(std::uint32_t v) {
   return __builtin_bswap32(v);
 }
 
-/// The second Sobol' dimension is the Pascal matrix modulo 2; applied to the
-/// reversed index it factors into one step per bit of the bit position (Ahmed
-/// 2024, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and
-/// Compact", EGSR).
-std::uint32_t sobol_dimension_1(std::uint32_t index) {
-  std::uint32_t v = reverse_bits(index);
+/// The second Sobol' dimension, as a function of the reversed index: the Pascal
+/// matrix modulo 2, which factors into one step per bit of the bit position
+/// (Ahmed 2024, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant,
+/// and Compact", EGSR).
+std::uint32_t sobol_dimension_1(std::uint32_t v) {
   v ^= v << 16;
   v ^= (v & 0x00ff00ffu) << 8;
   v ^= (v & 0x0f0f0f0fu) << 4;
@@ -46,9 +45,9 @@ std::uint32_t sobol_dimension_1(std::uint32_t index) {
   return v;
 }
 
-/// Nested uniform (Owen) scramble of the bits below each bit, by hash: Burley
-/// 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4), with the constants
-/// of its listing 3 after Laine and Karras 2011.
+/// Nested uniform (Owen) scramble by hash, on reversed bits: each bit changes by
+/// those below it. Burley 2020, "Practical Hash-based Owen Scrambling", JCGT
+/// 9(4), with the constants of its listing after Laine and Karras 2011.
 std::uint32_t owen_scramble_reversed(std::uint32_t v, std::uint32_t seed) {
   v += seed;
   v ^= v * 0x6c50b47cu;
@@ -56,10 +55,6 @@ std::uint32_t owen_scramble_reversed(std::uint32_t v, std::uint32_t seed) {
   v ^= v * 0xc7afe638u;
   v ^= v * 0x8d22f6e6u;
   return v;
-}
-
-std::uint32_t owen_scramble(std::uint32_t v, std::uint32_t seed) {
-  return reverse_bits(owen_scramble_reversed(reverse_bits(v), seed));
 }
 
 float to_unit(std::uint32_t v) { return static_cast<float>(v >> 8) * 0x1p-24f; }
@@ -75,9 +70,11 @@ Uniform2 uniform2(SamplerKind kind, const SampleKey& key, Draw draw) {
   // Shuffling the index decorrelates the padded pairs; the scramble of each
   // dimension keeps the stratification within a pair.
   const Hash4 h = pcg4d({key.pixel, 0x5eed5eedu, purpose, key.seed});
-  const std::uint32_t index = owen_scramble(key.sample, h.z);
-  return {to_unit(owen_scramble(reverse_bits(index), h.x)),
-          to_unit(owen_scramble(sobol_dimension_1(index), h.y))};
+  const std::uint32_t index_reversed = owen_scramble_reversed(reverse_bits(key.sample), h.z);
+  const std::uint32_t x = index_reversed;  // the first dimension is van der Corput's
+  const std::uint32_t y = sobol_dimension_1(index_reversed);
+  return {to_unit(reverse_bits(owen_scramble_reversed(reverse_bits(x), h.x))),
+          to_unit(reverse_bits(owen_scramble_reversed(reverse_bits(y), h.y)))};
 }
 
 }  // namespace nacre::host
