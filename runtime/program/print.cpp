@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <iterator>
 
+#include "runtime/program/fold.h"
 #include "runtime/program/program.h"
 
 namespace nacre {
@@ -16,11 +18,24 @@ void put(Buffer& text, fmt::format_string<A...> format, A&&... values) {
   fmt::format_to(std::back_inserter(text), format, std::forward<A>(values)...);
 }
 
-void put_constant(Buffer& text, const Instruction& instruction) {
-  switch (instruction.type) {
-    case Scalar::f32: put(text, "{}", std::bit_cast<float>(instruction.imm)); break;
-    case Scalar::i32: put(text, "{}", static_cast<std::int32_t>(instruction.imm)); break;
-    default: put(text, "{}", instruction.imm != 0); break;
+/// Shortest decimal that reads back as the same bits; a NaN other than the
+/// canonical one by its bits, "nan:ffc00001".
+void put_float(Buffer& text, std::uint32_t bits) {
+  const auto value = std::bit_cast<float>(bits);
+  if (!std::isnan(value)) {
+    put(text, "{}", value);
+  } else if (bits == canonical_nan) {
+    put(text, "nan");
+  } else {
+    put(text, "nan:{:08x}", bits);
+  }
+}
+
+void put_bits(Buffer& text, Scalar type, std::uint32_t bits) {
+  switch (type) {
+    case Scalar::f32: put_float(text, bits); break;
+    case Scalar::i32: put(text, "{}", static_cast<std::int32_t>(bits)); break;
+    default: put(text, "{}", bits != 0); break;
   }
 }
 
@@ -28,7 +43,7 @@ void put_imm(Buffer& text, const Program& program, const Instruction& instructio
   switch (instruction.op) {
     case Op::constant:
       text.push_back(' ');
-      put_constant(text, instruction);
+      put_bits(text, instruction.type, instruction.imm);
       break;
     case Op::parameter: put(text, " {}", program.parameters[instruction.imm].name); break;
     case Op::input: put(text, " {}", program.inputs[instruction.imm].name); break;
@@ -82,13 +97,33 @@ std::string_view accuracy_name(Accuracy accuracy) {
   return "";
 }
 
+namespace {
+
+/// What instructions name but do not say: texture keys, the parameters with
+/// their values in the document, the contents of tables.
+void put_lists(Buffer& text, const Program& program) {
+  for (const TextureSlot& slot : program.textures) put(text, "texture \"{}\"\n", slot.key);
+  for (const ParameterSlot& slot : program.parameters) {
+    put(text, "parameter {} {} = ", scalar_name(slot.type), slot.name);
+    put_bits(text, slot.type, slot.value);
+    text.push_back('\n');
+  }
+  for (const Table& table : program.tables) {
+    put(text, "table {} =", table.name);
+    for (const float value : table.values) {
+      text.push_back(' ');
+      put_float(text, std::bit_cast<std::uint32_t>(value));
+    }
+    text.push_back('\n');
+  }
+}
+
+}  // namespace
+
 std::string to_string(const Program& program) {
   Buffer text;
   put(text, "program {}\n", program.name);
-  for (const TextureSlot& slot : program.textures) put(text, "texture \"{}\"\n", slot.key);
-  for (const Table& table : program.tables) {
-    put(text, "table {} of {}\n", table.name, table.values.size());
-  }
+  put_lists(text, program);
   for (std::size_t i = 1; i < program.functions.size(); ++i) {
     const Function& function = program.functions[i];
     put(text, "function @{}.{}(", function.name, i);

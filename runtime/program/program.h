@@ -91,12 +91,12 @@ struct Program {
 
 /// The canonical text of a Program: values numbered from 0 in order of
 /// definition, one instruction a line, regions indented. Golden tests and
-/// `nacre inspect` show it.
+/// `nacre inspect` show it; runtime/program/parse.h reads it back.
 std::string to_string(const Program& program);
 
 /// Checks all that the engines rely on: operand types and counts, definition
-/// before use and in scope, regions closed in order, indices in range. Returns
-/// the first fault, or an empty string.
+/// before use and in scope, regions closed in order, indices in range, callees
+/// before their callers. Returns the first fault, or an empty string.
 std::string verify(const Program& program);
 
 /// 128 bits over everything that decides what the kernel computes; names of

@@ -140,16 +140,21 @@ class Run {
     if (inside) run(frame, open + 1, close);
     for_each_own(frame.function, open, close, Op::merge, [&](std::size_t k) {
       const auto& operands = frame.function.code[k].operands;
-      // A literal stands wherever it was recorded, inside too.
-      const Instruction& outer = frame.function.code[operands[1]];
-      if (outer.op == Op::constant) step(frame, operands[1], outer);
+      ensure_literal(frame, operands[1]);
       frame.values[k] = frame.values[operands[inside ? 0 : 1]];
     });
+  }
+
+  /// A literal stands wherever it was recorded, in a region not run yet too.
+  void ensure_literal(Frame& frame, ValueId id) {
+    const Instruction& instruction = frame.function.code[id];
+    if (instruction.op == Op::constant) step(frame, id, instruction);
   }
 
   void run_loop(Frame& frame, std::size_t open, std::size_t close) {
     const Function& function = frame.function;
     for_each_own(function, open, close, Op::carry, [&](std::size_t k) {
+      ensure_literal(frame, function.code[k].operands[0]);
       frame.values[k] = frame.values[function.code[k].operands[0]];
     });
     for_each_own(function, open, close, Op::next, [&](std::size_t k) {

@@ -115,6 +115,22 @@ TEST(Engines, LoopStopsEachLaneByItself) {
   EXPECT_EQ(run(*make_reference(program), {x}), expected);
 }
 
+TEST(Engines, LoopStartsFromALiteral) {
+  Recorder recorder;
+  const Float x(recorder.input("x", Scalar::f32));
+  const Float2 start{Float(5.0f), x};
+  const Float2 end = loop(recorder, x > 0.0f, 3, start, [](Int, Float2& s) {
+    s.x = s.x * 2.0f;
+    s.y = s.y - 1.0f;
+    return s.y > 0.0f;
+  });
+  const Program program = single(recorder, end.x.ref());
+  const std::vector<float> xs{-1, 1, 2, 9};
+  const std::vector<float> expected{5, 10, 20, 40};
+  EXPECT_EQ(run(*make_interpreter(program), {xs}), expected);
+  EXPECT_EQ(run(*make_reference(program), {xs}), expected);
+}
+
 TEST(Engines, OutlinedFunctionIsRecordedOnceAndCalledTwice) {
   Recorder recorder;
   const Float x(recorder.input("x", Scalar::f32));
