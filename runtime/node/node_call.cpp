@@ -70,6 +70,11 @@ void NodeCall::put(Port& port, std::vector<Ref> parts) {
 
 void NodeCall::set(ClosurePtr closure) { outputs_.front().value.closure = std::move(closure); }
 
+void NodeCall::copy(std::string_view input) {
+  assert(type(input) == out_type());
+  outputs_.front().value = in(input);
+}
+
 void NodeCall::set(std::string_view name, std::vector<Ref> parts) {
   for (Port& port : outputs_) {
     if (port.name == name) put(port, std::move(parts));

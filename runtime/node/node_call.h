@@ -64,6 +64,8 @@ class NodeCall {
   }
   void set(ClosurePtr closure);
   void set(std::vector<Ref> parts) { put(outputs_.front(), std::move(parts)); }
+  /// Sets the first output to an input of the same type: numbers, text or closure.
+  void copy(std::string_view input);
   /// Sets the output of that name.
   void set(std::string_view name, std::vector<Ref> parts);
   void set(std::string_view name, Float x) { set(name, std::vector<Ref>{x.ref()}); }

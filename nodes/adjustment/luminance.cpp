@@ -1,0 +1,16 @@
+#include <utility>
+
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+/// in . lumacoeffs in all colour channels; alpha passes. MaterialX 1.39 Standard
+/// Nodes, "luminance".
+void record_luminance(NodeCall& call) {
+  const Float grey = dot(call.vector3("in"), call.vector3("lumacoeffs"));
+  std::vector<Ref> parts(3, grey.ref());
+  if (call.out_type() == Type::color4) parts.push_back(call.in("in").parts[3]);
+  call.set(std::move(parts));
+}
+
+}  // namespace nacre

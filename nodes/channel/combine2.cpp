@@ -1,0 +1,8 @@
+#include "nodes/channel/combine.h"
+
+namespace nacre {
+
+/// Two values as one colour or vector. MaterialX 1.39 Standard Nodes, "combine2".
+void record_combine2(NodeCall& call) { record_combine(call); }
+
+}  // namespace nacre

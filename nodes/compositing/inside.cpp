@@ -1,0 +1,10 @@
+#include "runtime/node/componentwise.h"
+
+namespace nacre {
+
+/// in mask. MaterialX 1.39 Standard Nodes, "inside".
+void record_inside(NodeCall& call) {
+  componentwise(call, ports("in", "mask"), [](Float x, Float mask) { return x * mask; });
+}
+
+}  // namespace nacre

@@ -1,0 +1,10 @@
+#include "runtime/node/componentwise.h"
+
+namespace nacre {
+
+/// in (1 - mask). MaterialX 1.39 Standard Nodes, "outside".
+void record_outside(NodeCall& call) {
+  componentwise(call, ports("in", "mask"), [](Float x, Float mask) { return x * (1.0f - mask); });
+}
+
+}  // namespace nacre

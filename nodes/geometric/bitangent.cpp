@@ -1,0 +1,13 @@
+#include "runtime/node/geometry.h"
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+/// The bitangent, unit, in the space named: world, object, or model, which is
+/// object space here. MaterialX 1.39 Standard Nodes, "bitangent". There is one
+/// tangent frame, so `index` says nothing.
+void record_bitangent(NodeCall& call) {
+  call.set(bitangent(call.recorder(), parse_space(call.text("space"))));
+}
+
+}  // namespace nacre

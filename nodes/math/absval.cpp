@@ -1,0 +1,10 @@
+#include "runtime/node/componentwise.h"
+
+namespace nacre {
+
+/// |in|. MaterialX 1.39 Standard Nodes, "absval".
+void record_absval(NodeCall& call) {
+  componentwise(call, ports("in"), [](Float x) { return abs(x); });
+}
+
+}  // namespace nacre

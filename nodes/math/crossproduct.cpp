@@ -1,0 +1,10 @@
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+/// in1 x in2. MaterialX 1.39 Standard Nodes, "crossproduct".
+void record_crossproduct(NodeCall& call) {
+  call.set(cross(call.vector3("in1"), call.vector3("in2")));
+}
+
+}  // namespace nacre

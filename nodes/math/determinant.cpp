@@ -1,0 +1,8 @@
+#include "nodes/math/matrix.h"
+
+namespace nacre {
+
+/// The determinant of a matrix. MaterialX 1.39 Standard Nodes, "determinant".
+void record_determinant(NodeCall& call) { call.set(determinant(matrix_input(call, "in"))); }
+
+}  // namespace nacre

@@ -1,0 +1,14 @@
+#include "nodes/math/space.h"
+
+namespace nacre {
+
+/// A point from one space to another. MaterialX 1.39 Standard Nodes,
+/// "transformpoint"; spaces as runtime/node/geometry.h has them.
+void record_transformpoint(NodeCall& call) {
+  const Float3 v = call.vector3("in");
+  const SpaceChange change = space_change(call);
+  if (change == SpaceChange::none) return call.set(v);
+  call.set(through(space_matrix(call.recorder(), change), v, 1.0f));
+}
+
+}  // namespace nacre

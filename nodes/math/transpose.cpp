@@ -1,0 +1,8 @@
+#include "nodes/math/matrix.h"
+
+namespace nacre {
+
+/// The transposed matrix. MaterialX 1.39 Standard Nodes, "transpose".
+void record_transpose(NodeCall& call) { set_matrix(call, transpose(matrix_input(call, "in"))); }
+
+}  // namespace nacre

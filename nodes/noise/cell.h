@@ -1,0 +1,44 @@
+#pragma once
+
+#include "nodes/noise/hash.h"
+#include "runtime/value/vector.h"
+
+namespace nacre {
+
+/// The lattice cell of a coordinate. Beyond the range of int the last cell; 0 for NaN.
+inline Int cell_of(Float x) { return to_int(floor(x)); }
+
+struct Cell2 {
+  Int x, y;
+};
+struct Cell3 {
+  Int x, y, z;
+};
+inline Cell2 cell_of(Float2 p) { return {cell_of(p.x), cell_of(p.y)}; }
+inline Cell3 cell_of(Float3 p) { return {cell_of(p.x), cell_of(p.y), cell_of(p.z)}; }
+
+/// One random number a cell, in [0, 1].
+inline Float cell_noise(Cell2 c) { return bits_to_unit(hash(c.x, c.y)); }
+inline Float cell_noise(Cell3 c) { return bits_to_unit(hash(c.x, c.y, c.z)); }
+/// Another for every integer w.
+inline Float cell_noise(Cell3 c, Int w) { return bits_to_unit(hash(c.x, c.y, c.z, w)); }
+
+/// Three random numbers a cell: the key with 0, 1, 2 appended.
+inline Float3 cell_noise3(Cell2 c) {
+  const auto component = [&](int k) { return bits_to_unit(hash(c.x, c.y, Int(k))); };
+  return {component(0), component(1), component(2)};
+}
+inline Float3 cell_noise3(Cell3 c) {
+  const HashState s = hash_three_of(4, c.x, c.y, c.z);
+  const auto component = [&](int k) { return bits_to_unit(hash_finish({s.a + Int(k), s.b, s.c})); };
+  return {component(0), component(1), component(2)};
+}
+inline Float3 cell_noise3(Cell3 c, Int w) {
+  const HashState s = hash_three_of(5, c.x, c.y, c.z);
+  const auto component = [&](int k) {
+    return bits_to_unit(hash_finish({s.a + w, s.b + Int(k), s.c}));
+  };
+  return {component(0), component(1), component(2)};
+}
+
+}  // namespace nacre

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+
+#include "nodes/noise/perlin.h"
+#include "runtime/node/node_call.h"
+#include "runtime/value/control.h"
+
+namespace nacre {
+
+/// More octaves than this are not summed: by then the coordinates have lost their
+/// fraction or the amplitudes have vanished.
+inline constexpr int most_octaves = 64;
+
+/// The octaves of a fractal: how many, and what the coordinates and the amplitude
+/// are multiplied by from one to the next.
+struct Octaves {
+  Int count;
+  Float lacunarity, diminish;
+
+  explicit Octaves(const NodeCall& call)
+      : count(call.integer("octaves")),
+        lacunarity(call.number("lacunarity")),
+        diminish(call.number("diminish")) {}
+};
+
+inline Float2 scaled(Float2 p, Float s) { return p * s; }
+inline Float3 scaled(Float3 p, Float s) { return p * Float3(s); }
+
+template <class P, class R>
+struct FractalState {
+  P p;
+  Float amplitude;
+  R sum;
+};
+template <class P, class R, class F>
+void visit(FractalState<P, R>& s, F&& f) {
+  visit(s.p, f);
+  visit(s.amplitude, f);
+  visit(s.sum, f);
+}
+
+/// Sum over i < count of diminish^i noise(lacunarity^i p); 0 for no octaves. R is
+/// Float or Float3. A literal count is written out, another one loops.
+template <class R, class P, class Noise>
+R fractal(Recorder& recorder, P p, const Octaves& octaves, Noise&& noise) {
+  FractalState<P, R> state{p, 1.0f, R(0.0f)};
+  const auto octave = [&](FractalState<P, R>& s) {
+    s.sum = s.sum + R(s.amplitude) * noise(s.p);
+    s.amplitude *= octaves.diminish;
+    s.p = scaled(s.p, octaves.lacunarity);
+  };
+  if (octaves.count.is_constant()) {
+    const int count = std::min(octaves.count.constant(), most_octaves);
+    for (int i = 0; i < count; ++i) octave(state);
+    return state.sum;
+  }
+  const auto body = [&](Int i, FractalState<P, R>& s) {
+    octave(s);
+    return i + Int(1) < octaves.count;
+  };
+  return loop(recorder, octaves.count > Int(0), most_octaves, state, body).sum;
+}
+
+}  // namespace nacre

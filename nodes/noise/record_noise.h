@@ -1,0 +1,36 @@
+#pragma once
+
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+/// Sets one to four noises by the type of the output, each times its component of
+/// "amplitude" plus `pivot`. `one(p)` and `three(p)` are the noise; two of them are
+/// the first of three, the fourth is one at p + shift unless `pair` says that two
+/// are one(p) and one(p + shift) as well.
+template <class P, class One, class Three>
+void record_noise(NodeCall& call, P p, P shift, bool pair, Float pivot, One&& one, Three&& three) {
+  const Recorded& amplitude = call.in("amplitude");
+  std::vector<Float> values;
+  switch (call.out_type()) {
+    case Type::float_: values = {one(p)}; break;
+    case Type::vector2:
+      if (pair) {
+        values = {one(p), one(p + shift)};
+        break;
+      }
+      [[fallthrough]];
+    default: {
+      const Float3 v = three(p);
+      values = {v.x, v.y, v.z};
+    }
+  }
+  if (call.out_type() == Type::vector4) values.push_back(one(p + shift));
+  std::vector<Ref> parts;
+  for (std::size_t i = 0; i < amplitude.parts.size(); ++i) {
+    parts.push_back(fma(values[i], amplitude.number(i), pivot).ref());
+  }
+  call.set(std::move(parts));
+}
+
+}  // namespace nacre

@@ -1,0 +1,8 @@
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+/// in, whatever its type. MaterialX 1.39 Standard Nodes, "dot".
+void record_dot(NodeCall& call) { call.copy("in"); }
+
+}  // namespace nacre

@@ -1,0 +1,8 @@
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+/// value, whatever its type. MaterialX 1.39 Standard Nodes, "constant".
+void record_constant(NodeCall& call) { call.copy("value"); }
+
+}  // namespace nacre

@@ -1,0 +1,17 @@
+#include "nodes/noise/perlin.h"
+#include "nodes/noise/record_noise.h"
+
+namespace nacre {
+
+/// Perlin noise of texcoord, times amplitude plus pivot. MaterialX 1.39 Standard
+/// Nodes, "noise2d". Two components are the first of three; a fourth is another
+/// noise at texcoord + (19, 73).
+void record_noise2d(NodeCall& call) {
+  Recorder& recorder = call.recorder();
+  record_noise(
+      call, call.vector2("texcoord"), Float2{19.0f, 73.0f}, false, call.number("pivot"),
+      [&](Float2 p) { return perlin(recorder, p); },
+      [&](Float2 p) { return perlin3(recorder, p); });
+}
+
+}  // namespace nacre
