@@ -59,7 +59,10 @@ struct Lanes {
   }
 
   static F fused(F a, F b, F c) {
-    if constexpr (has_fma) {
+    if constexpr (width == 16) {
+      // xsimd 8.1 knows no fma of AVX-512; what it does instead rounds twice.
+      return F(_mm512_fmadd_ps(a, b, c));
+    } else if constexpr (has_fma) {
       return xsimd::fma(a, b, c);
     } else {
       alignas(64) float x[width], y[width], z[width];

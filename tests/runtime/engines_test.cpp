@@ -92,6 +92,34 @@ TEST(Interpreter, AgreesWithScalarMeaningOnEdges) {
   }
 }
 
+TEST(Interpreter, FmaRoundsOnce) {
+  std::vector<std::uint32_t> values = edge_bits();
+  values.insert(values.end(), {0x3f800800u, 0xbf801000u, 0x3f801000u, 0xbf801001u});
+  std::vector<std::vector<float>> inputs(3);
+  for (const std::uint32_t a : values) {
+    for (const std::uint32_t b : values) {
+      for (const std::uint32_t c : values) {
+        inputs[0].push_back(std::bit_cast<float>(flush_denormal(a)));
+        inputs[1].push_back(std::bit_cast<float>(flush_denormal(b)));
+        inputs[2].push_back(std::bit_cast<float>(flush_denormal(c)));
+      }
+    }
+  }
+  Recorder recorder;
+  const Float a(recorder.input("a", Scalar::f32));
+  const Float b(recorder.input("b", Scalar::f32));
+  const Float c(recorder.input("c", Scalar::f32));
+  const std::vector<float> out =
+      run(*make_interpreter(single(recorder, fma(a, b, c).ref())), inputs);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::vector<std::uint32_t> bits{std::bit_cast<std::uint32_t>(inputs[0][i]),
+                                          std::bit_cast<std::uint32_t>(inputs[1][i]),
+                                          std::bit_cast<std::uint32_t>(inputs[2][i])};
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(out[i]), *fold(Op::fma, bits))
+        << inputs[0][i] << " * " << inputs[1][i] << " + " << inputs[2][i];
+  }
+}
+
 TEST(Engines, LoopStopsEachLaneByItself) {
   // Collatz steps to 1: every lane needs its own number of iterations.
   Recorder recorder;
