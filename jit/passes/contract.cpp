@@ -186,12 +186,25 @@ class Fuser {
 
 }  // namespace
 
-Program contract(const Program& program) {
-  Program marked = program;
-  mark_varying(marked);
+namespace {
+
+Fusions choose(const Program& marked) {
   Fusions fusions;
   for (const Function& function : marked.functions) Chooser(function).run(fusions);
-  return transform(marked, Fuser(marked, fusions));
+  return fusions;
+}
+
+}  // namespace
+
+Program contract(const Program& program) {
+  Program result = program;
+  mark_varying(result);
+  // A product that stayed may be free to go once its rival is gone; every
+  // round has fewer sums.
+  for (Fusions fusions = choose(result); !fusions.empty(); fusions = choose(result)) {
+    result = transform(result, Fuser(result, fusions));
+  }
+  return result;
 }
 
 }  // namespace nacre
