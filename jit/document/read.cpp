@@ -131,23 +131,34 @@ class FileReader {
   // Names are unique within a scope; checked before the includes come in.
   void check_names(const Element& root) {
     std::vector<const Element*> pending{&root};
-    std::unordered_set<std::string_view> names;
     while (!pending.empty()) {
-      const Element* scope = pending.back();
+      const Element& scope = *pending.back();
       pending.pop_back();
-      names.clear();
-      for (const Element& child : scope->children()) {
+      for (const Element& child : scope.children()) {
         if (child.child_count() > 0) pending.push_back(&child);
-        if (!child.has_attribute("name")) continue;
-        if (!is_valid_name(child.name())) {
-          diagnostics_.error("invalid-name", location(child), "this is not a valid name",
-                             "letters, digits and '_', not starting with a digit",
-                             fmt::format("'{}'", child.name().substr(0, 100)));
-        } else if (!names.insert(child.name()).second) {
-          diagnostics_.error("duplicate-name", location(child),
-                             fmt::format("the name '{}' is used twice in one scope", child.name()));
-        }
+        if (!child.has_attribute("name") || is_valid_name(child.name())) continue;
+        diagnostics_.error("invalid-name", location(child), "this is not a valid name",
+                           "letters, digits and '_', not starting with a digit",
+                           fmt::format("'{}'", child.name().substr(0, 100)));
       }
+      check_unique(scope);
+    }
+  }
+
+  void check_unique(const Element& scope) {
+    constexpr std::size_t small_scope = 16;
+    std::unordered_set<std::string_view> names;
+    for (const Element& child : scope.children()) {
+      if (child.name().empty()) continue;
+      bool is_new = true;
+      if (scope.child_count() > small_scope) {
+        is_new = names.insert(child.name()).second;
+      } else {
+        is_new = scope.child(child.name()) == &child;
+      }
+      if (is_new) continue;
+      diagnostics_.error("duplicate-name", location(child),
+                         fmt::format("the name '{}' is used twice in one scope", child.name()));
     }
   }
 

@@ -84,7 +84,7 @@ Connection connect_to_document_output(const Element& port, Diagnostics& diagnost
 }  // namespace
 
 const Element& enclosing_graph(const Element& element) {
-  const Element* at = element.parent();
+  const Element* at = element.parent() == nullptr ? &element : element.parent();
   while (at->parent() != nullptr && at->category() != "nodegraph") at = at->parent();
   return *at;
 }

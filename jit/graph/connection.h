@@ -28,7 +28,7 @@ Connection find_connection(const Element& port, Diagnostics& diagnostics);
 /// The element whose children a port's `nodename` names.
 const Element& scope_of(const Element& port);
 
-/// The nearest node graph around an element, or the root.
+/// The nearest node graph around an element, or the root; of the root itself.
 const Element& enclosing_graph(const Element& element);
 
 }  // namespace nacre

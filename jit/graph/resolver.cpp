@@ -24,6 +24,11 @@ Resolver::Result Resolver::run(Key key) {
   open(key);
   while (!stack.empty()) {
     Frame& frame = stack.back();
+    if (is_too_large(frame)) {
+      // Graphs within graphs may double at each level: stop at once.
+      for (const Frame& open_frame : stack) slots_[open_frame.key] = {true, failure()};
+      return failure();
+    }
     const std::optional<Key> wanted = step(frame);
     if (!wanted) {
       slots_[frame.key] = {true, std::move(frame.result)};
@@ -44,6 +49,30 @@ Resolver::Result Resolver::run(Key key) {
     }
   }
   return slots_.at(key).result;
+}
+
+Resolver::Result Resolver::failure() {
+  Result result;
+  result.failed = true;
+  return result;
+}
+
+// Instances count as well as nodes: they take memory, and a graph may consist of
+// nothing but other graphs.
+bool Resolver::is_too_large(const Frame& frame) {
+  if (graph_.nodes.size() <= options_.max_nodes && instances_.size() <= 2 * options_.max_nodes) {
+    return false;
+  }
+  const auto* subject = frame.key.subject;
+  const Element& where = frame.key.kind == Kind::port
+                             ? *static_cast<const Element*>(subject)
+                             : *static_cast<const Instance*>(subject)->origin;
+  if (!too_large_) {
+    error("too-many-nodes", where, "the graph has too many nodes",
+          fmt::format("at most {}", options_.max_nodes));
+  }
+  too_large_ = true;
+  return true;
 }
 
 std::optional<Resolver::Key> Resolver::step(Frame& frame) {
@@ -86,12 +115,10 @@ Resolver::Result Resolver::resolve_port(const Element& port, const Context* cont
 }
 
 Resolver::Result Resolver::resolve_node(const Element& node, std::string_view output) {
-  Result failure;
-  failure.failed = true;
   const Instance* instance = instance_of(node, nullptr);
-  if (instance == nullptr) return failure;
+  if (instance == nullptr) return failure();
   const auto index = output_index(*instance->def, output, node);
-  return index ? run({Kind::output, *index, instance, nullptr}) : failure;
+  return index ? run({Kind::output, *index, instance, nullptr}) : failure();
 }
 
 void Resolver::error(std::string code, const Element& element, std::string message,

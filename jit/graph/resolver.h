@@ -96,6 +96,8 @@ class Resolver {
   // The machine (resolver.cpp).
   Result run(Key key);
   std::optional<Key> step(Frame& frame);
+  static Result failure();
+  bool is_too_large(const Frame& frame);
   void report_cycle(const std::vector<Frame>& stack, const Key& again);
   const Result& waited(const Frame& frame) { return slots_.at(frame.waiting_for).result; }
 
@@ -166,6 +168,7 @@ class Resolver {
   std::map<std::string_view, const Instance*> geomprops_;
   std::unordered_map<const Element*, std::uint32_t> parameters_;
   std::unordered_map<std::string, bool> reported_;  // warnings given once
+  bool too_large_ = false;
 };
 
 }  // namespace nacre

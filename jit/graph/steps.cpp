@@ -44,14 +44,6 @@ std::optional<Resolver::Key> Resolver::step_node(Frame& frame) {
                             output.has_default ? output.default_value : Value{}});
   }
   if (frame.result.failed) return std::nullopt;
-  if (graph_.nodes.size() >= options_.max_nodes) {
-    if (reported_.emplace("too-many-nodes", true).second) {
-      error("too-many-nodes", *instance.origin, "the graph has too many nodes",
-            fmt::format("at most {}", options_.max_nodes));
-    }
-    frame.result.failed = true;
-    return std::nullopt;
-  }
   frame.result.source.kind = Source::Kind::link;
   frame.result.source.node = static_cast<std::uint32_t>(graph_.nodes.size());
   graph_.nodes.push_back(std::move(node));

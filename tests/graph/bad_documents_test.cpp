@@ -1,0 +1,68 @@
+// Every document in tests/documents/bad has a NAME.expected beside it: one line
+// for each diagnostic, in order,
+//
+//   severity code file:line path | text
+//
+// where `path` is "-" if there is none and `text` is part of what is said.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "jit/graph/check.h"
+#include "tests/document/standard_library.h"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> bad_documents() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(source_folder() / "tests/documents/bad")) {
+    if (entry.path().extension() == ".mtlx") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::vector<std::string> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string head_of(const Diagnostic& one, const fs::path& folder) {
+  const std::string severity = one.severity == Severity::error ? "error" : "warning";
+  return fmt::format("{} {} {}:{} {} | ", severity, one.code,
+                     fs::path(one.where.file).lexically_relative(folder).string(), one.where.line,
+                     one.where.path.empty() ? "-" : one.where.path);
+}
+
+class BadDocument : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(BadDocument, IsReportedWhereItIsWrong) {
+  const fs::path folder = source_folder() / "tests/documents/bad";
+  Diagnostics diagnostics;
+  const auto document = read_document(folder / (GetParam() + ".mtlx"), {}, diagnostics);
+  if (document != nullptr) check_document(*document, standard_library(), {}, diagnostics);
+
+  const std::vector<std::string> expected = lines_of(folder / (GetParam() + ".expected"));
+  ASSERT_FALSE(expected.empty());
+  ASSERT_EQ(diagnostics.all().size(), expected.size()) << diagnostics.to_string();
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Diagnostic& one = diagnostics.all()[i];
+    const std::string head = head_of(one, folder);
+    ASSERT_TRUE(expected[i].starts_with(head)) << expected[i] << "\n" << head << one.to_string();
+    const std::string text = expected[i].substr(head.size());
+    EXPECT_NE(one.to_string().find(text), std::string::npos) << text << "\n" << one.to_string();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadDocument, ::testing::ValuesIn(bad_documents()),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace nacre
