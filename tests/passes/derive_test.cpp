@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <numeric>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "jit/passes/footprint.h"
+#include "runtime/interpreter/interpreter.h"
 #include "tests/passes/derivative_check.h"
+#include "tests/support/random_program.h"
 
 namespace nacre {
 namespace {
@@ -301,6 +307,52 @@ TEST(Derive, PassesKeeps) {
   EXPECT_EQ(names(derive(slice(recorder.program(), "test", outputs))),
             (std::vector<std::string>{"duv0dx.x", "uv0.x"}));
   EXPECT_TRUE(derive(slice(recorder.program(), "test", outputs, Keeps::load)).inputs.empty());
+}
+
+/// `program` with one output more: the derivative of one of its values.
+Program with_derivative_of(Program program, ValueId value, std::uint32_t axis) {
+  Function& entry = program.entry();
+  const auto derivative = static_cast<ValueId>(entry.code.size());
+  entry.code.push_back({.op = Op::ddx,
+                        .type = Scalar::f32,
+                        .count = 1,
+                        .imm = axis,
+                        .operands = {value, no_value, no_value}});
+  entry.code.push_back({.op = Op::store,
+                        .count = 1,
+                        .imm = static_cast<std::uint32_t>(program.outputs.size()),
+                        .operands = {derivative, no_value, no_value}});
+  program.outputs.push_back({"derivative", Scalar::f32});
+  return program;
+}
+
+TEST(Derive, OfAnyProgramIsFiniteAndLeavesTheRest) {
+  const std::array<std::string_view, 1> more{"in"};  // Every float input has a footprint.
+  std::vector<std::uint32_t> order(40);
+  std::iota(order.begin(), order.end(), 0u);
+  std::size_t not_constant = 0;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    const Program program = random_program(seed);
+    const auto before = RandomBatch(program, seed, order).run(*make_interpreter(program), 0, 40);
+    std::vector<ValueId> values = top_level_values(program);
+    std::erase_if(values, [&](ValueId id) { return program.entry().code[id].type != Scalar::f32; });
+    for (std::size_t k = 0; k < values.size(); k += 5) {
+      const Program derived = derive(with_derivative_of(program, values[k], seed % 2), more);
+      ASSERT_EQ(verify(derived), "");
+      ASSERT_EQ(count(derived, Op::ddx), 0u);
+      auto after = RandomBatch(derived, seed, order).run(*make_interpreter(derived), 0, 40);
+      for (const std::uint32_t bits : after.back()) {
+        const Instruction& stored = derived.entry().code[derived.entry().code.back().operands[0]];
+        if (stored.op == Op::input) continue;  // A channel is what the host says.
+        ASSERT_TRUE(std::isfinite(std::bit_cast<float>(bits))) << seed << "\n"
+                                                               << to_string(derived);
+        not_constant += bits != 0 ? 1u : 0u;
+      }
+      after.pop_back();
+      ASSERT_EQ(after, before) << seed << "\n" << to_string(derived);
+    }
+  }
+  EXPECT_GT(not_constant, 1000u);
 }
 
 }  // namespace
