@@ -33,7 +33,9 @@ struct CompileOptions {
   bool all_varying = false;
   /// Answer through the interpreter while the JIT compiles in the background.
   bool asynchronous = false;
-  bool keep_text = false;  ///< Fill StageReport::text.
+  bool keep_text = false;      ///< Fill StageReport::text with the Program.
+  bool dump_ir = false;        ///< A stage "llvm" with the LLVM IR as text. JIT only.
+  bool dump_assembly = false;  ///< A stage "assembly" with the machine code as text. JIT only.
 };
 
 /// From a sliced recording to a kernel: every pass in order, then an engine.

@@ -1,4 +1,4 @@
-#include "jit/compile/compile.h"
+#include "jit/compile.h"
 
 #include <cassert>
 #include <chrono>
@@ -29,7 +29,9 @@ class Stages {
     if (reports_ != nullptr) {
       const std::chrono::duration<double, std::milli> elapsed =
           std::chrono::steady_clock::now() - start;
-      StageReport report{.name = name, .milliseconds = elapsed.count()};
+      StageReport report;
+      report.name = name;
+      report.milliseconds = elapsed.count();
       for (const Function& function : result.functions) report.instructions += function.code.size();
       if (keep_text_) report.text = to_string(result);
       reports_->push_back(std::move(report));

@@ -1,0 +1,124 @@
+#include "examples/bake/bake.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "examples/bake/plane.h"
+
+namespace nacre::host {
+
+namespace {
+
+/// Runs the kernel on strips of rows; every strip has its own buffers.
+class Baker {
+ public:
+  Baker(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings)
+      : kernel_(kernel),
+        output_(kernel.outputs[output]),
+        plane_(settings.width, settings.height),
+        parameters_(kernel.kernel.parameters()) {
+    set("frame", settings.frame);
+    set("time", settings.time);
+  }
+
+  int components() const { return component_count(output_.type); }
+
+  /// Bytes that one row takes while it is computed.
+  std::size_t row_bytes() const {
+    const Program& program = kernel_.kernel.program();
+    const std::size_t channels = program.inputs.size() + program.outputs.size() +
+                                 static_cast<std::size_t>(components());
+    return channels * sizeof(float) * static_cast<std::size_t>(plane_.width());
+  }
+
+  void strip(int first, int rows, float* texels) const {
+    const Program& program = kernel_.kernel.program();
+    const auto points = static_cast<std::size_t>(rows) * static_cast<std::size_t>(plane_.width());
+    std::vector<std::vector<float>> inputs(program.inputs.size());
+    std::vector<const void*> in;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      plane_.fill(program.inputs[i].name, first, rows, inputs[i]);
+      in.push_back(inputs[i].data());
+    }
+    std::vector<std::vector<std::uint32_t>> outputs(program.outputs.size());
+    std::vector<void*> out;
+    for (auto& channel : outputs) {
+      channel.resize(points);
+      out.push_back(channel.data());
+    }
+    kernel_.kernel.run(in, out, points, parameters_);
+    const auto count = static_cast<std::size_t>(components());
+    for (std::size_t c = 0; c < count; ++c) {
+      const std::size_t channel = output_.first_channel + c;
+      const bool is_float = program.outputs[channel].type == Scalar::f32;
+      for (std::size_t i = 0; i < points; ++i) {
+        const std::uint32_t bits = outputs[channel][i];
+        texels[i * count + c] = is_float ? std::bit_cast<float>(bits)
+                                         : static_cast<float>(static_cast<std::int32_t>(bits));
+      }
+    }
+  }
+
+ private:
+  void set(std::string_view name, float value) {
+    if (const auto index = kernel_.kernel.parameter_index(name)) {
+      parameters_[*index] = std::bit_cast<std::uint32_t>(value);
+    }
+  }
+
+  const OutputKernel& kernel_;
+  const OutputKernel::Output& output_;
+  Plane plane_;
+  std::vector<std::uint32_t> parameters_;
+};
+
+}  // namespace
+
+bool bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
+          const std::function<bool(const BakedRows&)>& sink, const BakeControl& control) {
+  const Baker baker(kernel, output, settings);
+  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  const auto row_texels = static_cast<std::size_t>(settings.width) *
+                          static_cast<std::size_t>(baker.components());
+  // A strip is what one call of the kernel gets: enough points to be worth it.
+  const int strip_rows = std::clamp(16384 / settings.width, 1, settings.height);
+  const auto band_rows = static_cast<int>(std::clamp<std::size_t>(
+      settings.memory / std::max<std::size_t>(1, baker.row_bytes()),
+      static_cast<std::size_t>(strip_rows), static_cast<std::size_t>(settings.height)));
+  BakedRows band;
+  for (int first = 0; first < settings.height; first += band_rows) {
+    if (control.stop.stop_requested()) return false;
+    band.first = first;
+    band.rows = std::min(band_rows, settings.height - first);
+    band.texels.resize(static_cast<std::size_t>(band.rows) * row_texels);
+    const int strips = (band.rows + strip_rows - 1) / strip_rows;
+    arena.execute([&] {
+      tbb::parallel_for(0, strips, [&](int strip) {
+        const int begin = strip * strip_rows;
+        baker.strip(first + begin, std::min(strip_rows, band.rows - begin),
+                    band.texels.data() + static_cast<std::size_t>(begin) * row_texels);
+      });
+    });
+    if (!sink(band)) return false;
+    if (control.progress) {
+      control.progress(static_cast<double>(first + band.rows) / settings.height);
+    }
+  }
+  return true;
+}
+
+std::vector<float> bake_image(const OutputKernel& kernel, std::size_t output,
+                              const BakeSettings& settings) {
+  std::vector<float> image;
+  bake(kernel, output, settings, [&](const BakedRows& rows) {
+    image.insert(image.end(), rows.texels.begin(), rows.texels.end());
+    return true;
+  });
+  return image;
+}
+
+}  // namespace nacre::host

@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "examples/tool/options.h"
+#include "jit/graph/find.h"
+
+namespace nacre::tool {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InspectOptions {
+  CommonOptions common;
+  std::string material;
+  std::vector<std::string> outputs;
+  std::vector<std::string> dumps;
+  bool live = false;
+  bool json = false;
+};
+
+Json channel_list(const std::vector<Channel>& channels) {
+  Json list = Json::array();
+  for (const Channel& channel : channels) {
+    list.push_back({{"name", channel.name}, {"type", scalar_name(channel.type)}});
+  }
+  return list;
+}
+
+Json parameter_list(const Program& program) {
+  Json list = Json::array();
+  for (const ParameterSlot& slot : program.parameters) {
+    Json entry{{"name", slot.name}, {"type", scalar_name(slot.type)}};
+    if (slot.type == Scalar::f32) entry["value"] = std::bit_cast<float>(slot.value);
+    if (slot.type != Scalar::f32) entry["value"] = static_cast<std::int32_t>(slot.value);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+std::size_t instruction_count(const Program& program) {
+  std::size_t count = 0;
+  for (const Function& function : program.functions) count += function.code.size();
+  return count;
+}
+
+Json describe(const BoundKernel& kernel) {
+  const Program& program = kernel.program();
+  Json textures = Json::array();
+  for (const TextureSlot& slot : program.textures) textures.push_back(slot.key);
+  return {{"engine", kernel.kernel().engine()},
+          {"lanes", kernel.kernel().lanes()},
+          {"instructions", instruction_count(program)},
+          {"functions", program.functions.size() - 1},
+          {"inputs", channel_list(program.inputs)},
+          {"outputs", channel_list(program.outputs)},
+          {"parameters", parameter_list(program)},
+          {"textures", std::move(textures)}};
+}
+
+Json stage_list(const std::vector<StageReport>& stages) {
+  Json list = Json::array();
+  for (const StageReport& stage : stages) {
+    Json entry{{"stage", stage.name},
+               {"milliseconds", stage.milliseconds},
+               {"instructions", stage.instructions}};
+    if (!stage.text.empty()) entry["text"] = stage.text;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json inspect_material(const InspectOptions& options, const Opened& opened,
+                      const std::string& material, const ShaderOptions& shader,
+                      Diagnostics& diagnostics) {
+  const auto kernels =
+      opened.system->compile_material(*opened.document, material, shader, diagnostics);
+  if (kernels == nullptr) return nullptr;
+  Json result{{"material", material},
+              {"lobes", kernels->lobes},
+              {"state_channels", kernels->state.size()},
+              {"left_out", kernels->manifest}};
+  Json list = Json::object();
+  const std::pair<const char*, const std::optional<BoundKernel>*> all[]{
+      {"begin", &kernels->begin},       {"sample", &kernels->sample},
+      {"evaluate", &kernels->evaluate}, {"albedo", &kernels->albedo},
+      {"emission", &kernels->emission}, {"opacity", &kernels->opacity}};
+  for (const auto& [name, kernel] : all) {
+    if (kernel->has_value()) list[name] = describe(**kernel);
+  }
+  result["kernels"] = std::move(list);
+  result["stages"] = stage_list(kernels->stages);
+  (void)options;
+  return result;
+}
+
+Json inspect_output(const Opened& opened, const std::string& output, const ShaderOptions& shader,
+                    Diagnostics& diagnostics) {
+  const auto kernel =
+      opened.system->compile_outputs(*opened.document, {output}, shader, diagnostics);
+  if (kernel == nullptr) return nullptr;
+  return {{"output", output},
+          {"type", type_name(kernel->outputs.front().type)},
+          {"kernel", describe(kernel->kernel)},
+          {"stages", stage_list(kernel->stages)}};
+}
+
+void print_kernel(const std::string& name, const Json& kernel) {
+  fmt::print("  {}: {} instructions, {} functions, {}, {} lanes\n", name,
+             kernel["instructions"].get<std::size_t>(), kernel["functions"].get<std::size_t>(),
+             kernel["engine"].get<std::string>(), kernel["lanes"].get<int>());
+  for (const char* list : {"inputs", "parameters"}) {
+    if (kernel[list].empty()) continue;
+    fmt::print("    {}:", list);
+    for (const Json& entry : kernel[list]) fmt::print(" {}", entry["name"].get<std::string>());
+    fmt::print("\n");
+  }
+  for (const Json& texture : kernel["textures"]) {
+    fmt::print("    texture: {}\n", texture.get<std::string>());
+  }
+}
+
+void print_stages(const Json& stages) {
+  for (const Json& stage : stages) {
+    fmt::print("    {:28} {:8.3f} ms {:6} instructions\n", stage["stage"].get<std::string>(),
+               stage["milliseconds"].get<double>(), stage["instructions"].get<std::size_t>());
+    if (stage.contains("text")) fmt::print("{}\n", stage["text"].get<std::string>());
+  }
+}
+
+void print_text(const Json& result) {
+  if (result.contains("material")) {
+    fmt::print("material {}\n", result["material"].get<std::string>());
+    for (const Json& lobe : result["lobes"]) fmt::print("  lobe {}\n", lobe.get<std::string>());
+    for (const Json& line : result["left_out"]) {
+      fmt::print("  left out: {}\n", line.get<std::string>());
+    }
+    fmt::print("  state: {} channels a point\n", result["state_channels"].get<std::size_t>());
+    for (const auto& [name, kernel] : result["kernels"].items()) print_kernel(name, kernel);
+  } else {
+    fmt::print("output {} ({})\n", result["output"].get<std::string>(),
+               result["type"].get<std::string>());
+    print_kernel("kernel", result["kernel"]);
+  }
+  fmt::print("  stages:\n");
+  print_stages(result["stages"]);
+}
+
+int run(const InspectOptions& options) {
+  Diagnostics diagnostics;
+  const Opened opened = open(options.common, diagnostics);
+  if (!opened) return report(diagnostics);
+  ShaderOptions shader = options.common.shader_options();
+  if (options.live) shader.parameters = ParameterMode::live;
+  for (const std::string& dump : options.dumps) {
+    if (dump == "program") shader.compile.keep_text = true;
+    if (dump == "llvm") shader.compile.dump_ir = true;
+    if (dump == "assembly") shader.compile.dump_assembly = true;
+  }
+  Json results = Json::array();
+  std::vector<std::string> materials;
+  if (!options.material.empty()) materials.push_back(options.material);
+  const bool everything = options.material.empty() && options.outputs.empty();
+  if (everything) {
+    for (const FoundMaterial& found : find_materials(*opened.document)) {
+      materials.push_back(found.name);
+    }
+  }
+  for (const std::string& material : materials) {
+    results.push_back(inspect_material(options, opened, material, shader, diagnostics));
+  }
+  std::vector<std::string> outputs = options.outputs;
+  if (everything) {
+    for (const FoundOutput& found : find_outputs(*opened.document)) {
+      if (is_numeric(found.type)) outputs.push_back(found.name);
+    }
+  }
+  for (const std::string& output : outputs) {
+    results.push_back(inspect_output(opened, output, shader, diagnostics));
+  }
+  if (options.json) {
+    fmt::print("{}\n", results.dump(2));
+  } else {
+    for (const Json& result : results) {
+      if (!result.is_null()) print_text(result);
+    }
+  }
+  return report(diagnostics);
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app, int& status) {
+  auto options = std::make_shared<InspectOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "inspect", "Show what kernels need, hold and leave out, and how they were made");
+  options->common.add_document(command);
+  command.add_option("--material", options->material, "One material (default: all)")
+      ->type_name("NAME");
+  command.add_option("--output", options->outputs, "A graph output (default: all)")
+      ->type_name("NAME");
+  command.add_option("--dump", options->dumps, "Also the text of a stage; may be repeated")
+      ->check(CLI::IsMember({"program", "llvm", "assembly"}));
+  command.add_flag("--live", options->live, "Keep parameters changeable");
+  command.add_flag("--json", options->json, "For programs to read");
+  options->common.add_compile(command);
+  command.callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace nacre::tool

@@ -1,0 +1,222 @@
+#include "examples/tool/kernel_shader.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <charconv>
+
+namespace nacre::tool {
+
+namespace {
+
+using host::Lanes2;
+using host::Lanes3;
+using host::ShadingBatch;
+
+/// A group of three lanes of the batch, and the attribute that fills it.
+struct Group3 {
+  std::string_view name;
+  Lanes3 ShadingBatch::* lanes;
+  std::uint32_t attribute;
+};
+
+constexpr std::array<Group3, 14> groups3{{
+    {"P", &ShadingBatch::P, 0},
+    {"N", &ShadingBatch::N, 0},
+    {"Ng", &ShadingBatch::Ng, 0},
+    {"wo", &ShadingBatch::wo, 0},
+    {"T", &ShadingBatch::T, host::attribute_tangents},
+    {"B", &ShadingBatch::B, host::attribute_tangents},
+    {"Po", &ShadingBatch::P_object, host::attribute_object_space},
+    {"No", &ShadingBatch::N_object, host::attribute_object_space},
+    {"To", &ShadingBatch::T_object, host::attribute_object_space | host::attribute_tangents},
+    {"Bo", &ShadingBatch::B_object, host::attribute_object_space | host::attribute_tangents},
+    {"dPdx", &ShadingBatch::dPdx, host::attribute_footprint_position},
+    {"dPdy", &ShadingBatch::dPdy, host::attribute_footprint_position},
+    {"dPodx", &ShadingBatch::dPdx_object,
+     host::attribute_footprint_position | host::attribute_object_space},
+    {"dPody", &ShadingBatch::dPdy_object,
+     host::attribute_footprint_position | host::attribute_object_space},
+}};
+
+/// Splits "P.x" into group and component 0..3; component -1 if it has none.
+std::pair<std::string_view, int> split(std::string_view channel) {
+  constexpr std::string_view suffixes = "xyzw";
+  const std::size_t dot = channel.rfind('.');
+  if (dot == std::string_view::npos || dot + 2 != channel.size()) return {channel, -1};
+  const std::size_t component = suffixes.find(channel[dot + 1]);
+  return {channel.substr(0, dot),
+          component == std::string_view::npos ? -1 : static_cast<int>(component)};
+}
+
+float* component(const Lanes3& lanes, int i) { return i == 0 ? lanes.x : i == 1 ? lanes.y : lanes.z; }
+float* component(const Lanes2& lanes, int i) { return i == 0 ? lanes.x : lanes.y; }
+
+using Source = std::function<const float*(const ShadingBatch&)>;
+
+/// The lanes of a standard channel; empty for others.
+Source standard_channel(std::string_view group, int i, std::uint32_t& attributes) {
+  for (const Group3& known : groups3) {
+    if (group != known.name) continue;
+    attributes |= known.attribute;
+    return [lanes = known.lanes, i](const ShadingBatch& b) { return component(b.*lanes, i); };
+  }
+  if (group == "uv0") return [i](const ShadingBatch& b) { return component(b.uv, i); };
+  if (group == "duv0dx" || group == "duv0dy") {
+    attributes |= host::attribute_footprint_uv;
+    const auto lanes = group == "duv0dx" ? &ShadingBatch::dUVdx : &ShadingBatch::dUVdy;
+    return [lanes, i](const ShadingBatch& b) { return component(b.*lanes, i); };
+  }
+  return {};
+}
+
+/// The host's name of a vertex attribute: "uv1" is "texcoord1", "geomprop.foo" "foo".
+std::string primvar_name(std::string_view group) {
+  if (group.starts_with("uv")) return "texcoord" + std::string(group.substr(2));
+  if (group.starts_with("geomprop.")) return std::string(group.substr(9));
+  return std::string(group);
+}
+
+}  // namespace
+
+KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels)
+    : kernels_(std::move(kernels)) {
+  capabilities_.scatters = kernels_->sample.has_value() && kernels_->evaluate.has_value();
+  capabilities_.emits = kernels_->emission.has_value();
+  capabilities_.has_opacity = kernels_->opacity.has_value();
+  bind(kernels_->begin, begin_, {});
+  bind(kernels_->sample, sample_, {"u.x", "u.y", "u.z"});
+  bind(kernels_->evaluate, evaluate_, {"wi.x", "wi.y", "wi.z"});
+  bind(kernels_->emission, emission_, {});
+  bind(kernels_->opacity, opacity_, {});
+}
+
+int KernelShader::find_primvar(std::string_view name, int components) {
+  auto& list = capabilities_.primvars;
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const auto& each) { return each.name == name; });
+  if (found == list.end()) {
+    list.push_back({std::string(name), components});
+    return static_cast<int>(list.size()) - 1;
+  }
+  found->components = std::max(found->components, components);
+  return static_cast<int>(found - list.begin());
+}
+
+void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
+                        const std::vector<std::string_view>& extras) {
+  if (!kernel.has_value()) return;
+  bound.kernel = &*kernel;
+  for (const Channel& channel : kernel->program().inputs) {
+    const auto extra = std::find(extras.begin(), extras.end(), channel.name);
+    bound.extra.push_back(extra == extras.end() ? -1 : static_cast<int>(extra - extras.begin()));
+    bound.state.push_back(-1);
+    bound.from_batch.emplace_back();
+    if (extra != extras.end()) continue;
+    if (channel.name.starts_with("state.")) {
+      std::uint32_t number = 0;
+      std::from_chars(channel.name.data() + 6, channel.name.data() + channel.name.size(), number);
+      const auto slot = std::find(kernels_->state.begin(), kernels_->state.end(), number);
+      bound.state.back() = static_cast<int>(slot - kernels_->state.begin());
+      continue;
+    }
+    const auto [group, i] = split(channel.name);
+    bound.from_batch.back() = standard_channel(group, i, capabilities_.attributes);
+    if (bound.from_batch.back() || i < 0) continue;
+    const int primvar = find_primvar(primvar_name(group), i + 1);
+    bound.from_batch.back() = [primvar, i = i](const ShadingBatch& b) -> const float* {
+      const auto& lanes = b.primvars[primvar];
+      return lanes.present ? lanes.component[i] : nullptr;
+    };
+  }
+}
+
+std::uint32_t KernelShader::stride(std::uint32_t count) {
+  return (count + host::lane_padding - 1) / host::lane_padding * host::lane_padding;
+}
+
+std::size_t KernelShader::state_bytes(std::uint32_t capacity) const {
+  // One array of zeros stands for attributes that a mesh does not have.
+  return (kernels_->state.size() + 1) * stride(capacity) * sizeof(float);
+}
+
+std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound,
+                                                    const ShadingBatch& batch) const {
+  std::vector<std::uint32_t> block = bound.kernel->parameters();
+  const auto set = [&](std::string_view name, float value) {
+    if (const auto index = bound.kernel->parameter_index(name)) {
+      block[*index] = std::bit_cast<std::uint32_t>(value);
+    }
+  };
+  set("frame", batch.frame);
+  set("time", batch.time);
+  return block;
+}
+
+void KernelShader::run(const Bound& bound, const ShadingBatch& batch, const void* state,
+                       std::span<const float* const> extras,
+                       std::span<void* const> outputs) const {
+  static constexpr std::size_t most = 512;
+  const std::size_t count = bound.extra.size();
+  assert(count <= most);
+  const std::vector<float> zeros(batch.count, 0.0f);
+  std::array<const void*, most> inputs;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float* lanes = nullptr;
+    if (bound.extra[k] >= 0) {
+      lanes = extras[static_cast<std::size_t>(bound.extra[k])];
+    } else if (bound.state[k] >= 0) {
+      lanes = static_cast<const float*>(state) +
+              static_cast<std::size_t>(bound.state[k]) * stride(batch.count);
+    } else if (bound.from_batch[k]) {
+      lanes = bound.from_batch[k](batch);
+    }
+    inputs[k] = lanes != nullptr ? lanes : zeros.data();
+  }
+  bound.kernel->run({inputs.data(), count}, outputs, batch.count, parameters(bound, batch));
+}
+
+void KernelShader::begin(const ShadingBatch& batch, void* state) const {
+  if (begin_.kernel == nullptr) return;
+  std::vector<void*> outputs;
+  for (std::size_t k = 0; k < kernels_->state.size(); ++k) {
+    outputs.push_back(static_cast<float*>(state) + k * stride(batch.count));
+  }
+  run(begin_, batch, nullptr, {}, outputs);
+}
+
+void KernelShader::sample(const ShadingBatch& batch, const void* state, Lanes3 u,
+                          host::SampleLanes out) const {
+  // The host's first number chooses the lobe; the kernel's third does.
+  const std::array<const float*, 3> extras{u.y, u.z, u.x};
+  std::vector<std::int32_t> lobe(batch.count);
+  const std::array<void*, 9> outputs{out.wi.x,     out.wi.y,     out.wi.z,
+                                     out.weight.x, out.weight.y, out.weight.z,
+                                     out.pdf,      lobe.data(),  out.flags};
+  run(sample_, batch, state, extras, outputs);
+}
+
+void KernelShader::evaluate(const ShadingBatch& batch, const void* state, Lanes3 wi,
+                            host::EvaluateLanes out) const {
+  const std::array<const float*, 3> extras{wi.x, wi.y, wi.z};
+  const std::array<void*, 4> outputs{out.value.x, out.value.y, out.value.z, out.pdf};
+  run(evaluate_, batch, state, extras, outputs);
+}
+
+void KernelShader::emission(const ShadingBatch& batch, Lanes3 radiance) const {
+  const std::array<void*, 3> outputs{radiance.x, radiance.y, radiance.z};
+  run(emission_, batch, nullptr, {}, outputs);
+}
+
+void KernelShader::opacity(const ShadingBatch& batch, Lanes3 rgb) const {
+  std::vector<float> presence(batch.count);
+  const std::array<void*, 4> outputs{presence.data(), rgb.x, rgb.y, rgb.z};
+  run(opacity_, batch, nullptr, {}, outputs);
+  // What is not let through: presence, but for what the surface itself transmits.
+  for (std::uint32_t i = 0; i < batch.count; ++i) {
+    for (float* channel : {rgb.x, rgb.y, rgb.z}) channel[i] = presence[i] * (1.0f - channel[i]);
+  }
+}
+
+}  // namespace nacre::tool

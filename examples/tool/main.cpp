@@ -1,0 +1,32 @@
+#include <csignal>
+
+#include "examples/tool/options.h"
+
+namespace {
+
+constexpr const char* footer = R"(Exit status: 0 done, 1 problems (on standard error), 2 usage.
+
+Examples:
+  nacre bake marble.mtlx --size 1024 --out textures
+  nacre render marble.mtlx --material Marble_3D --spp 64 --size 512x512 --out marble.png
+  nacre check marble.mtlx)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"nacre: MaterialX shading on the CPU, compiled to SIMD machine code", "nacre"};
+  app.set_version_flag("--version", NACRE_VERSION);
+  app.require_subcommand(1);
+  app.footer(footer);
+  int status = nacre::tool::status_ok;
+  nacre::tool::add_bake(app, status);
+  nacre::tool::add_check(app, status);
+  nacre::tool::add_inspect(app, status);
+  nacre::tool::add_render(app, status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? nacre::tool::status_ok : nacre::tool::status_usage;
+  }
+  return status;
+}

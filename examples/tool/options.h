@@ -1,0 +1,69 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "jit/document/document.h"
+#include "jit/shading/shading_system.h"
+
+namespace nacre::tool {
+
+/// Exit statuses of every subcommand.
+enum Status : int { status_ok = 0, status_problems = 1, status_usage = 2 };
+
+/// What the subcommands share: the document, where things are found, and how
+/// kernels are made.
+struct CommonOptions {
+  std::string file;
+  std::vector<std::string> libraries;  ///< Node packs beside the data library.
+  std::vector<std::string> search_paths;
+  std::string accuracy = "standard";
+  std::string backend = "jit";
+  int lanes = 0;
+  int threads = 0;
+  bool no_cache = false;
+  std::string cache;
+  bool quiet = false;
+
+  void add_document(CLI::App& command);
+  void add_compile(CLI::App& command);
+
+  Accuracy parsed_accuracy() const;
+  Backend parsed_backend() const;
+  ShaderOptions shader_options() const;
+};
+
+/// A document with the system that compiles it. Empty pointers after an error.
+struct Opened {
+  std::unique_ptr<ShadingSystem> system;
+  std::unique_ptr<Document> document;
+  explicit operator bool() const { return system != nullptr && document != nullptr; }
+};
+Opened open(const CommonOptions& options, Diagnostics& diagnostics);
+
+/// Prints diagnostics on standard error; the status they mean.
+int report(const Diagnostics& diagnostics);
+
+/// One line on standard error that is rewritten as work goes on; silent when
+/// that is no terminal or `quiet`.
+class ProgressLine {
+ public:
+  ProgressLine(std::string title, bool quiet);
+  ~ProgressLine();
+  void update(double share);
+
+ private:
+  std::string title_;
+  bool active_;
+  int shown_ = -1;
+};
+
+/// Each adds its subcommand; running it sets `status`.
+void add_bake(CLI::App& app, int& status);
+void add_check(CLI::App& app, int& status);
+void add_inspect(CLI::App& app, int& status);
+void add_render(CLI::App& app, int& status);
+
+}  // namespace nacre::tool

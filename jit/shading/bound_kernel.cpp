@@ -1,0 +1,39 @@
+#include "jit/shading/bound_kernel.h"
+
+#include <cassert>
+#include <utility>
+
+#include "jit/record/textures.h"
+
+namespace nacre {
+
+BoundKernel::BoundKernel(std::shared_ptr<const Kernel> kernel,
+                         std::shared_ptr<const RecordedTextures> textures)
+    : kernel_(std::move(kernel)), textures_(std::move(textures)) {
+  if (textures_ != nullptr) bindings_ = textures_->bindings();
+  for (const ParameterSlot& slot : program().parameters) parameters_.push_back(slot.value);
+}
+
+std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) const {
+  const auto& slots = program().parameters;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+void BoundKernel::run(std::span<const void* const> inputs, std::span<void* const> outputs,
+                      std::uint64_t count, std::span<const std::uint32_t> parameters) const {
+  assert(inputs.size() == program().inputs.size());
+  assert(outputs.size() == program().outputs.size());
+  assert(parameters.empty() || parameters.size() == parameters_.size());
+  kernel_->run({.inputs = inputs.data(),
+                .outputs = outputs.data(),
+                .parameters = parameters.empty() ? parameters_.data() : parameters.data(),
+                .textures = bindings_.data(),
+                .texture_callback = &RecordedTextures::look_up,
+                .texture_user = const_cast<RecordedTextures*>(textures_.get()),
+                .count = count});
+}
+
+}  // namespace nacre

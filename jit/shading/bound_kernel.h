@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "runtime/kernel.h"
+
+namespace nacre {
+
+class RecordedTextures;
+
+/// A kernel with its textures and the parameter values of its document. Shared
+/// by any number of threads; holds what it needs alive.
+class BoundKernel {
+ public:
+  BoundKernel(std::shared_ptr<const Kernel> kernel, std::shared_ptr<const RecordedTextures> textures);
+
+  /// Inputs, outputs, parameters and textures, in the order run() wants them.
+  const Program& program() const { return kernel_->program(); }
+  const Kernel& kernel() const { return *kernel_; }
+
+  /// The parameter block as the document has it, to be changed and passed to run().
+  const std::vector<std::uint32_t>& parameters() const { return parameters_; }
+  /// Index of a slot in the block, if this kernel reads it.
+  std::optional<std::size_t> parameter_index(std::string_view name) const;
+
+  /// See KernelArguments. `parameters` empty: those of the document.
+  void run(std::span<const void* const> inputs, std::span<void* const> outputs,
+           std::uint64_t count, std::span<const std::uint32_t> parameters = {}) const;
+
+ private:
+  std::shared_ptr<const Kernel> kernel_;
+  std::shared_ptr<const RecordedTextures> textures_;
+  std::vector<TextureBinding> bindings_;
+  std::vector<std::uint32_t> parameters_;
+};
+
+}  // namespace nacre

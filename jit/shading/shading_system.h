@@ -1,0 +1,113 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jit/compile.h"
+#include "jit/document/library.h"
+#include "jit/graph/build.h"
+#include "jit/record/record.h"
+#include "jit/shading/bound_kernel.h"
+#include "pbs/kernels.h"
+#include "runtime/texture/texture_store.h"
+
+namespace nacre {
+
+struct SystemOptions {
+  /// The MaterialX data library first, then node packs: files or folders.
+  std::vector<std::filesystem::path> libraries;
+  TextureOptions textures;
+  /// Where compiled kernels are kept between runs; empty: nowhere.
+  std::filesystem::path cache;
+  int compile_threads = 0;  ///< 0: one a core.
+};
+
+struct ShaderOptions {
+  CompileOptions compile;
+  ParameterMode parameters = ParameterMode::frozen;
+  KernelRequest kernels;
+  GraphOptions graph;  ///< `is_native` is filled in.
+  /// Folders, beside the document's own, in which image files are looked for.
+  std::vector<std::filesystem::path> search_paths;
+};
+
+/// Outputs of node graphs as one kernel: channel "<name>", or "<name>.x" ... for
+/// types of several components, in the order asked for.
+struct OutputKernel {
+  struct Output {
+    std::string name;  ///< "NG_marble/out"
+    Type type = Type::none;
+    std::size_t first_channel = 0;  ///< component_count(type) of them follow.
+  };
+  BoundKernel kernel;
+  std::vector<Output> outputs;
+  std::vector<StageReport> stages;
+};
+
+/// The kernels of one surface material; see pbs/kernels.h for their channels.
+/// A kernel that has nothing to compute is absent.
+struct MaterialKernels {
+  /// Stores the state channels "state.<k>" that sample and evaluate read.
+  std::optional<BoundKernel> begin;
+  std::optional<BoundKernel> sample, evaluate, albedo, emission, opacity;
+  /// Numbers k of the state channels, ascending: the host gives each an array.
+  std::vector<std::uint32_t> state;
+  std::vector<std::string> lobes;
+  std::vector<std::string> manifest;  ///< What was left out, and why.
+  std::vector<StageReport> stages;    ///< Of all kernels, one after another.
+};
+
+/// Everything that documents share: the data library, native bodies, textures
+/// and the compiler. All members may be called from any thread.
+class ShadingSystem {
+ public:
+  /// Null, with diagnostics, if the library cannot be read.
+  static std::unique_ptr<ShadingSystem> create(const SystemOptions& options,
+                                               Diagnostics& diagnostics);
+  ~ShadingSystem();
+  ShadingSystem(const ShadingSystem&) = delete;
+  ShadingSystem& operator=(const ShadingSystem&) = delete;
+
+  const Library& library() const { return *library_; }
+  /// What to give build_graph or GraphBuilder for a Graph meant for this system.
+  GraphOptions graph_options(const ShaderOptions& options) const;
+  TextureStore& textures() { return *textures_; }
+
+  /// Graph outputs as build_graph names them, all in one kernel.
+  std::unique_ptr<OutputKernel> compile_outputs(const Document& document,
+                                                const std::vector<std::string>& outputs,
+                                                const ShaderOptions& options,
+                                                Diagnostics& diagnostics);
+
+  /// The surface of a material node, or of a surface shader node.
+  std::unique_ptr<MaterialKernels> compile_material(const Document& document,
+                                                    const std::string& material,
+                                                    const ShaderOptions& options,
+                                                    Diagnostics& diagnostics);
+
+  /// Builds and records everything in a document that can be asked for, every
+  /// output and every material, and compiles nothing: all its diagnostics.
+  void check(const Document& document, const ShaderOptions& options, Diagnostics& diagnostics);
+
+  // The same from a Graph that no document was needed for.
+  std::unique_ptr<OutputKernel> compile_outputs(const Graph& graph, const ShaderOptions& options,
+                                                Diagnostics& diagnostics);
+  std::unique_ptr<MaterialKernels> compile_material(const Graph& graph,
+                                                    const ShaderOptions& options,
+                                                    Diagnostics& diagnostics);
+
+ private:
+  ShadingSystem() = default;
+  std::optional<Graph> build(const Document& document, const GraphRequest& request,
+                             const ShaderOptions& options, Diagnostics& diagnostics) const;
+
+  std::shared_ptr<const Library> library_;
+  std::unique_ptr<Bodies> bodies_;
+  std::unique_ptr<TextureStore> textures_;
+  std::unique_ptr<CompileService> service_;
+};
+
+}  // namespace nacre
