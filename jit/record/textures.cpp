@@ -19,6 +19,7 @@ TextureSource RecordedTextures::add(const TextureHandle& texture, const std::str
   source.format =
       static_cast<texture_layout::TexelFormat>(words[texture_layout::word_format]);
   source.channels = static_cast<int>(words[texture_layout::word_channels]);
+  source.single = words[texture_layout::word_level_count] == 1;
   return source;
 }
 

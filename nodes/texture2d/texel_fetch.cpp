@@ -1,0 +1,65 @@
+#include "nodes/texture2d/texel_fetch.h"
+
+#include <algorithm>
+
+namespace nacre {
+
+namespace {
+
+using texture_layout::TexelFormat;
+
+/// The largest step of an integer format; 1 where texels are values.
+float one(TexelFormat format) {
+  switch (format) {
+    case TexelFormat::rgba8: return 255.0f;
+    case TexelFormat::rgba16: return 65535.0f;
+    default: return 1.0f;
+  }
+}
+
+/// Bits [first, first + width) of a word, as a number.
+Float field(Int word, int first, int width) {
+  const Int shifted = shift_right_logical(word, Int(first));
+  // The highest field is alone after the shift.
+  return to_float(first + width == 32 ? shifted : shifted & Int((1 << width) - 1));
+}
+
+}  // namespace
+
+Int TexelFetch::word(Int index) const {
+  const std::array<Ref, 2> operands{slot.ref(), index.ref()};
+  return Int(recorder.emit(Op::texel, operands));
+}
+
+std::array<Float, 4> TexelFetch::steps(Int index, int count) const {
+  std::array<Float, 4> steps;
+  for (int c = 0; c < count; ++c) {
+    Float& step = steps[static_cast<std::size_t>(c)];
+    switch (format) {
+      case TexelFormat::r32f:
+      case TexelFormat::rgba32f: step = float_of_bits(word(index + Int(c))); break;
+      case TexelFormat::rgba8: step = field(word(index), 8 * c, 8); break;
+      case TexelFormat::rgba16: step = field(word(index + Int(c / 2)), 16 * (c % 2), 16); break;
+      case TexelFormat::rgba16f:
+        step = half_to_float(shift_right_logical(word(index + Int(c / 2)), Int(16 * (c % 2))));
+        break;
+    }
+  }
+  return steps;
+}
+
+Float4 TexelFetch::texel(Int index) const {
+  const std::array<Float, 4> all = steps(index, std::min(channels, wanted));
+  Float4 texel{all[0], all[1], all[2], all[3]};
+  if (wanted == 4 && channels < 4) texel.w = Float(one(format));
+  return texel;
+}
+
+Float4 TexelFetch::scaled(Float4 steps) const {
+  if (one(format) == 1.0f) return steps;
+  // Rounded once more where the step is no power of two; 255 of 255 is exactly 1.
+  visit(steps, [&](Float& step) { step = step * Float(1.0f / one(format)); });
+  return steps;
+}
+
+}  // namespace nacre
