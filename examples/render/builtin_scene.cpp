@@ -118,9 +118,13 @@ Scene make_builtin_scene() {
   scene.meshes.push_back(finished(turn("base", pedestal(), 192)));
   scene.meshes.push_back(
       make_quad("ground", {-10.f, 0.f, 10.f}, {20.f, 0.f, 0.f}, {0.f, 0.f, -20.f}));
-  scene.meshes.push_back(make_quad_light("key", {-3.5f, 5.f, 0.5f}, {1.8f, 1.0f, 0.6f},
-                                         {1.2f, -0.8f, 1.6f}, {14.f, 13.f, 12.f}));
-  scene.camera = look_at({2.4f, 2.5f, 4.6f}, {0.f, 1.1f, 0.f}, 0.62f);
+  const Vec3 middle = {0.f, 1.1f, 0.f}, lamp = {-2.8f, 4.6f, 2.6f};
+  const Vec3 towards = normalize(middle - lamp);
+  const Vec3 edge_u = 1.6f * normalize(cross({0.f, 1.f, 0.f}, towards));
+  const Vec3 edge_v = cross(towards, edge_u);
+  scene.meshes.push_back(
+      make_quad_light("key", lamp - 0.5f * (edge_u + edge_v), edge_u, edge_v, {38.f, 36.f, 33.f}));
+  scene.camera = look_at({2.4f, 2.5f, 4.6f}, middle, 0.62f);
   return scene;
 }
 

@@ -33,7 +33,7 @@ struct Path {
   float spread = 0.f;    ///< Radians.
 };
 
-/// Path i, as grouped: groups are materials.
+/// A run of a sorted index list: what belongs to one material.
 struct Group {
   std::uint32_t begin = 0, end = 0;
 };
