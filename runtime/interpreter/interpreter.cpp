@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
@@ -87,7 +86,8 @@ class Run {
   }
 
   static std::uint32_t as_lane(const Instruction& constant) {
-    if (constant.type != Scalar::b1) return constant.imm;
+    if (constant.type == Scalar::f32) return flush_denormal(constant.imm);
+    if (constant.type == Scalar::i32) return constant.imm;
     return constant.imm != 0 ? all_ones : 0u;
   }
 
@@ -176,9 +176,11 @@ class Run {
       reg(frame, carry) = reg(frame, initial);
       reg(frame, next) = reg(frame, initial);
     });
-    // A carry without a next was never assigned: it stays what it was.
-    for (std::size_t k = i + 1; function.code[k].op == Op::carry; ++k) {
+    // A carry without a next was never assigned: it stays what it was. Literals
+    // may stand between carries.
+    for (std::size_t k = i + 1; k < end && !opens_region(function.code[k].op); ++k) {
       const Instruction& carry = function.code[k];
+      if (carry.op != Op::carry) continue;
       reg(frame, static_cast<ValueId>(k)) = reg(frame, carry.operands[0]);
     }
     if (!any(state.active)) return end;
@@ -261,7 +263,7 @@ class Run {
     Register& to = reg(frame, id);
     for (int k = 0; k < block_lanes; ++k) {
       const auto clamped = std::clamp(static_cast<std::int32_t>(index[k]), 0, last);
-      to[k] = std::bit_cast<std::uint32_t>(values[static_cast<std::size_t>(clamped)]);
+      to[k] = flush_denormal(std::bit_cast<std::uint32_t>(values[static_cast<std::size_t>(clamped)]));
     }
   }
 
@@ -310,7 +312,9 @@ class Run {
     if (args_.texture_callback != nullptr) args_.texture_callback(args_.texture_user, &request);
     results_.resize(4);
     for (std::size_t c = 0; c < 4; ++c) {
-      std::memcpy(results_[c].data(), rgba.data() + c * block_lanes, sizeof(Register));
+      for (std::size_t k = 0; k < block_lanes; ++k) {
+        results_[c][k] = flush_denormal(std::bit_cast<std::uint32_t>(rgba[c * block_lanes + k]));
+      }
     }
   }
 

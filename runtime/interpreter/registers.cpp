@@ -76,6 +76,10 @@ std::vector<bool> once_per_call(const Function& function) {
     once[i] = instruction.op == Op::constant ||
               (depth == 0 && !instruction.varying && !is_structural(instruction.op) &&
                instruction.op != Op::end_if && instruction.op != Op::end_loop);
+    // A uniform region is run for every block, so what needs its merges is too.
+    for (const ValueId operand : function.operands(instruction)) {
+      once[i] = once[i] && once[operand];
+    }
     // A merge stands inside its region although it is visible after it.
     if (opens_region(instruction.op)) ++depth;
   }

@@ -1,0 +1,172 @@
+#include "jit/llvm/codegen.h"
+
+#include <fmt/format.h>
+#include <llvm/IR/DiagnosticHandler.h>
+#include <llvm/IR/DiagnosticInfo.h>
+#include <llvm/IR/DiagnosticPrinter.h>
+#include <llvm/IR/LegacyPassManager.h>
+#include <llvm/IR/Verifier.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "jit/llvm/module_emitter.h"
+#include "jit/llvm/optimize.h"
+#include "jit/llvm/target.h"
+
+namespace nacre {
+
+namespace {
+
+/// Seconds since it was made or last asked.
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = now - last_;
+    last_ = now;
+    return passed.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// LLVM says what is wrong to its context; the default would print and exit.
+struct CollectDiagnostics final : llvm::DiagnosticHandler {
+  explicit CollectDiagnostics(std::string& into) : errors(into) {}
+  bool handleDiagnostics(const llvm::DiagnosticInfo& info) override {
+    if (info.getSeverity() == llvm::DS_Error) {
+      llvm::raw_string_ostream stream(errors);
+      llvm::DiagnosticPrinterRawOStream printer(stream);
+      info.print(printer);
+      stream << '\n';
+    }
+    return true;
+  }
+  std::string& errors;
+};
+
+[[maybe_unused]] bool compilable(const Program& program) {
+  for (const Function& function : program.functions) {
+    for (const Instruction& instruction : function.code) {
+      const Op op = instruction.op;
+      if (is_transcendental(op) || op == Op::keep || op == Op::ddx) return false;
+    }
+  }
+  return verify(program).empty();
+}
+
+/// One compile: a context of its own, so that compiles run side by side.
+class Job {
+ public:
+  Job(const Program& program, const CodegenOptions& options, CompileStats& stats)
+      : program_(program), options_(options), stats_(stats) {
+    context_.setDiagnosticHandler(std::make_unique<CollectDiagnostics>(error_));
+  }
+
+  bool make_ir() {
+    assert(compilable(program_));
+    machine_ = codegen::make_target_machine(options_, error_);
+    if (machine_ == nullptr) return false;
+    Stopwatch clock;
+    module_ = std::make_unique<llvm::Module>("nacre", context_);
+    module_->setTargetTriple(machine_->getTargetTriple().str());
+    module_->setDataLayout(machine_->createDataLayout());
+    const codegen::Features features = codegen::features_of(*machine_);
+    codegen::ModuleEmitter(program_, options_, features, *module_)
+        .emit(entry_symbol(program_, options_));
+    stats_.emit = clock.lap();
+    assert(is_valid());
+    codegen::optimize(*module_, *machine_, options_.tier);
+    stats_.optimize = clock.lap();
+    return true;
+  }
+
+  std::string ir() const {
+    std::string text;
+    llvm::raw_string_ostream stream(text);
+    module_->print(stream, nullptr);
+    return stream.str();
+  }
+
+  bool generate(llvm::CodeGenFileType type, llvm::SmallVectorImpl<char>& bytes) {
+    Stopwatch clock;
+    llvm::raw_svector_ostream stream(bytes);
+    llvm::legacy::PassManager passes;
+    if (machine_->addPassesToEmitFile(passes, stream, nullptr, type, /*DisableVerify=*/true)) {
+      error_ = "the target can't emit code";
+      return false;
+    }
+    passes.run(*module_);
+    stats_.codegen = clock.lap();
+    return error_.empty();
+  }
+
+  void report(Diagnostics& diagnostics) const {
+    diagnostics.error("codegen", {}, "can't compile a kernel: " + error_, {}, program_.name);
+  }
+
+ private:
+  bool is_valid() {
+    llvm::raw_string_ostream stream(error_);
+    return !llvm::verifyModule(*module_, &stream);
+  }
+
+  const Program& program_;
+  const CodegenOptions& options_;
+  CompileStats& stats_;
+  std::string error_;
+  llvm::LLVMContext context_;
+  std::unique_ptr<llvm::TargetMachine> machine_;
+  std::unique_ptr<llvm::Module> module_;
+};
+
+}  // namespace
+
+std::string entry_symbol(const Program& program, const CodegenOptions& options) {
+  const auto number = hash(program);
+  std::string name = program.name;
+  std::ranges::replace_if(name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return fmt::format("nacre_{:016x}{:016x}_{}_w{}", number[1], number[0], name, options.lanes);
+}
+
+std::optional<ObjectCode> compile_object(const Program& program, const CodegenOptions& options,
+                                         Diagnostics& diagnostics, CompileStats* stats) {
+  CompileStats own;
+  Job job(program, options, stats != nullptr ? *stats : own);
+  llvm::SmallVector<char, 0> bytes;
+  if (!job.make_ir() || !job.generate(llvm::CodeGenFileType::ObjectFile, bytes)) {
+    job.report(diagnostics);
+    return std::nullopt;
+  }
+  if (stats != nullptr) stats->object_bytes = bytes.size();
+  return ObjectCode{entry_symbol(program, options), {bytes.begin(), bytes.end()}};
+}
+
+std::string dump_ir(const Program& program, const CodegenOptions& options,
+                    Diagnostics& diagnostics) {
+  CompileStats stats;
+  Job job(program, options, stats);
+  if (job.make_ir()) return job.ir();
+  job.report(diagnostics);
+  return {};
+}
+
+std::string dump_assembly(const Program& program, const CodegenOptions& options,
+                          Diagnostics& diagnostics) {
+  CompileStats stats;
+  Job job(program, options, stats);
+  llvm::SmallVector<char, 0> text;
+  if (job.make_ir() && job.generate(llvm::CodeGenFileType::AssemblyFile, text)) {
+    return {text.begin(), text.end()};
+  }
+  job.report(diagnostics);
+  return {};
+}
+
+}  // namespace nacre

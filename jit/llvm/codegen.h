@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jit/llvm/options.h"
+#include "runtime/diagnostic.h"
+#include "runtime/program/program.h"
+
+namespace nacre {
+
+/// Where the time of making one kernel went, in seconds, and how large it is.
+struct CompileStats {
+  double emit = 0;      ///< Program to LLVM IR.
+  double optimize = 0;  ///< LLVM's passes.
+  double codegen = 0;   ///< LLVM IR to machine code.
+  double link = 0;      ///< Machine code into memory.
+  double cache = 0;     ///< Reading or writing the cache on disk.
+  bool from_cache = false;
+  std::size_t object_bytes = 0;
+
+  double total() const { return emit + optimize + codegen + link + cache; }
+};
+
+/// Relocatable machine code of one Program: an ELF object without addresses of
+/// this process, so it may be kept on disk.
+struct ObjectCode {
+  std::string symbol;  ///< The entry, `void(const KernelArguments*)`.
+  std::vector<char> bytes;
+};
+
+/// The entry's name: "nacre_<hash of the Program>_<name>_w16".
+std::string entry_symbol(const Program& program, const CodegenOptions& options);
+
+/// Compiles on the calling thread, which needs a stack of 8 MiB for large
+/// programs. The Program is verified, its varying values are marked, and
+/// transcendental operations, keep and ddx are gone (asserted). Nothing, with
+/// an error "codegen" in `diagnostics`, if the target is unknown or LLVM fails.
+std::optional<ObjectCode> compile_object(const Program& program, const CodegenOptions& options,
+                                         Diagnostics& diagnostics, CompileStats* stats = nullptr);
+
+/// The text that LLVM has after its passes; empty on failure.
+std::string dump_ir(const Program& program, const CodegenOptions& options,
+                    Diagnostics& diagnostics);
+/// The machine code as assembly; empty on failure.
+std::string dump_assembly(const Program& program, const CodegenOptions& options,
+                          Diagnostics& diagnostics);
+
+}  // namespace nacre

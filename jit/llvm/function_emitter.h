@@ -1,0 +1,87 @@
+#pragma once
+
+// Needs LLVM; for the .cpp files of this folder.
+
+#include <utility>
+#include <vector>
+
+#include "jit/llvm/module_emitter.h"
+#include "jit/llvm/region.h"
+#include "runtime/kernel.h"
+
+namespace nacre::codegen {
+
+/// Emits the instructions of one function of a Program. What differs from lane
+/// to lane is a vector; what is uniform is a scalar, spread where it is used.
+class FunctionEmitter {
+ public:
+  /// `lanes`: of varying values; 1 in a function's scalar instance.
+  FunctionEmitter(ModuleEmitter& module, const Function& function, llvm::Function& into, int lanes);
+
+  /// Emits instruction `id` where the builder stands.
+  void emit(ValueId id);
+
+  const Function& function() const { return function_; }
+  const Instruction& at(ValueId id) const { return function_.code[id]; }
+  ModuleEmitter& module() { return module_; }
+  Builder& builder() { return builder_; }
+  int lanes() const { return lanes_; }
+
+  /// A vector, rather than a scalar.
+  bool is_wide(ValueId id) const { return lanes_ > 1 && at(id).varying; }
+  int lanes_of(ValueId id) const { return is_wide(id) ? lanes_ : 1; }
+  llvm::Type* type_of(ValueId id) { return module_.type(at(id).type, lanes_of(id)); }
+
+  /// The value of `id` with that many lanes (1 or lanes()): spread if need be.
+  llvm::Value* use(ValueId id, int lanes);
+  llvm::Value* operand(const Instruction& instruction, std::size_t k, int lanes) {
+    return use(instruction.operands[k], lanes);
+  }
+  void define(ValueId id, llvm::Value* value) { values_[id] = value; }
+  llvm::Value* defined(ValueId id) const { return values_[id]; }
+  llvm::Value* spread(llvm::Value* scalar, int lanes);
+
+  /// Whether any lane of a b1 is true, as a scalar.
+  llvm::Value* any(llvm::Value* mask);
+
+  llvm::Constant* i32(std::uint32_t value, int lanes = 1);
+  llvm::Constant* f32_bits(std::uint32_t bits, int lanes = 1);
+  /// An allocation in the function's first block.
+  llvm::AllocaInst* scratch(llvm::Type* type, std::uint64_t count, const char* name);
+  /// A load of memory that does not change while the kernel runs.
+  llvm::LoadInst* load_invariant(llvm::Type* type, llvm::Value* from, const char* name = "");
+  llvm::Value* byte_offset(llvm::Value* base, std::size_t bytes);
+
+  /// x with denormals as zero, for f32 of unknown origin. Multiplying by one in
+  /// a denormals-are-zero environment does that in one instruction that also
+  /// loads; only LLVM must not see that it is one.
+  llvm::Value* flush(llvm::Value* x);
+  /// The bits of x with every NaN as 0x7fc00000.
+  llvm::Value* canonical_bits(llvm::Value* x);
+
+  llvm::Value* kernel_arguments = nullptr;  ///< const KernelArguments*.
+  /// Where a batch of the entry reads and writes: arrays of pointers, and the
+  /// index of its first point in each of those.
+  llvm::Value* input_pointers = nullptr;
+  llvm::Value* output_pointers = nullptr;
+  llvm::Value* first_point = nullptr;
+  std::vector<llvm::Value*> gives;  ///< Results of an outlined function, by index.
+
+  std::vector<Region> regions;  ///< Open ones, outermost first.
+
+ private:
+  ModuleEmitter& module_;
+  const Function& function_;
+  llvm::Function& into_;
+  int lanes_;
+  Builder builder_;
+  std::vector<llvm::Value*> values_;
+};
+
+/// Emits one instruction and returns its value, or null if it has none.
+using EmitOp = llvm::Value* (*)(FunctionEmitter& emitter, ValueId id);
+
+/// The function for an operation; null for those that passes remove before.
+EmitOp emit_op(Op op);
+
+}  // namespace nacre::codegen

@@ -1,0 +1,47 @@
+#include "jit/llvm/hoist.h"
+
+#include <cstddef>
+
+namespace nacre::codegen {
+
+namespace {
+
+std::size_t region_end(const Function& function, std::size_t open) {
+  int depth = 0;
+  std::size_t i = open;
+  do {
+    if (opens_region(function.code[i].op)) ++depth;
+    if (closes_region(function.code[i].op)) --depth;
+    ++i;
+  } while (depth > 0);
+  return i;
+}
+
+/// Instructions [first, end): a region, or a single one.
+bool uniform(const Function& function, std::size_t first, std::size_t end,
+             const std::vector<bool>& once) {
+  for (std::size_t i = first; i < end; ++i) {
+    const Instruction& instruction = function.code[i];
+    if (instruction.op == Op::store) return false;
+    if (instruction.op != Op::constant && instruction.varying) return false;
+    for (const ValueId operand : function.operands(instruction)) {
+      const bool is_constant = function.code[operand].op == Op::constant;
+      if (operand < first && !once[operand] && !is_constant) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<bool> hoistable(const Function& entry) {
+  std::vector<bool> once(entry.code.size(), false);
+  for (std::size_t i = 0; i < entry.code.size();) {
+    const std::size_t end = opens_region(entry.code[i].op) ? region_end(entry, i) : i + 1;
+    const bool all = uniform(entry, i, end, once);
+    for (; i < end; ++i) once[i] = all;
+  }
+  return once;
+}
+
+}  // namespace nacre::codegen

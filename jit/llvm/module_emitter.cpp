@@ -1,0 +1,113 @@
+#include "jit/llvm/module_emitter.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cassert>
+
+#include "jit/llvm/entry.h"
+#include "jit/llvm/function_emitter.h"
+#include "runtime/program/fold.h"
+
+namespace nacre::codegen {
+
+ModuleEmitter::ModuleEmitter(const Program& program, const CodegenOptions& options,
+                             const Features& features, llvm::Module& module)
+    : program_(program),
+      options_(options),
+      features_(features),
+      module_(module),
+      tables_(program.tables.size(), nullptr) {}
+
+void ModuleEmitter::emit(const std::string& symbol) {
+  auto* type = llvm::FunctionType::get(llvm::Type::getVoidTy(context()),
+                                       {llvm::PointerType::getUnqual(context())}, false);
+  auto* entry = llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, symbol, module_);
+  set_attributes(*entry);
+  emit_entry(*this, *entry);
+}
+
+llvm::Type* ModuleEmitter::scalar_type(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::f32: return llvm::Type::getFloatTy(context());
+    case Scalar::i32: return llvm::Type::getInt32Ty(context());
+    case Scalar::b1: return llvm::Type::getInt1Ty(context());
+    case Scalar::none: break;
+  }
+  assert(false && "a value without a type");
+  return nullptr;
+}
+
+llvm::Type* ModuleEmitter::type(Scalar scalar, int lanes) {
+  llvm::Type* one = scalar_type(scalar);
+  return lanes == 1 ? one : llvm::FixedVectorType::get(one, static_cast<unsigned>(lanes));
+}
+
+llvm::Function* ModuleEmitter::instance(std::uint32_t index, int lanes) {
+  llvm::Function*& known = instances_[{index, lanes}];
+  if (known != nullptr) return known;
+  const Function& function = program_.functions[index];
+  std::vector<llvm::Type*> arguments{llvm::PointerType::getUnqual(context())};
+  for (const Scalar argument : function.arguments) arguments.push_back(type(argument, lanes));
+  std::vector<llvm::Type*> results;
+  for (const Scalar result : function.results) results.push_back(type(result, lanes));
+  llvm::StructType* result = llvm::StructType::get(context(), results);
+  auto* made = llvm::Function::Create(
+      llvm::FunctionType::get(result, arguments, false), llvm::GlobalValue::InternalLinkage,
+      fmt::format("{}.{}.w{}", function.name, index, lanes), module_);
+  known = made;
+  made->setCallingConv(llvm::CallingConv::Fast);
+  made->addFnAttr(llvm::Attribute::NoInline);
+  set_attributes(*made);
+
+  FunctionEmitter emitter(*this, function, *made, lanes);
+  emitter.kernel_arguments = made->getArg(0);
+  for (std::size_t i = 0; i < function.code.size(); ++i) emitter.emit(static_cast<ValueId>(i));
+  llvm::Value* all = llvm::PoisonValue::get(result);
+  for (unsigned i = 0; i < emitter.gives.size(); ++i) {
+    all = emitter.builder().CreateInsertValue(all, emitter.gives[i], i);
+  }
+  emitter.builder().CreateRet(all);
+  return made;
+}
+
+llvm::GlobalVariable* ModuleEmitter::table_data(std::uint32_t index) {
+  llvm::GlobalVariable*& known = tables_[index];
+  if (known != nullptr) return known;
+  std::vector<std::uint32_t> bits;
+  for (const float value : program_.tables[index].values) {
+    bits.push_back(flush_denormal(std::bit_cast<std::uint32_t>(value)));
+  }
+  llvm::Constant* data = llvm::ConstantDataArray::getFP(llvm::Type::getFloatTy(context()), bits);
+  known = new llvm::GlobalVariable(module_, data->getType(), /*isConstant=*/true,
+                                   llvm::GlobalValue::PrivateLinkage, data,
+                                   fmt::format("table.{}", index));
+  known->setAlignment(llvm::Align(64));
+  return known;
+}
+
+llvm::GlobalVariable* ModuleEmitter::opaque_one() {
+  if (one_ != nullptr) return one_;
+  llvm::Type* type = llvm::Type::getFloatTy(context());
+  one_ = new llvm::GlobalVariable(module_, type, /*isConstant=*/true,
+                                  llvm::GlobalValue::InternalLinkage,
+                                  llvm::ConstantFP::get(type, 1.0), "one");
+  // "Initialized elsewhere": so the value in it is not taken for granted.
+  one_->setExternallyInitialized(true);
+  return one_;
+}
+
+void ModuleEmitter::set_attributes(llvm::Function& function) {
+  function.addFnAttr(llvm::Attribute::NoUnwind);
+  function.addFnAttr("denormal-fp-math", "preserve-sign,preserve-sign");
+  // Both are needed, or LLVM splits 16 lanes into halves on some CPUs
+  // (X86Subtarget::useAVX512Regs).
+  const char* width = lanes() == 16 ? "512" : "256";
+  function.addFnAttr("prefer-vector-width", width);
+  function.addFnAttr("min-legal-vector-width", width);
+  function.addFnAttr("target-cpu", options_.target.cpu);
+  function.addFnAttr("target-features", options_.target.features);
+  if (!function.hasInternalLinkage()) function.addParamAttr(0, llvm::Attribute::NonNull);
+}
+
+}  // namespace nacre::codegen

@@ -1,0 +1,62 @@
+#pragma once
+
+// Needs LLVM; for the .cpp files of this folder.
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "jit/llvm/features.h"
+#include "jit/llvm/llvm.h"
+#include "jit/llvm/options.h"
+#include "runtime/program/program.h"
+
+namespace nacre::codegen {
+
+/// Constants are folded by the Recorder and, knowing how denormals behave, by
+/// LLVM's passes; never by the builder, which does not know.
+using Builder = llvm::IRBuilder<llvm::NoFolder>;
+
+/// Turns one Program into one module: what its functions share.
+class ModuleEmitter {
+ public:
+  ModuleEmitter(const Program& program, const CodegenOptions& options, const Features& features,
+                llvm::Module& module);
+
+  /// Emits the entry, `void symbol(const KernelArguments*)`, and all it calls.
+  void emit(const std::string& symbol);
+
+  const Program& program() const { return program_; }
+  const Features& features() const { return features_; }
+  llvm::Module& module() { return module_; }
+  llvm::LLVMContext& context() { return module_.getContext(); }
+  int lanes() const { return options_.lanes; }
+  bool is_fast() const { return options_.accuracy == Accuracy::fast; }
+
+  llvm::Type* scalar_type(Scalar scalar);
+  /// The type of a value: a vector where `lanes` > 1.
+  llvm::Type* type(Scalar scalar, int lanes);
+
+  /// The outlined function `index` for vectors of `lanes`, or for scalars at
+  /// lanes = 1. Emitted when first asked for.
+  llvm::Function* instance(std::uint32_t index, int lanes);
+
+  /// A read-only array that loads may index.
+  llvm::GlobalVariable* table_data(std::uint32_t index);
+  /// 1.0, but LLVM must not know. See flush() in function_emitter.h.
+  llvm::GlobalVariable* opaque_one();
+
+ private:
+  void set_attributes(llvm::Function& function);
+
+  const Program& program_;
+  const CodegenOptions& options_;
+  const Features& features_;
+  llvm::Module& module_;
+  std::map<std::pair<std::uint32_t, int>, llvm::Function*> instances_;
+  std::vector<llvm::GlobalVariable*> tables_;
+  llvm::GlobalVariable* one_ = nullptr;
+};
+
+}  // namespace nacre::codegen

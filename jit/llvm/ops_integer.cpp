@@ -1,0 +1,74 @@
+#include <array>
+
+#include "jit/llvm/ops.h"
+
+namespace nacre::codegen {
+
+namespace {
+
+using llvm::Value;
+
+Value* operand(FunctionEmitter& e, ValueId id, std::size_t k) {
+  return e.operand(e.at(id), k, e.lanes_of(id));
+}
+
+template <llvm::Instruction::BinaryOps op>
+Value* binary(FunctionEmitter& e, ValueId id) {
+  return e.builder().CreateBinOp(op, operand(e, id, 0), operand(e, id, 1));
+}
+
+template <llvm::Instruction::BinaryOps op>
+Value* shift(FunctionEmitter& e, ValueId id) {
+  Value* count = e.builder().CreateAnd(operand(e, id, 1), e.i32(31, e.lanes_of(id)));
+  return e.builder().CreateBinOp(op, operand(e, id, 0), count);
+}
+
+Value* high_product(FunctionEmitter& e, ValueId id) {
+  Builder& b = e.builder();
+  llvm::Type* narrow = e.type_of(id);
+  llvm::Type* wide = narrow->getExtendedType();
+  Value* product =
+      b.CreateMul(b.CreateZExt(operand(e, id, 0), wide), b.CreateZExt(operand(e, id, 1), wide));
+  return b.CreateTrunc(b.CreateLShr(product, llvm::ConstantInt::get(wide, 32)), narrow);
+}
+
+template <llvm::CmpInst::Predicate predicate>
+Value* compare(FunctionEmitter& e, ValueId id) {
+  return e.builder().CreateICmp(predicate, operand(e, id, 0), operand(e, id, 1));
+}
+
+Value* complement(FunctionEmitter& e, ValueId id) {
+  return e.builder().CreateXor(operand(e, id, 0), llvm::ConstantInt::getTrue(e.type_of(id)));
+}
+
+Value* select(FunctionEmitter& e, ValueId id) {
+  return e.builder().CreateSelect(e.use(e.at(id).operands[0], e.lanes_of(id)), operand(e, id, 1),
+                                  operand(e, id, 2));
+}
+
+constexpr std::array<std::pair<Op, EmitOp>, 18> group{{
+    {Op::iadd, binary<llvm::Instruction::Add>},
+    {Op::isub, binary<llvm::Instruction::Sub>},
+    {Op::imul, binary<llvm::Instruction::Mul>},
+    {Op::umulhi, high_product},
+    {Op::iand, binary<llvm::Instruction::And>},
+    {Op::ior, binary<llvm::Instruction::Or>},
+    {Op::ixor, binary<llvm::Instruction::Xor>},
+    {Op::shl, shift<llvm::Instruction::Shl>},
+    {Op::lshr, shift<llvm::Instruction::LShr>},
+    {Op::ashr, shift<llvm::Instruction::AShr>},
+    {Op::ieq, compare<llvm::CmpInst::ICMP_EQ>},
+    {Op::ilt, compare<llvm::CmpInst::ICMP_SLT>},
+    {Op::ult, compare<llvm::CmpInst::ICMP_ULT>},
+    {Op::band, binary<llvm::Instruction::And>},
+    {Op::bor, binary<llvm::Instruction::Or>},
+    {Op::bxor, binary<llvm::Instruction::Xor>},
+    {Op::bnot, complement},
+    {Op::select, select},
+}};
+
+}  // namespace
+
+OpGroup integer_ops() { return group; }
+
+}  // namespace nacre::codegen

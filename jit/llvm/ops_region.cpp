@@ -1,0 +1,174 @@
+#include <array>
+#include <cassert>
+
+#include "jit/llvm/ops.h"
+
+namespace nacre::codegen {
+
+namespace {
+
+using llvm::BasicBlock;
+using llvm::Value;
+
+BasicBlock* new_block(FunctionEmitter& e, const char* name) {
+  return BasicBlock::Create(e.module().context(), name, e.builder().GetInsertBlock()->getParent());
+}
+
+/// use(id), emitted where the region has not begun.
+Value* use_before(FunctionEmitter& e, const Region& region, ValueId id, int lanes) {
+  const llvm::IRBuilderBase::InsertPointGuard guard(e.builder());
+  e.builder().SetInsertPoint(region.before->getTerminator());
+  return e.use(id, lanes);
+}
+
+bool is_true(Value* mask) {
+  const auto* constant = llvm::dyn_cast<llvm::Constant>(mask);
+  return constant != nullptr && constant->isAllOnesValue();
+}
+
+/// Starts a region: `before` gets its branch, the builder stands in the region.
+Region open(FunctionEmitter& e, ValueId id, const char* name) {
+  const ValueId mask_id = e.at(id).operands[0];
+  // A loop that becomes varying by its `again` needs a mask for each lane.
+  Value* mask = e.use(mask_id, e.lanes_of(id));
+  Region region{.open = id,
+                .before = e.builder().GetInsertBlock(),
+                .after = new_block(e, "after"),
+                .mask = mask,
+                .always = is_true(mask),
+                .merges = {},
+                .carries = {}};
+  BasicBlock* body = new_block(e, name);
+  if (region.always) {
+    e.builder().CreateBr(body);
+  } else {
+    e.builder().CreateCondBr(e.any(mask), body, region.after);
+  }
+  e.builder().SetInsertPoint(body);
+  return region;
+}
+
+Value* if_any(FunctionEmitter& e, ValueId id) {
+  e.regions.push_back(open(e, id, "if"));
+  return nullptr;
+}
+
+Value* merge(FunctionEmitter& e, ValueId id) {
+  Region& region = e.regions.back();
+  const Instruction& instruction = e.at(id);
+  const int lanes = e.lanes_of(id);
+  const ValueId outer = instruction.operands[1];
+  Value* skipped = nullptr;
+  for (const Merge& earlier : region.merges) {
+    if (earlier.id == outer) skipped = e.spread(earlier.skipped, lanes);
+  }
+  if (skipped == nullptr) skipped = use_before(e, region, outer, lanes);
+  region.merges.push_back({id, skipped});
+  Value* inner = e.use(instruction.operands[0], lanes);
+  if (!e.is_wide(region.open)) return inner;  // All lanes run it, or none.
+  return e.builder().CreateSelect(region.mask, inner, e.use(outer, lanes));
+}
+
+Value* end_if(FunctionEmitter& e, ValueId) {
+  const Region region = std::move(e.regions.back());
+  e.regions.pop_back();
+  BasicBlock* last = e.builder().GetInsertBlock();
+  e.builder().CreateBr(region.after);
+  e.builder().SetInsertPoint(region.after);
+  if (region.always) return nullptr;
+  for (const Merge& merge : region.merges) {
+    llvm::PHINode* phi = e.builder().CreatePHI(e.type_of(merge.id), 2);
+    phi->addIncoming(e.defined(merge.id), last);
+    phi->addIncoming(merge.skipped, region.before);
+    e.define(merge.id, phi);
+  }
+  return nullptr;
+}
+
+Value* loop(FunctionEmitter& e, ValueId id) {
+  assert(e.at(id).imm > 0);
+  Region region = open(e, id, "loop");
+  region.header = e.builder().GetInsertBlock();
+  region.iteration = e.builder().CreatePHI(e.builder().getInt32Ty(), 2, "iteration");
+  region.iteration->addIncoming(e.i32(0), region.before);
+  if (e.is_wide(id)) {
+    region.active = e.builder().CreatePHI(region.mask->getType(), 2, "active");
+    region.active->addIncoming(region.mask, region.before);
+  }
+  e.regions.push_back(std::move(region));
+  return nullptr;
+}
+
+Value* carry(FunctionEmitter& e, ValueId id) {
+  Region& region = e.regions.back();
+  Value* initial = use_before(e, region, e.at(id).operands[0], e.lanes_of(id));
+  auto* phi = llvm::PHINode::Create(e.type_of(id), 2, "", region.header->getFirstNonPHIIt());
+  phi->addIncoming(initial, region.before);
+  region.carries.push_back({.id = id, .phi = phi, .initial = initial});
+  return phi;
+}
+
+Value* next(FunctionEmitter& e, ValueId id) {
+  Region& region = e.regions.back();
+  const auto [carry, value] = std::pair(e.at(id).operands[0], e.at(id).operands[1]);
+  for (Carry& known : region.carries) {
+    if (known.id == carry) known.next = id;
+  }
+  const int lanes = e.lanes_of(id);
+  if (region.active == nullptr) return e.use(value, lanes);
+  return e.builder().CreateSelect(region.active, e.use(value, lanes), e.use(carry, lanes));
+}
+
+Value* again(FunctionEmitter& e, ValueId id) {
+  Region& region = e.regions.back();
+  const Instruction& instruction = e.at(id);
+  if (region.active == nullptr) {
+    region.again = e.operand(instruction, 0, 1);
+  } else {
+    region.again =
+        e.builder().CreateAnd(region.active, e.operand(instruction, 0, e.lanes()), "active");
+  }
+  return nullptr;
+}
+
+Value* end_loop(FunctionEmitter& e, ValueId) {
+  const Region region = std::move(e.regions.back());
+  e.regions.pop_back();
+  Builder& b = e.builder();
+  Value* count = b.CreateAdd(region.iteration, e.i32(1));
+  Value* below = b.CreateICmpULT(count, e.i32(e.at(region.open).imm));
+  Value* goes_on = b.CreateAnd(below, e.any(region.again));
+  BasicBlock* latch = b.GetInsertBlock();
+  b.CreateCondBr(goes_on, region.header, region.after);
+  region.iteration->addIncoming(count, latch);
+  if (region.active != nullptr) region.active->addIncoming(region.again, latch);
+  b.SetInsertPoint(region.after);
+  for (const Carry& carry : region.carries) {
+    // A carry without a next keeps its value.
+    Value* last = carry.next == no_value ? carry.phi : e.defined(carry.next);
+    carry.phi->addIncoming(last, latch);
+    if (region.always || carry.next == no_value) continue;
+    llvm::PHINode* final = b.CreatePHI(carry.phi->getType(), 2);
+    final->addIncoming(last, latch);
+    final->addIncoming(carry.initial, region.before);
+    e.define(carry.next, final);
+  }
+  return nullptr;
+}
+
+constexpr std::array<std::pair<Op, EmitOp>, 8> group{{
+    {Op::if_any, if_any},
+    {Op::merge, merge},
+    {Op::end_if, end_if},
+    {Op::loop, loop},
+    {Op::carry, carry},
+    {Op::next, next},
+    {Op::again, again},
+    {Op::end_loop, end_loop},
+}};
+
+}  // namespace
+
+OpGroup region_ops() { return group; }
+
+}  // namespace nacre::codegen

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "runtime/program/program.h"
+
+namespace nacre {
+
+/// The CPU that code is made for, in LLVM's words.
+struct Target {
+  std::string cpu;       ///< "znver4", "x86-64-v3", ...
+  std::string features;  ///< "+avx2,-avx512f,...": on top of the CPU's own.
+
+  /// This machine, with the features that it really has.
+  static Target host();
+  /// A CPU by name with the features that name implies.
+  static Target named(std::string cpu) { return {std::move(cpu), {}}; }
+
+  bool operator==(const Target&) const = default;
+};
+
+/// How much time code generation may take.
+enum class Tier : std::uint8_t {
+  quick,  ///< LLVM's level None: 3 to 5 times faster to compile, slower code.
+  full,   ///< LLVM's level Default.
+};
+
+/// Everything besides the Program that decides what code comes out.
+struct CodegenOptions {
+  int lanes = 16;  ///< Points in one pass of the code: 1, 4, 8 or 16.
+  Target target = Target::host();
+  /// `fast` lets LLVM reassociate, contract and ignore the sign of zero. No mode
+  /// assumes that there are no NaN or infinities.
+  Accuracy accuracy = Accuracy::standard;
+  Tier tier = Tier::full;
+
+  /// A text that is equal for equal options only; part of the cache's key.
+  std::string key() const;
+};
+
+}  // namespace nacre

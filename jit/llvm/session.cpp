@@ -1,0 +1,164 @@
+#include "jit/llvm/session.h"
+
+#include <fmt/format.h>
+#include <llvm/Support/MemoryBuffer.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <utility>
+
+#include "jit/llvm/orc.h"
+
+namespace nacre {
+
+namespace {
+
+namespace orc = llvm::orc;
+
+template <class F>
+orc::ExecutorSymbolDef function(F* pointer) {
+  return {orc::ExecutorAddr::fromPtr(pointer),
+          llvm::JITSymbolFlags::Exported | llvm::JITSymbolFlags::Callable};
+}
+
+/// What LLVM may call where the CPU has no instruction, and for large fills.
+orc::SymbolMap library_functions(orc::ExecutionSession& session) {
+  orc::SymbolMap symbols;
+  symbols[session.intern("memset")] = function(&std::memset);
+  symbols[session.intern("memcpy")] =
+      function(static_cast<void* (*)(void*, const void*, std::size_t)>(&std::memcpy));
+  symbols[session.intern("fmaf")] = function(&::fmaf);
+  symbols[session.intern("floorf")] = function(&::floorf);
+  symbols[session.intern("ceilf")] = function(&::ceilf);
+  symbols[session.intern("truncf")] = function(&::truncf);
+  // As Op::round wants it in the environment that kernels run in.
+  symbols[session.intern("roundevenf")] = function(&::nearbyintf);
+  return symbols;
+}
+
+/// The ORC session; handles share it, so it goes when the last of all goes.
+class Core {
+ public:
+  static std::shared_ptr<Core> create(const SessionOptions& options, std::string& error) {
+    auto control = orc::SelfExecutorProcessControl::Create(
+        nullptr, std::make_unique<orc::InPlaceTaskDispatcher>());
+    if (!control) {
+      error = llvm::toString(control.takeError());
+      return nullptr;
+    }
+    auto core = std::shared_ptr<Core>(new Core(std::move(*control)));
+    if (llvm::Error failed = core->prepare(options)) {
+      error = llvm::toString(std::move(failed));
+      return nullptr;
+    }
+    return core;
+  }
+
+  ~Core() { llvm::consumeError(session_.endSession()); }
+
+  orc::JITDylib* load(const ObjectCode& object, orc::ExecutorAddr& entry, std::string& error) {
+    const std::scoped_lock lock(mutex_);
+    reported_.clear();
+    orc::JITDylib& library = session_.createBareJITDylib(fmt::format("kernel.{}", number_++));
+    library.addToLinkOrder(*functions_);
+    auto buffer = llvm::MemoryBuffer::getMemBufferCopy(
+        llvm::StringRef(object.bytes.data(), object.bytes.size()), object.symbol);
+    llvm::Error failed = layer_.add(library, std::move(buffer));
+    if (!failed) {
+      auto found = session_.lookup({&library}, object.symbol);
+      if (found) {
+        entry = found->getAddress();
+        return &library;
+      }
+      failed = found.takeError();
+    }
+    error = llvm::toString(std::move(failed)) + reported_;
+    remove_locked(library);
+    return nullptr;
+  }
+
+  void remove(orc::JITDylib& library) {
+    const std::scoped_lock lock(mutex_);
+    remove_locked(library);
+  }
+
+ private:
+  explicit Core(std::unique_ptr<orc::SelfExecutorProcessControl> control)
+      : session_(std::move(control)), layer_(session_) {
+    // ORC prints by default. It reports on the thread that asked.
+    session_.setErrorReporter(
+        [this](llvm::Error error) { reported_ += "; " + llvm::toString(std::move(error)); });
+  }
+
+  llvm::Error prepare(const SessionOptions& options) {
+    functions_ = &session_.createBareJITDylib("functions");
+    if (auto failed = functions_->define(orc::absoluteSymbols(library_functions(session_)))) {
+      return failed;
+    }
+    return add_observers(session_, layer_, *functions_, options);
+  }
+
+  void remove_locked(orc::JITDylib& library) {
+    llvm::consumeError(session_.removeJITDylib(library));
+    // Names are unique, so they would pile up.
+    session_.getSymbolStringPool()->clearDeadEntries();
+  }
+
+  // Loading and unloading take a tenth of a millisecond: one at a time.
+  std::mutex mutex_;
+  std::string reported_;
+  std::uint64_t number_ = 0;
+  orc::ExecutionSession session_;
+  orc::ObjectLinkingLayer layer_;
+  orc::JITDylib* functions_ = nullptr;
+};
+
+class Loaded final : public LoadedCode {
+ public:
+  Loaded(std::shared_ptr<Core> core, orc::JITDylib& library, Entry address)
+      : core_(std::move(core)), library_(library), entry_(address) {}
+  ~Loaded() override { core_->remove(library_); }
+  Entry entry() const override { return entry_; }
+
+ private:
+  std::shared_ptr<Core> core_;
+  orc::JITDylib& library_;
+  Entry entry_;
+};
+
+class Session final : public JitSession {
+ public:
+  explicit Session(std::shared_ptr<Core> core) : core_(std::move(core)) {}
+
+  std::shared_ptr<const LoadedCode> load(const ObjectCode& object,
+                                         Diagnostics& diagnostics) override {
+    orc::ExecutorAddr entry;
+    std::string error;
+    orc::JITDylib* library = core_->load(object, entry, error);
+    if (library == nullptr) {
+      diagnostics.error("link", {}, "can't load a kernel: " + error, {}, object.symbol);
+      return nullptr;
+    }
+    return std::make_shared<Loaded>(core_, *library, entry.toPtr<LoadedCode::Entry>());
+  }
+
+ private:
+  std::shared_ptr<Core> core_;
+};
+
+}  // namespace
+
+std::shared_ptr<JitSession> JitSession::create(const SessionOptions& options,
+                                               Diagnostics& diagnostics) {
+  std::string error;
+  std::shared_ptr<Core> core = Core::create(options, error);
+  if (core == nullptr) {
+    diagnostics.error("jit-session", {}, "can't compile at run time: " + error);
+    return nullptr;
+  }
+  return std::make_shared<Session>(std::move(core));
+}
+
+}  // namespace nacre

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "jit/llvm/codegen.h"
+#include "runtime/diagnostic.h"
+#include "runtime/kernel.h"
+
+namespace nacre {
+
+/// Who is told about the code that is loaded.
+struct SessionOptions {
+  bool debugger = false;  ///< GDB, through its JIT interface.
+  bool perf = false;      ///< Linux perf, through a jitdump file in ~/.debug/jit.
+};
+
+/// Machine code in memory. It stays there while a handle to it is held.
+class LoadedCode {
+ public:
+  using Entry = void (*)(const KernelArguments*);
+
+  virtual ~LoadedCode() = default;
+  /// Runs in the caller's floating-point environment: see ScopedFloatEnvironment.
+  virtual Entry entry() const = 0;
+};
+
+/// Holds the code that this process compiled or read from a cache. Pages are
+/// either writable or executable, never both. Any thread may use it, and handles
+/// may outlive it.
+class JitSession {
+ public:
+  /// Null, with an error "jit-session" in `diagnostics`, where the system does
+  /// not let a process make executable memory.
+  static std::shared_ptr<JitSession> create(const SessionOptions& options,
+                                            Diagnostics& diagnostics);
+  virtual ~JitSession() = default;
+
+  /// Links an object into memory. Null, with an error "link" in `diagnostics`,
+  /// if it is not a sound object or memory is short.
+  virtual std::shared_ptr<const LoadedCode> load(const ObjectCode& object,
+                                                 Diagnostics& diagnostics) = 0;
+};
+
+/// A Kernel of that code; `lanes` as in the options it was compiled with.
+std::shared_ptr<const Kernel> make_jit_kernel(Program program,
+                                              std::shared_ptr<const LoadedCode> code, int lanes);
+
+}  // namespace nacre
