@@ -59,7 +59,13 @@ std::size_t Recorder::KeyHash::operator()(const Instruction& key) const {
 
 Recorder::Recorder() {
   program_.entry().name = "entry";
-  open_.push_back({.index = 0, .key = {}, .scopes = {{}}, .varying = {}, .home = {}, .regions = {0}});
+  open_.push_back({.number = 0,
+                   .function = {},
+                   .key = {},
+                   .scopes = {{}},
+                   .varying = {},
+                   .home = {},
+                   .regions = {0}});
 }
 
 void Recorder::adopt_interface(const Program& program) {
@@ -73,8 +79,7 @@ void Recorder::adopt_interface(const Program& program) {
 }
 
 Ref Recorder::input(std::string_view name, Scalar type) {
-  const std::uint32_t index =
-      find_or_add(program_.inputs, name, Channel{std::string(name), type});
+  const std::uint32_t index = find_or_add(program_.inputs, name, Channel{std::string(name), type});
   assert(program_.inputs[index].type == type);
   return append_shared(leaf(Op::input, type, index), true);
 }
@@ -96,8 +101,8 @@ Ref Recorder::texture(std::string_view key) {
 }
 
 std::uint32_t Recorder::table(std::string_view name, std::span<const float> values) {
-  const std::uint32_t index = find_or_add(program_.tables, name,
-                                          Table{std::string(name), {values.begin(), values.end()}});
+  const std::uint32_t index =
+      find_or_add(program_.tables, name, Table{std::string(name), {values.begin(), values.end()}});
   assert(std::ranges::equal(program_.tables[index].values, values));
   return index;
 }
@@ -136,9 +141,7 @@ Ref Recorder::keep(Ref x) {
   return kept;
 }
 
-bool Recorder::is_varying(Ref x) const {
-  return !x.is_constant() && open_.back().varying[x.id];
-}
+bool Recorder::is_varying(Ref x) const { return !x.is_constant() && open_.back().varying[x.id]; }
 
 ValueId Recorder::materialize(Ref x) {
   if (x.is_constant()) return append_shared(leaf(Op::constant, x.type, x.id), false).id;
@@ -250,11 +253,11 @@ std::uint32_t Recorder::find_function(std::string_view key) const {
 
 void Recorder::begin_function(std::string key, std::string name,
                               std::span<const Scalar> arguments) {
-  const auto index = static_cast<std::uint32_t>(program_.functions.size());
-  Function& function = program_.functions.emplace_back();
+  Function function;
   function.name = std::move(name);
   function.arguments.assign(arguments.begin(), arguments.end());
-  open_.push_back({.index = index,
+  open_.push_back({.number = next_number_++,
+                   .function = std::move(function),
                    .key = std::move(key),
                    .scopes = {{}},
                    .varying = {},
@@ -275,7 +278,8 @@ std::uint32_t Recorder::end_function(std::span<const Ref> results) {
     append(instruction, true);
     code().results.push_back(results[i].type);
   }
-  const std::uint32_t index = open_.back().index;
+  const auto index = static_cast<std::uint32_t>(program_.functions.size());
+  program_.functions.push_back(std::move(open_.back().function));
   function_keys_.emplace(open_.back().key, index);
   open_.pop_back();
   return index;
@@ -286,8 +290,8 @@ Ref Recorder::append_list(Op op, Scalar type, std::span<const Ref> operands, std
   bool varying = false;
   // The key holds ids of this function; calls are shared at its top level only.
   const bool shareable = open_.back().regions.size() == 1;
-  std::string key = std::to_string(open_.back().index) + '/' + std::to_string(static_cast<int>(op)) +
-                    '/' + std::to_string(imm);
+  std::string key = std::to_string(open_.back().number) + '/' +
+                    std::to_string(static_cast<int>(op)) + '/' + std::to_string(imm);
   for (const Ref operand : operands) {
     ids.push_back(materialize(operand));
     varying = varying || is_varying(operand);

@@ -44,6 +44,11 @@ class Recorder {
   Ref keep(Ref x);
   /// Number of keeps so far; keep k has imm k.
   std::uint32_t keep_count() const { return keep_count_; }
+  /// A number for the function that values are recorded into now; 0 the entry.
+  std::uint32_t current_function() const { return open_.back().number; }
+  /// True where x, a value of the current function, may be used now: no region
+  /// that it was recorded in has ended.
+  bool visible(Ref x) const { return in_scope(x.id); }
   /// True for what differs from lane to lane: depends on an input.
   bool is_varying(Ref x) const;
 
@@ -93,16 +98,17 @@ class Recorder {
 
   /// A function under construction and the regions open in it.
   struct Open {
-    std::uint32_t index;
+    std::uint32_t number;
+    Function function;  ///< Joins the Program when it ends, after what it calls; not the entry.
     std::string key;
     std::vector<Scope> scopes;
-    std::vector<bool> varying;        ///< By value id.
-    std::vector<std::uint32_t> home;  ///< By value id: the region it stands in.
+    std::vector<bool> varying;           ///< By value id.
+    std::vector<std::uint32_t> home;     ///< By value id: the region it stands in.
     std::vector<std::uint32_t> regions;  ///< Regions open, outermost first.
     std::uint32_t next_region = 1;
   };
 
-  Function& code() { return program_.functions[open_.back().index]; }
+  Function& code() { return open_.size() == 1 ? program_.entry() : open_.back().function; }
   Ref append(Instruction instruction, bool varying);
   Ref append_shared(Instruction instruction, bool varying);
   Ref append_list(Op op, Scalar type, std::span<const Ref> operands, std::uint32_t imm);
@@ -112,6 +118,7 @@ class Recorder {
 
   Program program_;
   std::vector<Open> open_;
+  std::uint32_t next_number_ = 1;
   std::unordered_map<std::string, std::uint32_t> function_keys_;
   std::unordered_map<std::string, ValueId> list_keys_;
   std::unordered_map<ValueId, ValueId> keeps_;  ///< By the value kept.

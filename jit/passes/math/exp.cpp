@@ -1,0 +1,44 @@
+#include "jit/passes/math/coefficients.h"
+#include "jit/passes/math/constants.h"
+#include "jit/passes/math/functions.h"
+#include "jit/passes/math/polynomial.h"
+#include "jit/passes/math/power_of_two.h"
+
+namespace nacre {
+
+namespace {
+
+/// 2^x in x = n + f, f in [0, 1): exact at integers and continuous.
+Float exp2_fast(Float x) {
+  const Float inside = min(Float(128.0f), max(Float(-127.0f), x));
+  const Float n = floor(inside);
+  return polynomial(inside - n, coefficients::exp2_fast) * power_of_two(n + exponent_shift);
+}
+
+}  // namespace
+
+Float approximate_exp(Float x, Accuracy accuracy) {
+  if (accuracy == Accuracy::fast) return exp2_fast(x * Float(log2e_high));
+  const Float inside = max(Float(-87.5f), x);  // Below, every result is zero.
+  const Exponent n = nearest_exponent(fma(inside, log2e_high, exponent_shift));
+  const Float first = fma(n.value, -ln2_high, inside);  // Exact but for overflow.
+  const Float r = fma(n.value, -ln2_low, first);
+  if (accuracy == Accuracy::standard) {
+    return fma(r, polynomial(r, coefficients::exp_standard), 1.0f) * power_of_two(n.shifted);
+  }
+  const Float low = fma(n.value, -ln2_low, first - r);
+  const Float tail = fma(r, polynomial(r, coefficients::exp_precise), low);
+  return (1.0f + tail) * power_of_two(n.shifted);
+}
+
+Float approximate_exp2(Float x, Accuracy accuracy) {
+  if (accuracy == Accuracy::fast) return exp2_fast(x);
+  const Float inside = max(Float(-127.0f), x);
+  const Exponent n = nearest_exponent(inside + exponent_shift);
+  const Float r = inside - n.value;
+  const Float p = accuracy == Accuracy::precise ? polynomial(r, coefficients::exp2_precise)
+                                                : polynomial(r, coefficients::exp2_standard);
+  return fma(r, p, 1.0f) * power_of_two(n.shifted);
+}
+
+}  // namespace nacre
