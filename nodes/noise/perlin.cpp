@@ -51,7 +51,7 @@ Float3 gradients(Float3 /*result*/, Int hash, P p) {
 template <class R>
 R noise2(Float2 p) {
   const Cell2 cell = cell_of(p);
-  const Float2 f{p.x - floor(p.x), p.y - floor(p.y)};
+  const Float2 f = fraction(p);
   const auto corner = [&](int i, int j) {
     const Float2 offset{f.x - float(i), f.y - float(j)};
     return gradients(R(), hash(cell.x + Int(i), cell.y + Int(j)), offset);
@@ -64,7 +64,7 @@ R noise2(Float2 p) {
 template <class R>
 R noise3(Float3 p) {
   const Cell3 cell = cell_of(p);
-  const Float3 f(p.x - floor(p.x), p.y - floor(p.y), p.z - floor(p.z));
+  const Float3 f = fraction(p);
   const auto corner = [&](int i, int j, int k) {
     const Float3 offset(f.x - float(i), f.y - float(j), f.z - float(k));
     return gradients(R(), hash(cell.x + Int(i), cell.y + Int(j), cell.z + Int(k)), offset);

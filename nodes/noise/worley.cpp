@@ -38,36 +38,27 @@ void insert(Nearest& n, Float d, Cell3 cell) {
 /// Position of a feature point in its cell.
 Float feature(Float random, Float jitter) { return fma(random - 0.5f, jitter, 0.5f); }
 
-/// i / 3 for 0 <= i < 27.
-Int third(Int i) { return shift_right_logical(i * Int(11), Int(5)); }
-
 /// Takes in the point of the i-th cell around that of p. `f` is p from its cell.
 void visit_cell(Nearest& n, Int i, Float2 f, Cell2 cell, Float jitter) {
-  const Int column = third(i);
-  const Cell2 offset{column - Int(1), i - Int(3) * column - Int(1)};
-  const Float3 random = cell_noise3(Cell2{cell.x + offset.x, cell.y + offset.y});
+  const Cell2 offset = neighbour2(i);
+  const Float3 random = cell_noise3(cell + offset);
   const Float2 point{feature(random.x, jitter), feature(random.y, jitter)};
-  const Float2 to = Float2{to_float(offset.x), to_float(offset.y)} + point - f;
-  insert(n, dot(to, to), {offset.x + cell_of(point.x), offset.y + cell_of(point.y), Int(0)});
+  const Float2 to = to_float(offset) + point - f;
+  const Cell2 lies_in = offset + cell_of(point);
+  insert(n, dot(to, to), {lies_in.x, lies_in.y, Int(0)});
 }
 
 void visit_cell(Nearest& n, Int i, Float3 f, Cell3 cell, Float jitter) {
-  const Int rows = third(i);
-  const Int layer = third(rows);
-  const Cell3 offset{layer - Int(1), rows - Int(3) * layer - Int(1), i - Int(3) * rows - Int(1)};
-  const Float3 random = cell_noise3(Cell3{cell.x + offset.x, cell.y + offset.y, cell.z + offset.z});
+  const Cell3 offset = neighbour3(i);
+  const Float3 random = cell_noise3(cell + offset);
   const Float3 point(feature(random.x, jitter), feature(random.y, jitter),
                      feature(random.z, jitter));
-  const Float3 to = Float3(to_float(offset.x), to_float(offset.y), to_float(offset.z)) + point - f;
-  insert(n, dot(to, to),
-         {offset.x + cell_of(point.x), offset.y + cell_of(point.y), offset.z + cell_of(point.z)});
+  const Float3 to = to_float(offset) + point - f;
+  insert(n, dot(to, to), offset + cell_of(point));
 }
 
 int cells_around(Float2 /*p*/) { return 9; }
 int cells_around(Float3 /*p*/) { return 27; }
-
-Float2 fraction(Float2 p) { return {p.x - floor(p.x), p.y - floor(p.y)}; }
-Float3 fraction(Float3 p) { return {p.x - floor(p.x), p.y - floor(p.y), p.z - floor(p.z)}; }
 
 template <class P>
 Nearest search(Recorder& recorder, P p, Float jitter, Nearest start) {
@@ -80,8 +71,8 @@ Nearest search(Recorder& recorder, P p, Float jitter, Nearest start) {
   });
 }
 
-Cell2 moved(Cell2 a, Cell3 b) { return {a.x + b.x, a.y + b.y}; }
-Cell3 moved(Cell3 a, Cell3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Cell2 moved(Cell2 a, Cell3 b) { return a + Cell2{b.x, b.y}; }
+Cell3 moved(Cell3 a, Cell3 b) { return a + b; }
 
 /// Distances to the nearest `count` points; the other components are 0.
 template <class P>
