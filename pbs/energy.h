@@ -1,0 +1,57 @@
+#pragma once
+
+#include "pbs/fresnel.h"
+#include "runtime/program/recorder.h"
+
+namespace nacre {
+
+/// How much light the GGX lobes send back to a view, from the tables in
+/// pbs/tables, and what single scattering loses.
+///
+/// The tables are for equal roughness on both axes. An anisotropic surface looks
+/// up the root mean square of its two, which is right at normal incidence, at
+/// the angle where that masks as much as it masks itself. Furnace error of a
+/// white metal: 1 %, and 7 % for the most anisotropic at grazing angles.
+struct GgxView {
+  Float cosine;  ///< Of the view to the normal, in [0, 1].
+  Float masked;  ///< The cosine that is masked as much at roughness `alpha`; in [0, 1].
+  Float alpha;   ///< In [1e-4, 1].
+};
+GgxView ggx_view(Float3 wo, Float2 alpha, bool isotropic);
+
+/// Measured against quadrature (alpha 0.001 to 1, to 88 degrees): albedo of
+/// perfect facets 0.3 %; times Fresnel 0.4 % of the light for an index of 1.5,
+/// at worst 1.6 % near 1.05.
+struct GgxReflection {
+  Float albedo;  ///< Of perfectly reflecting facets, in (0, 1].
+  /// Facet cosines for the darker and the brighter half of the reflected light.
+  Float low, high;
+
+  /// The mean of a Fresnel factor over the reflected light: f(Float) -> Float or Color3.
+  template <class F>
+  auto mean(F&& f) const {
+    return (f(low) + f(high)) * decltype(f(low))(0.5f);
+  }
+};
+GgxReflection ggx_reflection(Recorder& recorder, const GgxView& view);
+
+/// An interface between two dielectrics, eta the index beyond over before.
+struct GgxInterface {
+  Float fresnel;       ///< Mean Fresnel factor of the reflected light; only where eta < 1.
+  Float transmission;  ///< Albedo of transmission without a Fresnel factor.
+  Float total;         ///< Albedo of reflection and transmission, both with it.
+};
+/// eta < 1: total reflection from some angle on. `perfect` is ggx_reflection's albedo.
+GgxInterface ggx_leaving(Recorder& recorder, const GgxView& view, Float eta, Float perfect);
+/// eta >= 1; `fresnel` is not set.
+GgxInterface ggx_entering(Recorder& recorder, const GgxView& view, Float eta);
+
+/// Factor for a lobe whose facets have mean Fresnel factor `fresnel`, so that what
+/// is lost to several scatterings comes back as often as the facets reflect:
+/// 1 + F (1 - E) / E. Turquin, "Practical multiple scattering compensation for
+/// microfacet models", 2019, eq. 16, with F of this view in place of F0: exact
+/// for white, and no second evaluation of the Fresnel factor.
+Float compensation(Float fresnel, Float albedo);
+Color3 compensation(Color3 fresnel, Float albedo);
+
+}  // namespace nacre

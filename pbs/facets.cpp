@@ -1,0 +1,50 @@
+#include "pbs/facets.h"
+
+#include "pbs/per_view.h"
+#include "runtime/node/geometry.h"
+
+namespace nacre {
+
+LocalView Facets::look(const View& view) const {
+  Frame frame = isotropic ? make_frame(normal) : make_frame(normal, tangent);
+  Float3 wo = frame.to_local(view.wo);
+  const Bool below = wo.z < 0.0f;
+  // x and y may stay: the lobes are even in both.
+  frame.z = select(below, -normal, normal);
+  wo.z = min(abs(wo.z), 1.0f);
+  return {frame, wo, below};
+}
+
+Facets prepare_facets(NodeCall& call) {
+  Recorder& recorder = call.recorder();
+  const Float2 roughness = call.vector2("roughness");
+  const float threshold = call.accuracy() == Accuracy::fast ? 1e-3f : 1e-4f;
+  const bool isotropic = same_value(roughness.x.ref(), roughness.y.ref());
+  const auto clamped = [&](Float x) { return keep(recorder, clamp(x, threshold, 1.0f)); };
+  return {.alpha = {clamped(roughness.x), clamped(roughness.y)},
+          .delta = keep(recorder, !((roughness.x >= threshold) | (roughness.y >= threshold))),
+          .threshold = threshold,
+          .isotropic = isotropic,
+          .normal = prepare_normal(recorder, call.vector3("normal")),
+          .tangent = isotropic ? Float3(0.0f) : keep(recorder, call.vector3("tangent"))};
+}
+
+Float3 prepare_normal(Recorder& recorder, Float3 given) {
+  const Float3 shading = normal(recorder, Space::world);
+  if (same_value(given, shading)) return given;
+  const Float squared = dot(given, given);
+  const Bool usable = (squared > 1e-30f) & (squared < 1e30f);
+  const Float3 unit = given * Float3(1.0f / sqrt(squared));
+  return keep(recorder, select(usable, unit, shading));
+}
+
+Color3 FacetFresnel::mean(Recorder&, const GgxReflection& reflection, const GgxView&,
+                          Bool inside) const {
+  return reflection.mean([&](Float cosine) { return at(cosine, inside); });
+}
+
+Float finite(Float x) { return min(max(x, 0.0f), 1e30f); }
+
+Bool is_unit(Float3 w) { return abs(dot(w, w) - 1.0f) < 1e-3f; }
+
+}  // namespace nacre

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+
+#include "pbs/energy.h"
+#include "pbs/lobe.h"
+#include "pbs/microfacet.h"
+#include "runtime/node/node_call.h"
+#include "runtime/value/control.h"
+
+namespace nacre {
+
+/// A view in the frame of a rough surface, turned so that it is above.
+struct LocalView {
+  Frame frame;  ///< z on the viewer's side.
+  Float3 wo;    ///< wo.z >= 0.
+  Bool below;   ///< The viewer is behind the normal: inside what it encloses.
+};
+
+/// Where the facets of a surface lie and how rough they are; prepared and kept.
+struct Facets {
+  Float2 alpha;     ///< In [threshold, 1]; the same value twice where isotropic.
+  Bool delta;       ///< Smooth: both below the threshold. Mirrors, not lobes.
+  float threshold;  ///< 1e-4; fast: 1e-3.
+  bool isotropic;   ///< Known while recording: needs no tangent.
+  Float3 normal, tangent;
+
+  LocalView look(const View& view) const;
+  GgxView table_view(const LocalView& local) const { return ggx_view(local.wo, alpha, isotropic); }
+};
+
+/// From the inputs roughness, normal and tangent of a node. The threshold
+/// separates what float can evaluate: below it the rounding of a half-way vector
+/// is as wide as the lobe. One axis alone is never below: it is clamped.
+Facets prepare_facets(NodeCall& call);
+
+/// A unit normal, kept. The shading normal itself is trusted; others are
+/// normalized, and the shading normal stands in for a zero or a NaN.
+Float3 prepare_normal(Recorder& recorder, Float3 normal);
+
+/// The Fresnel factor of facets; its members are prepared and kept.
+class FacetFresnel {
+ public:
+  virtual ~FacetFresnel() = default;
+  /// Fraction reflected, in [0, 1]; finite for a finite cosine.
+  virtual Color3 at(Float cosine, Bool inside) const = 0;
+  /// Its mean over the light that a surface reflects to a view.
+  virtual Color3 mean(Recorder& recorder, const GgxReflection& reflection, const GgxView& view,
+                      Bool inside) const;
+  /// Index of the inside relative to the outside, for lobes that transmit.
+  virtual Float index() const { return 1.0f; }
+};
+using FacetFresnelPtr = std::shared_ptr<const FacetFresnel>;
+
+/// min(max(x, 0), 1e30): finite for any bits.
+Float finite(Float x);
+/// Whether w is a unit vector; false for NaN.
+Bool is_unit(Float3 w);
+
+/// a() where the condition holds, b() elsewhere: only one is recorded where the
+/// condition is a literal, else each is skipped where no lane needs it.
+template <class A, class B>
+auto choose(Bool condition, A&& a, B&& b) {
+  using T = decltype(a());
+  if (condition.is_constant(true)) return a();
+  if (condition.is_constant(false)) return b();
+  const T other = if_any(!condition, T(), b);
+  return if_any(condition, other, a);
+}
+
+}  // namespace nacre

@@ -1,0 +1,107 @@
+#include "pbs/fresnel.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr float tiny = 1e-30f;
+
+/// eta^2 - 1 without cancellation.
+Float excess(Float eta) {
+  const Float e = eta - 1.0f;
+  return e * (eta + 1.0f);
+}
+
+Float raise(Float x, Float exponent) {
+  if (exponent.is_constant(5.0f)) return square(square(x)) * x;
+  if (exponent.is_constant(1.0f)) return x;
+  return pow(x, exponent);
+}
+
+constexpr float dip_cosine = 1.0f / 7.0f;
+
+}  // namespace
+
+Bool totally_reflected(Float cosine, Float eta) { return fma(cosine, cosine, excess(eta)) <= 0.0f; }
+
+Polarised fresnel_dielectric_polarised(Float cosine, Float eta) {
+  const Float d = excess(eta);
+  const Float cosine2 = square(cosine);
+  const Float g = safe_sqrt(fma(cosine, cosine, d));
+  const Float eta2 = square(eta);
+  const Float s = d / max(square(cosine + g), tiny);
+  const Float p = d * fma(cosine2, eta2 + 1.0f, -1.0f) / max(square(fma(eta2, cosine, g)), tiny);
+  const Bool total = totally_reflected(cosine, eta) & (d != 0.0f);
+  return {select(total, 1.0f, min(square(s), 1.0f)), select(total, 1.0f, min(square(p), 1.0f))};
+}
+
+Float fresnel_dielectric(Float cosine, Float eta) {
+  return fresnel_dielectric_polarised(cosine, eta).mean();
+}
+
+Polarised fresnel_conductor_polarised(Float cosine, Float n, Float k) {
+  const Float cosine2 = square(cosine);
+  const Float sine2 = max(1.0f - cosine2, 0.0f);
+  // (a + ib)^2 = (n + ik)^2 - sin^2. The greater of a and b from the sum that
+  // does not cancel, the other from their product n k.
+  const Float t = fma(n - k, n + k, -sine2);
+  const Float product = n * k;
+  const Float modulus = sqrt(fma(t, t, 4.0f * square(product)));
+  const Float greater = sqrt(0.5f * (modulus + abs(t)));
+  const Float smaller = product / max(greater, tiny);
+  const Bool mostly_real = t > 0.0f;
+  const Float a = select(mostly_real, greater, smaller);
+  const Float b2 = square(select(mostly_real, smaller, greater));
+  const Float s = (square(a - cosine) + b2 + tiny) / (square(a + cosine) + b2 + tiny);
+  const Float ac = a * cosine;
+  const Float bc2 = b2 * cosine2;
+  const Float p = (square(ac - sine2) + bc2 + tiny) / (square(ac + sine2) + bc2 + tiny);
+  return {min(s, 1.0f), min(s * p, 1.0f)};
+}
+
+Color3 fresnel_conductor(Float cosine, Color3 n, Color3 k) {
+  return {fresnel_conductor_polarised(cosine, n.x, k.x).mean(),
+          fresnel_conductor_polarised(cosine, n.y, k.y).mean(),
+          fresnel_conductor_polarised(cosine, n.z, k.z).mean()};
+}
+
+SchlickCurve::SchlickCurve(Color3 c0, Color3 c82, Color3 c90, Float power)
+    : color0(saturate(c0)), color90(saturate(c90)), exponent(clamp(power, 0.0f, 1000.0f)) {
+  const Float x = raise(1.0f - dip_cosine, exponent);
+  const float falloff = 1.0f - dip_cosine;
+  const float scale =
+      1.0f / (dip_cosine * falloff * falloff * falloff * falloff * falloff * falloff);
+  const auto channel = [&](Float a, Float b, Float at82) {
+    const Float rest = 1.0f - saturate(at82);
+    return rest.is_constant(0.0f) ? Float(0.0f) : lerp(a, b, x) * rest * scale;
+  };
+  dip = {channel(color0.x, color90.x, c82.x), channel(color0.y, color90.y, c82.y),
+         channel(color0.z, color90.z, c82.z)};
+}
+
+Color3 SchlickCurve::at(Float cosine) const {
+  const Float rest = max(1.0f - cosine, 0.0f);
+  const Float x = raise(rest, exponent);
+  const Float bump = cosine * square(square(rest) * rest);
+  const auto channel = [&](Float a, Float b, Float depth) {
+    if (a.is_constant(1.0f) && b.is_constant(1.0f) && depth.is_constant(0.0f)) return Float(1.0f);
+    const Float plain = lerp(a, b, x);
+    return depth.is_constant(0.0f) ? plain : saturate(fma(-depth, bump, plain));
+  };
+  return {channel(color0.x, color90.x, dip.x), channel(color0.y, color90.y, dip.y),
+          channel(color0.z, color90.z, dip.z)};
+}
+
+Color3 SchlickCurve::mean() const {
+  const Float share = 2.0f / ((exponent + 1.0f) * (exponent + 2.0f));
+  return saturate(lerp(color0, color90, share) - dip * Color3(1.0f / 126.0f));
+}
+
+Float reflectance_of_index(Float eta) { return square((eta - 1.0f) / (eta + 1.0f)); }
+
+Float index_of_reflectance(Float reflectance) {
+  const Float root = sqrt(clamp(reflectance, 0.01f, 0.99f));
+  return (1.0f + root) / (1.0f - root);
+}
+
+}  // namespace nacre

@@ -1,0 +1,38 @@
+#include "pbs/bsdf.h"
+#include "pbs/microfacet_reflection.h"
+
+namespace nacre {
+
+namespace {
+
+/// Complex index n + ik relative to vacuum, on either side.
+class ConductorFresnel final : public FacetFresnel {
+ public:
+  ConductorFresnel(Recorder& recorder, Color3 n, Color3 k)
+      : n_(keep(recorder, bounded(n))), k_(keep(recorder, bounded(k))) {}
+
+  Color3 at(Float cosine, Bool) const override { return fresnel_conductor(cosine, n_, k_); }
+
+ private:
+  /// To what float can square twice; reflectance 1 - 4e-4 there.
+  static Color3 bounded(Color3 x) { return min(max(x, Color3(0.0f)), Color3(1e4f)); }
+
+  Color3 n_, k_;
+};
+
+}  // namespace
+
+void record_closure_conductor_bsdf(NodeCall& call) {
+  Recorder& recorder = call.recorder();
+  auto fresnel =
+      std::make_shared<ConductorFresnel>(recorder, call.vector3("ior"), call.vector3("extinction"));
+  auto lobe = std::make_shared<MicrofacetReflection>(
+      prepare_facets(call), std::move(fresnel),
+      MicrofacetReflection::Options{.name = "conductor_bsdf",
+                                    .retroreflective = call.boolean("retroreflective"),
+                                    .opaque = true});
+  const Float weight = keep(recorder, max(call.number("weight"), 0.0f));
+  call.set(std::make_shared<LobeBsdf>(std::move(lobe), weight));
+}
+
+}  // namespace nacre

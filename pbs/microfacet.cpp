@@ -1,0 +1,68 @@
+#include "pbs/microfacet.h"
+
+#include "pbs/sampling.h"
+
+namespace nacre {
+
+namespace {
+
+/// Uniform on the cap z > -bottom of the unit sphere, plus wi: a normal of the
+/// hemisphere. 1 + z and 1 - z are formed apart, so that neither cancels.
+Float3 sample_cap(Float3 wi, Float bottom, Float u, Float v) {
+  const Float span = 1.0f + bottom;
+  const Float above = max(u * span, 0.0f);                                       // 1 - z
+  const Float below = max(fma(1.0f - u, span, max(1.0f - bottom, 0.0f)), 0.0f);  // 1 + z
+  const Float ring = sqrt(above * below);
+  const Float phi = 2 * pi * v;
+  return {fma(ring, cos(phi), wi.x), fma(ring, sin(phi), wi.y), (1.0f - above) + wi.z};
+}
+
+Float3 normal_of_cap(Float3 wo, Float2 alpha, Float bound, Float u, Float v) {
+  const Float3 stretched = normalize({wo.x * alpha.x, wo.y * alpha.y, wo.z});
+  const Float3 h = sample_cap(stretched, min(bound * stretched.z, 1.0f), u, v);
+  return normalize({h.x * alpha.x, h.y * alpha.y, max(h.z, 0.0f)});
+}
+
+}  // namespace
+
+Float ggx_distribution(Float3 h, Float2 alpha) {
+  // 1 / (pi ax ay ((hx/ax)^2 + (hy/ay)^2 + hz^2)^2), its divisions multiplied out.
+  const Float length2 = dot(h, h);
+  const Float area = alpha.x * alpha.y;
+  const Float3 q{h.x * alpha.y, h.y * alpha.x, h.z * area};
+  const Float ratio = area * length2 / max(dot(q, q), 1e-30f);
+  return area * square(ratio) * one_over_pi;
+}
+
+Float ggx_root(Float3 w, Float2 alpha) {
+  const Float x = alpha.x * w.x;
+  const Float y = alpha.y * w.y;
+  return sqrt(fma(x, x, fma(y, y, square(w.z))));
+}
+
+Float ggx_masking(Float3 w, Float2 alpha) { return 2.0f * w.z / (w.z + ggx_root(w, alpha)); }
+
+Float ggx_shadowing(Float cos_o, Float root_o, Float cos_i, Float root_i) {
+  return cos_i * (cos_o + root_o) / max(fma(cos_i, root_o, cos_o * root_i), 1e-30f);
+}
+
+Float3 sample_visible_normal(Float3 wo, Float2 alpha, Float u, Float v) {
+  return normal_of_cap(wo, alpha, 1.0f, u, v);
+}
+
+Float reflection_bound(Float3 wo, Float2 alpha) {
+  const Float a2 = square(min(alpha.x, alpha.y));
+  const Float s2 = square(1.0f + sqrt(fma(wo.x, wo.x, square(wo.y))));
+  return (1.0f - a2) * s2 / fma(a2, square(wo.z), s2);
+}
+
+Float3 sample_reflecting_normal(Float3 wo, Float2 alpha, Float bound, Float u, Float v) {
+  return normal_of_cap(wo, alpha, bound, u, v);
+}
+
+Float3 reflect(Float3 w, Float3 h) {
+  const Float twice = 2.0f * dot(w, h);
+  return {fma(twice, h.x, -w.x), fma(twice, h.y, -w.y), fma(twice, h.z, -w.z)};
+}
+
+}  // namespace nacre

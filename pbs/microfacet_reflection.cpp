@@ -1,0 +1,78 @@
+#include "pbs/microfacet_reflection.h"
+
+namespace nacre {
+
+MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) const {
+  const LocalView local = facets_.look(view);
+  const Bool inside = local.below & !view.thin_walled;
+  const GgxView seen = facets_.table_view(local);
+  const GgxReflection perfect = ggx_reflection(*view.recorder, seen);
+  const Color3 fresnel = fresnel_->mean(*view.recorder, perfect, seen, inside);
+  const Color3 factor = compensation(fresnel, perfect.albedo);
+  const Color3 rough = saturate(fresnel * factor * Color3(perfect.albedo));
+  if (facets_.delta.is_constant(false)) return {factor, rough};
+  return {factor, select(facets_.delta, fresnel_->at(local.wo.z, inside), rough)};
+}
+
+/// A lobe that is turned half round the normal sends light back.
+Float3 MicrofacetReflection::turned(Float3 wi) const {
+  const Bool back = options_.retroreflective;
+  return {select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};
+}
+
+LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) const {
+  const Terms terms = terms_.get(view, [&] { return compute(view); });
+  const LocalView local = facets_.look(view);
+  const Float3 wo = local.wo;
+  const Float3 wi = turned(local.frame.to_local(wi_world));
+  const Float3 h = wo + wi;
+  const Float length2 = dot(h, h);
+  // Below 1e-8 the half-way vector of two grazing directions is rounding.
+  const Bool seen = (wo.z > 0.0f) & (wi.z > 0.0f) & (length2 > 1e-8f) & !facets_.delta;
+  const Float cosine = saturate(0.5f * sqrt(length2));
+  const Float root = ggx_root(wo, facets_.alpha);
+  const Float half_d = 0.5f * ggx_distribution(h, facets_.alpha);
+  const Float bound = reflection_bound(wo, facets_.alpha);
+  const Float pdf = half_d / max(fma(bound, wo.z, root), 1e-30f);
+  const Float wi_root = ggx_root(wi, facets_.alpha);
+  const Float both = fma(wi.z, root, wo.z * wi_root);
+  const Float f = half_d * wi.z / max(both, 1e-30f);
+  const Bool inside = local.below & !view.thin_walled;
+  const Color3 colour = options_.tint * fresnel_->at(cosine, inside) * terms.factor;
+  return {.f = colour * Color3(select(seen, finite(f), 0.0f)),
+          .pdf = select(seen, finite(pdf), 0.0f)};
+}
+
+LobeSample MicrofacetReflection::sample(const View& view, Float3 u) const {
+  const LocalView local = facets_.look(view);
+  const Float3 wo = local.wo;
+  const Float bound = reflection_bound(wo, facets_.alpha);
+  const Float3 h = sample_reflecting_normal(wo, facets_.alpha, bound, u.x, u.y);
+  const Float3 mirrored{-wo.x, -wo.y, wo.z};
+  const Float3 wi = turned(select(facets_.delta, mirrored, reflect(wo, h)));
+  const Float3 world = local.frame.to_world(wi);
+  LobeSample sample{
+      .wi = world, .valid = (wo.z > 0.0f) & (wi.z > 0.0f) & is_unit(world), .delta = facets_.delta};
+  if (!facets_.delta.is_constant(false)) {
+    const Bool inside = local.below & !view.thin_walled;
+    sample.delta_weight = options_.tint * fresnel_->at(wo.z, inside);
+    sample.delta_probability = 1.0f;
+  }
+  return sample;
+}
+
+Color3 MicrofacetReflection::reflected(const View& view) const {
+  return terms_.prepare(view, [&] { return compute(view); }).reflected;
+}
+
+Color3 MicrofacetReflection::albedo(const View& view) const {
+  return options_.tint * reflected(view);
+}
+
+Color3 MicrofacetReflection::throughput(const View& view) const {
+  if (options_.opaque) return Color3(0.0f);
+  const Color3 lost = reflected(view);
+  return Color3(1.0f) - (options_.grey_throughput ? Color3(average(lost)) : lost);
+}
+
+}  // namespace nacre

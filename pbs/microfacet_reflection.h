@@ -1,0 +1,51 @@
+#pragma once
+
+#include "pbs/facets.h"
+#include "pbs/per_view.h"
+
+namespace nacre {
+
+/// Light reflected once by GGX facets, scaled up for what several reflections
+/// bring back (pbs/energy.h). Smooth surfaces are mirrors. Reciprocal but for
+/// that scale, which belongs to the view.
+class MicrofacetReflection final : public Lobe {
+ public:
+  struct Options {
+    std::string_view name;
+    Color3 tint = Color3(1.0f);    ///< Of the light, not of what passes below.
+    Bool retroreflective = false;  ///< Sends light back to where it came from.
+    bool opaque = false;           ///< Nothing passes below.
+    bool grey_throughput = false;  ///< What passes is the mean of the channels.
+  };
+  MicrofacetReflection(Facets facets, FacetFresnelPtr fresnel, Options options)
+      : facets_(std::move(facets)), fresnel_(std::move(fresnel)), options_(std::move(options)) {}
+
+  std::string_view name() const override { return options_.name; }
+  std::int32_t kinds() const override { return lobe_glossy_reflection; }
+  bool is_opaque() const override { return options_.opaque; }
+  LobeValue evaluate(const View& view, Float3 wi) const override;
+  LobeSample sample(const View& view, Float3 u) const override;
+  Color3 albedo(const View& view) const override;
+  Color3 throughput(const View& view) const override;
+  /// The albedo before the tint.
+  Color3 reflected(const View& view) const;
+
+ private:
+  struct Terms {
+    Color3 factor;  ///< Compensation.
+    Color3 reflected;
+    template <class F>
+    friend void visit(Terms& terms, F&& f) {
+      nacre::visit(terms.factor, f), nacre::visit(terms.reflected, f);
+    }
+  };
+  Terms compute(const View& view) const;
+  Float3 turned(Float3 wi) const;
+
+  Facets facets_;
+  FacetFresnelPtr fresnel_;
+  Options options_;
+  PerView<Terms> terms_;
+};
+
+}  // namespace nacre

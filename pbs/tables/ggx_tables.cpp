@@ -1,0 +1,26 @@
+#include "pbs/tables/ggx_tables.h"
+
+namespace nacre {
+
+namespace {
+
+#include "pbs/tables/ggx_tables.inc"
+
+}  // namespace
+
+const GgxTable& ggx_reflection_table() {
+  static const GgxTable table{24, 20, 1, 3, reflection_values};
+  return table;
+}
+
+const GgxTable& ggx_entering_table() {
+  static const GgxTable table{12, 10, 8, 2, entering_values};
+  return table;
+}
+
+const GgxTable& ggx_leaving_table() {
+  static const GgxTable table{16, 16, 16, 3, leaving_values};
+  return table;
+}
+
+}  // namespace nacre

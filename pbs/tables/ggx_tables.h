@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+namespace nacre {
+
+/// Hemispherical integrals of the GGX lobes of pbs/microfacet.h, isotropic, for
+/// one view: nodes on the axes of pbs/tables/axes.h, angle fastest, then
+/// roughness, then index; the quantities of one node side by side. Written by
+/// make_tables.cpp; tests/pbs/energy_test.cpp recomputes entries another way.
+struct GgxTable {
+  int angles, roughnesses, indices;
+  int quantities;
+  std::span<const float> values;
+};
+
+/// For perfectly reflecting facets: the albedo E, and the facet cosines that
+/// stand for the darker and the brighter half of the reflected light, each less
+/// the cosine of the view. The mean over a half of (1 - cosine)^5 is exact.
+const GgxTable& ggx_reflection_table();
+
+/// Relative index above 1. The albedo of transmission without a Fresnel factor,
+/// and of reflection and transmission together with it.
+const GgxTable& ggx_entering_table();
+
+/// Relative index below 1. The mean Fresnel factor of what is reflected, the
+/// albedo of transmission without a Fresnel factor, and that of both with it
+/// divided by E.
+const GgxTable& ggx_leaving_table();
+
+}  // namespace nacre

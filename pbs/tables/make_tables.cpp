@@ -1,0 +1,180 @@
+// Writes pbs/tables/ggx_tables.inc to standard output:
+//
+//   ninja make_ggx_tables && ./make_ggx_tables > pbs/tables/ggx_tables.inc
+//
+// Midpoint rule over the unit square that visible normals are sampled from
+// (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023),
+// in double precision. Half the square is enough: the integrands are even.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "pbs/tables/axes.h"
+
+namespace {
+
+constexpr int steps = 256;
+
+struct Vec {
+  double x, y, z;
+};
+
+/// A view of the surface and the light it brings along one visible normal.
+struct Scene {
+  double cosine, alpha;
+  double sine, root;
+
+  Scene(double cosine_, double alpha_) : cosine(std::clamp(cosine_, 1e-6, 1.0)), alpha(alpha_) {
+    sine = std::sqrt(1.0 - cosine * cosine);
+    root = std::hypot(alpha * sine, cosine);
+  }
+
+  /// Calls f(facet normal, its cosine to the view) for equally probable normals.
+  template <class F>
+  void each_normal(F&& f) const {
+    const double x = alpha * sine / root;
+    const double z = cosine / root;
+    for (int i = 0; i < steps; ++i) {
+      const double u = (i + 0.5) / steps;
+      const double cap = (1.0 - u) * (1.0 + z) - z;
+      const double ring = std::sqrt(std::max(0.0, 1.0 - cap * cap));
+      for (int j = 0; j < steps; ++j) {
+        const double phi = std::numbers::pi * (j + 0.5) / steps;
+        Vec h{alpha * (x + ring * std::cos(phi)), alpha * ring * std::sin(phi), z + cap};
+        const double length = std::sqrt(h.x * h.x + h.y * h.y + h.z * h.z);
+        h = {h.x / length, h.y / length, h.z / length};
+        f(h, sine * h.x + cosine * h.z);
+      }
+    }
+  }
+
+  /// G2 / G1 for light leaving with this cosine to the surface normal.
+  double shadowing(double out) const {
+    const double out_root = std::sqrt(alpha * alpha * (1.0 - out * out) + out * out);
+    return out * (cosine + root) / (out * root + cosine * out_root);
+  }
+};
+
+/// Unpolarised; Born and Wolf, "Principles of Optics", 1.5.2.
+double fresnel(double cosine, double eta) {
+  const double squared = eta * eta - 1.0 + cosine * cosine;
+  if (squared <= 0.0) return 1.0;
+  const double g = std::sqrt(squared);
+  const double s = (cosine - g) / (cosine + g);
+  const double p = (eta * eta * cosine - g) / (eta * eta * cosine + g);
+  return 0.5 * (s * s + p * p);
+}
+
+std::vector<double> reflection(double cosine, double alpha, double) {
+  const Scene scene(cosine, alpha);
+  std::vector<std::pair<double, double>> parts;  // Facet cosine, light.
+  double total = 0.0;
+  scene.each_normal([&](Vec h, double c) {
+    const double out = 2.0 * c * h.z - scene.cosine;
+    if (out <= 0.0) return;
+    parts.emplace_back(c, scene.shadowing(out) / (steps * steps));
+    total += parts.back().second;
+  });
+  std::sort(parts.begin(), parts.end());
+  double moment[2] = {0.0, 0.0};
+  double before = 0.0;
+  for (const auto& [c, light] : parts) {
+    const double low = std::clamp(0.5 * total - before, 0.0, light);
+    moment[0] += low * std::pow(1.0 - c, 5);
+    moment[1] += (light - low) * std::pow(1.0 - c, 5);
+    before += light;
+  }
+  const auto stand_in = [&](double m) { return 1.0 - std::pow(m / (0.5 * total), 0.2); };
+  return {total, stand_in(moment[0]) - scene.cosine, stand_in(moment[1]) - scene.cosine};
+}
+
+struct Interface {
+  double perfect = 0.0, reflected = 0.0, passing = 0.0, transmitted = 0.0;
+};
+
+Interface interface(double cosine, double alpha, double eta) {
+  const Scene scene(cosine, alpha);
+  Interface sum;
+  scene.each_normal([&](Vec h, double c) {
+    const double part = 1.0 / (steps * steps);
+    const double f = fresnel(c, eta);
+    if (const double out = 2.0 * c * h.z - scene.cosine; out > 0.0) {
+      sum.perfect += part * scene.shadowing(out);
+      sum.reflected += part * scene.shadowing(out) * f;
+    }
+    const double squared = eta * eta - 1.0 + c * c;
+    if (squared <= 0.0) return;
+    const double down = (scene.cosine - (c - std::sqrt(squared)) * h.z) / eta;
+    if (down <= 0.0) return;
+    sum.passing += part * scene.shadowing(down);
+    sum.transmitted += part * scene.shadowing(down) * (1.0 - f);
+  });
+  return sum;
+}
+
+std::vector<double> entering(double cosine, double alpha, double eta) {
+  const Interface sum = interface(cosine, alpha, eta);
+  return {sum.passing, sum.reflected + sum.transmitted};
+}
+
+std::vector<double> leaving(double cosine, double alpha, double eta) {
+  const Interface sum = interface(cosine, alpha, 1.0 / eta);
+  return {sum.reflected / sum.perfect, sum.passing,
+          (sum.reflected + sum.transmitted) / sum.perfect};
+}
+
+/// x in [0, 1] with f(x) = y, for an f that grows.
+double invert(double y, const std::function<double(double)>& f) {
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < y ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double angle_below_one(double cosine, double alpha, double eta) {
+  namespace axes = nacre::table_axes;
+  const double critical = axes::critical_cosine(1.0 / eta);
+  return cosine < critical ? axes::beyond_critical(cosine, alpha, critical)
+                           : axes::within_critical(cosine, alpha, critical);
+}
+
+double angle(double cosine, double alpha, double) {
+  return nacre::table_axes::angle(cosine, alpha);
+}
+
+using Integral = std::vector<double> (*)(double, double, double);
+using Axis = double (*)(double, double, double);
+
+void write(const char* name, int angles, int roughnesses, int indices, Axis axis, Integral f) {
+  std::printf("constexpr float %s[] = {\n", name);
+  for (int k = 0; k < indices; ++k) {
+    const double offset = indices == 1 ? 0.0 : std::pow(0.8 * k / (indices - 1), 2);
+    const double eta = std::max((1.0 + offset) / (1.0 - offset), 1.0 + 1e-6);
+    for (int j = 0; j < roughnesses; ++j) {
+      const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-4);
+      for (int i = 0; i < angles; ++i) {
+        const double cosine =
+            invert(double(i) / (angles - 1), [&](double c) { return axis(c, alpha, eta); });
+        for (const double value : f(cosine, alpha, eta)) std::printf("%#.5gf,", value);
+      }
+      std::printf("\n");
+    }
+  }
+  std::printf("};\n");
+}
+
+}  // namespace
+
+int main() {
+  std::printf("// Written by pbs/tables/make_tables.cpp.\n");
+  write("reflection_values", 24, 20, 1, angle, reflection);
+  write("entering_values", 12, 10, 8, angle, entering);
+  write("leaving_values", 16, 16, 16, angle_below_one, leaving);
+}
