@@ -173,6 +173,26 @@ TEST(Opacity, ShadowIsAsDeepAsThePanelIsOpaque) {
   }
 }
 
+// Behind a panel, paths that passed it and paths that it scattered meet the same
+// surface with different depths; light sampling has to stop for those at their last.
+TEST(Opacity, DepthLimitHoldsPathByPath) {
+  Scene scene;
+  scene.meshes.push_back(make_quad("floor", {-20, 0, 20}, {40, 0, 0}, {0, 0, -40}));
+  scene.meshes.push_back(make_quad("panel", {-4, 0.1f, 0}, {8, 0, 0}, {0, 4, 0}));
+  const LambertShader white({1.f, 1.f, 1.f});
+  const LambertShader panel({1.f, 1.f, 1.f}, {}, {0.5f, 0.5f, 0.5f});
+  const Environment sky = Environment::constant({1.f, 1.f, 1.f});
+  const Camera camera = look_at({0, 2, 4}, {0, 1, 0}, 0.3f);
+  const RenderInput input = {&scene, {&white, &panel}, &sky, camera};
+  const Estimate bsdf = estimate(rendered(input, settings(Strategy::bsdf_only)), 0);
+  for (const Strategy strategy : {Strategy::light_only, Strategy::multiple_importance}) {
+    RenderSettings s = settings(strategy);
+    s.seed = 1;
+    EXPECT_LT(z_score(estimate(rendered(input, s), 0), bsdf), 4);
+  }
+  EXPECT_LT(std::sqrt(bsdf.variance), 0.01 * bsdf.mean);
+}
+
 TEST(Opacity, PassingThroughIsBounded) {
   Scene scene;
   std::vector<const Shader*> shaders;

@@ -122,6 +122,26 @@ TEST(Surface, ObjectSpaceUndoesTheTransform) {
   }
 }
 
+TEST(Surface, FootprintInUvSolvesForSkewedMaps) {
+  Scene scene;
+  scene.meshes.push_back(make_quad("skewed", {}, {2.f, 0.f, 0.f}, {1.5f, 1.f, 0.f}));
+  const SurfaceGeometry geometry(scene);
+  const PixelCamera camera(look_at({1.f, 1.f, 4.f}, {1.f, 0.5f, 0.f}, 0.6f), 64, 64, 1.f);
+  BatchBuffer buffer(16, 0, 0);
+  const Vec3 wo = normalize({0.f, 0.125f, 1.f});
+  const std::vector<SurfacePoint> points = {{0, 0, 0.25f, 0.5f, wo, true, 4.f, 0.f},
+                                            {0, 0, 0.25f, 0.5f, wo, false, 4.f, 0.1f}};
+  geometry.fill(points, everything(), camera, buffer);
+  const ShadingBatch& b = buffer.batch;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec3 x = b.dUVdx.x[i] * load(b.dPdu, i) + b.dUVdx.y[i] * load(b.dPdv, i);
+    const Vec3 y = b.dUVdy.x[i] * load(b.dPdu, i) + b.dUVdy.y[i] * load(b.dPdv, i);
+    expect_near(x, load(b.dPdx, i), 1e-5f);
+    expect_near(y, load(b.dPdy, i), 1e-5f);
+    EXPECT_GT(length(y), 0.01f);
+  }
+}
+
 TEST(Surface, PrimvarsComeByName) {
   Scene scene;
   Mesh mesh = make_quad("card", {}, {1.f, 0.f, 0.f}, {0.f, 1.f, 0.f});
