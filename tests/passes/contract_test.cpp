@@ -336,7 +336,7 @@ Program random_polynomial(std::uint64_t seed) {
   }
   std::vector<SliceOutput> outputs;
   for (std::size_t k = values.size() - 8; k < values.size(); ++k) {
-    outputs.push_back({"out." + std::to_string(k), values[k].ref()});
+    outputs.push_back({fmt::format("out.{}", k), values[k].ref()});
   }
   return slice(recorder.program(), "polynomial", outputs);
 }
