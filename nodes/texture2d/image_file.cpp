@@ -44,6 +44,12 @@ TextureSources find_image(NodeCall& call) {
                                call.has("layer") ? call.text("layer") : std::string());
 }
 
+bool is_missing(const TextureSources& sources) {
+  return std::ranges::all_of(sources.images, [](const TextureSource& image) {
+    return image.state == TextureSource::State::missing;
+  });
+}
+
 Float4 widened(const Recorded& value) {
   const auto part = [&](std::size_t i) {
     return i < value.parts.size() ? value.number(i) : Float(0.0f);

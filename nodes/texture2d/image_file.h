@@ -15,6 +15,8 @@ AddressMode parse_address_mode(NodeCall& call, std::string_view input);
 /// What the node's input `file` (and `layer`, where it has one) stands for; nothing where
 /// there are no textures.
 TextureSources find_image(NodeCall& call);
+/// No image at all: the node is its default everywhere.
+bool is_missing(const TextureSources& sources);
 
 /// An input of one to four components; those it lacks are 0.
 Float4 widened(const Recorded& value);
