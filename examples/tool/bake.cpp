@@ -49,7 +49,7 @@ std::vector<std::string> wanted(const BakeOptions& options, const Opened& opened
     if (is_numeric(output.type)) names.push_back(output.name);
   }
   if (names.empty()) {
-    diagnostics.error("nothing-to-bake", {.file = options.common.file},
+    diagnostics.error("nothing-to-bake", {options.common.file, 0, 0, {}},
                       "the document has no numeric output");
   }
   return names;

@@ -1,0 +1,131 @@
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "examples/bake/bake.h"
+#include "examples/common/materialx_libraries.h"
+#include "jit/document/read.h"
+#include "jit/shading/shading_system.h"
+#include "tests/support/shared.h"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int size = 32;
+
+/// Nodedefs whose reference is known to be wrong, or defined otherwise by us,
+/// with the reason; see tests/conformance/exceptions.md.
+const std::map<std::string, std::string>& exceptions() {
+  static const std::map<std::string, std::string> known{};
+  return known;
+}
+
+std::vector<float> read_reference(const fs::path& file, int& channels) {
+  const auto in = OIIO::ImageInput::open(file.string());
+  if (in == nullptr) return {};
+  channels = in->spec().nchannels;
+  std::vector<float> pixels(static_cast<std::size_t>(in->spec().width) *
+                            static_cast<std::size_t>(in->spec().height) *
+                            static_cast<std::size_t>(channels));
+  in->read_image(0, channels, OIIO::TypeDesc::FLOAT, pixels.data());
+  return pixels;
+}
+
+/// The share of texels all of whose channels match: |a - b| <= 1e-4 + 1e-3 |b|.
+double matching_share(const std::vector<float>& ours, int our_channels,
+                      const std::vector<float>& reference, int channels) {
+  const int compared = std::min(our_channels, channels);
+  int matches = 0;
+  for (int i = 0; i < size * size; ++i) {
+    bool same = true;
+    for (int c = 0; c < compared; ++c) {
+      const float a = ours[static_cast<std::size_t>(i * our_channels + c)];
+      const float b = reference[static_cast<std::size_t>(i * channels + c)];
+      same = same && std::fabs(a - b) <= 1e-4f + 1e-3f * std::fabs(b);
+    }
+    matches += same;
+  }
+  return static_cast<double>(matches) / (size * size);
+}
+
+class Conformance : public ::testing::TestWithParam<Backend> {
+ protected:
+  void SetUp() override {
+    folder_ = testing::shared_folder() / "conformance" / "nodes";
+    if (!fs::exists(folder_ / "manifest.json")) {
+      GTEST_SKIP() << "no reference values in " << folder_;
+    }
+    system_ = ShadingSystem::create({.libraries = {find_materialx_libraries()}}, diagnostics_);
+    ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
+  }
+
+  /// Empty if every output of the document matches; else what does not.
+  std::string compare(const std::string& nodedef, const nlohmann::json& outputs) {
+    Diagnostics diagnostics;
+    const fs::path file = folder_ / "documents" / (nodedef + ".mtlx");
+    const auto document = read_document(file, {}, diagnostics);
+    if (document == nullptr) return "does not load: " + diagnostics.to_string();
+    ShaderOptions options;
+    options.compile.backend = GetParam();
+    std::string problems;
+    for (const auto& output : outputs) {
+      const std::string name = output["output"];
+      const auto kernel = system_->compile_outputs(*document, {name}, options, diagnostics);
+      if (kernel == nullptr) return name + " does not compile: " + diagnostics.to_string();
+      const std::vector<float> ours =
+          host::bake_image(*kernel, 0, {.width = size, .height = size, .threads = 1});
+      std::string flat = name;
+      std::replace(flat.begin(), flat.end(), '/', '.');
+      int channels = 0;
+      const std::vector<float> reference =
+          read_reference(folder_ / "reference" / nodedef / (flat + ".exr"), channels);
+      if (reference.empty()) return name + " has no reference image";
+      const double share = matching_share(ours, component_count(kernel->outputs[0].type),
+                                          reference, channels);
+      const double needed = nodedef.starts_with("ND_range_") ? 0.97 : 0.99;
+      if (share < needed) problems += name + " " + std::to_string(share) + "; ";
+    }
+    return problems;
+  }
+
+  fs::path folder_;
+  Diagnostics diagnostics_;
+  std::unique_ptr<ShadingSystem> system_;
+};
+
+TEST_P(Conformance, NodesMatchTheReferenceValues) {
+  nlohmann::json manifest;
+  std::ifstream(folder_ / "manifest.json") >> manifest;
+  int matching = 0;
+  std::string differing;
+  for (const auto& [nodedef, outputs] : manifest.items()) {
+    const std::string problem = compare(nodedef, outputs);
+    if (problem.empty()) {
+      ++matching;
+    } else {
+      differing += "  " + nodedef + ": " + problem + "\n";
+    }
+  }
+  std::cout << matching << " of " << manifest.size() << " documents match\n" << differing;
+  EXPECT_GE(matching, 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, Conformance,
+                         ::testing::Values(Backend::jit, Backend::interpreter, Backend::reference),
+                         [](const auto& instance) {
+                           switch (instance.param) {
+                             case Backend::jit: return "jit";
+                             case Backend::interpreter: return "interpreter";
+                             default: return "reference";
+                           }
+                         });
+
+}  // namespace
+}  // namespace nacre
