@@ -147,13 +147,6 @@ const NodeDef* find_explicit(const Element& instance, const Definitions& definit
                       "the name of a nodedef", fmt::format("'{}'", name));
     return nullptr;
   }
-  if (def->category != instance.category() &&
-      def->category != qualified_name(instance, instance.category())) {
-    diagnostics.error("nodedef-mismatch", location(instance),
-                      fmt::format("the nodedef '{}' is of another node", name),
-                      fmt::format("<{}>", def->category), fmt::format("<{}>", instance.category()));
-    return nullptr;
-  }
   if (def->instance_type() != instance.attribute("type")) {
     diagnostics.error("no-matching-nodedef", location(instance),
                       fmt::format("the nodedef '{}' has another output type", name),

@@ -6,7 +6,8 @@
 
 namespace nacre {
 
-/// The nodedef of a node instance. An explicit `nodedef` decides; otherwise the
+/// The nodedef of a node instance. An explicit `nodedef` decides, even if it is
+/// that of another category (the library has such an instance); otherwise the
 /// first candidate, those of the namespace-qualified category before those of
 /// the plain one, library before document, in document order, whose target is
 /// ours, whose version agrees, whose output type is the instance's type, and

@@ -56,6 +56,13 @@ class Checker {
       error("missing-name", node, "the node has no name", "a name");
     }
     const NodeDef* def = find_nodedef(node, definitions_, diagnostics_);
+    if (def != nullptr && def->category != node.category() &&
+        def->category != qualified_name(node, node.category())) {
+      diagnostics_.warning("nodedef-mismatch", location(node),
+                           fmt::format("the nodedef '{}' is of another node", def->name),
+                           fmt::format("<{}>", def->category),
+                           fmt::format("<{}>", node.category()));
+    }
     for (const Element& child : node.children()) {
       if (child.category() != "input") continue;
       check_port(child);

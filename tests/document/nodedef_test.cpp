@@ -110,6 +110,11 @@ TEST(SelectNodeDef, ExplicitNameDecides) {
             "ND_multiply_color3FA");
 }
 
+TEST(SelectNodeDef, ExplicitNameDecidesOverTheCategory) {
+  EXPECT_EQ(selected("<ifgreater name=\"n\" type=\"color4\" nodedef=\"ND_ifgreatereq_color4I\"/>"),
+            "ND_ifgreatereq_color4I");
+}
+
 TEST(SelectNodeDef, DefaultVersionUnlessOneIsNamed) {
   EXPECT_EQ(selected("<standard_surface name=\"n\" type=\"surfaceshader\"/>"),
             "ND_standard_surface_surfaceshader");

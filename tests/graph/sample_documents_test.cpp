@@ -1,6 +1,7 @@
 // Documents that must pass: ours in tests/documents/good, and MaterialX's own.
 #include <gtest/gtest.h>
 
+#include "jit/graph/builder.h"
 #include "jit/graph/check.h"
 #include "jit/graph/find.h"
 #include "tests/graph/build_text.h"
@@ -44,6 +45,23 @@ TEST(SampleDocuments, OursBuild) {
   for (const auto& entry : fs::directory_iterator(source_folder() / "tests/documents/good")) {
     if (entry.path().extension() != ".mtlx") continue;
     EXPECT_GT(build_all(entry.path()), 0) << entry.path();
+  }
+}
+
+// The whole library: each nodedef alone, with nothing set.
+TEST(SampleDocuments, EveryNodeDefOfTheLibraryBuilds) {
+  for (const NodeDef* def : standard_library().definitions().all()) {
+    GraphBuilder builder(standard_library());
+    const auto node = builder.add_node(def->name, "n");
+    for (const NodeDefOutput& output : def->outputs) {
+      builder.output(std::string(output.name), node, output.name);
+    }
+    Diagnostics diagnostics;
+    const auto graph = builder.finish({}, diagnostics);
+    ASSERT_TRUE(graph) << def->name << "\n" << diagnostics.to_string();
+    EXPECT_TRUE(diagnostics.all().empty()) << def->name << "\n" << diagnostics.to_string();
+    EXPECT_TRUE(verify(*graph, diagnostics)) << def->name << "\n" << diagnostics.to_string();
+    EXPECT_EQ(graph->outputs.size(), def->outputs.size());
   }
 }
 
