@@ -1,6 +1,7 @@
 #include "jit/llvm/target.h"
 
 #include <fmt/format.h>
+#include <llvm/ADT/StringMap.h>
 #include <llvm/MC/MCSubtargetInfo.h>
 #include <llvm/MC/TargetRegistry.h>
 #include <llvm/Support/TargetSelect.h>
@@ -43,6 +44,16 @@ Target Target::host() {
 std::string CodegenOptions::key() const {
   return fmt::format("w{} {} tier{} cpu={} features={}", lanes, accuracy_name(accuracy),
                      static_cast<int>(tier), target.cpu, target.features);
+}
+
+int widest_lanes(const Target& target) {
+  CodegenOptions options;
+  options.target = target;
+  std::string error;
+  const auto machine = codegen::make_target_machine(options, error);
+  if (machine == nullptr) return 4;
+  const codegen::Features features = codegen::features_of(*machine);
+  return features.avx512 ? 16 : features.avx ? 8 : 4;
 }
 
 namespace codegen {

@@ -50,12 +50,14 @@ Angle reduce_small(Float x, Turns turns) {
   return {fma(turns.count, -half_pi_3, second), 0.0f, turns.low_bits};
 }
 
-/// Two parts are enough, and a bound instead of the path for large angles.
+/// Two parts are enough, and a bound instead of the path for large angles. Not
+/// by nearest_turns(): where reassociation is allowed, (x + c) - c is x.
 Angle reduce_fast(Float x, float per_step, float part_1, float part_2, float bound) {
-  const Turns turns = nearest_turns(x, per_step);
-  const Float rest = fma(turns.count, -part_2, fma(turns.count, -part_1, x));
+  const Float count = round(x * Float(per_step));
+  const Float rest = fma(count, -part_2, fma(count, -part_1, x));
   // In this order NaN passes.
-  return {min(Float(bound), max(Float(-bound), rest)), 0.0f, turns.low_bits};
+  const Float inside = min(Float(bound), max(Float(-bound), rest));
+  return {inside, 0.0f, bits_of(count + Float(round_to_low_bits))};
 }
 
 }  // namespace

@@ -11,18 +11,18 @@ namespace nacre::coefficients {
 inline constexpr std::array exp_standard{0x1.fffffc0000000p-1f, 0x1.00004c0000000p-1f,
                                          0x1.5558180000000p-3f, 0x1.54f3ec0000000p-5f,
                                          0x1.109c580000000p-7f, 0x1.ab6d3c0000000p-10f};
-/// exp(r) = 1 + r p(r); relative 2.0e-09.
-inline constexpr std::array exp_precise{
-    0x1.0000000000000p+0f, 0x1.fffffc0000000p-2f,  0x1.55557e0000000p-3f, 0x1.5558e40000000p-5f,
-    0x1.10dab80000000p-7f, 0x1.6a49c80000000p-10f, 0x1.eb8df80000000p-13f};
+/// exp(r) = 1 + r log(base) + r^2 p(r); relative 1.6e-09.
+inline constexpr std::array exp_precise{0x1.fffffc0000000p-2f,  0x1.5555820000000p-3f,
+                                        0x1.5558bc0000000p-5f,  0x1.10d9520000000p-7f,
+                                        0x1.6a7c720000000p-10f, 0x1.ea19be0000000p-13f};
 /// exp2(r) = 1 + r p(r); relative 4.1e-08.
 inline constexpr std::array exp2_standard{0x1.62e42e0000000p-1f,  0x1.ebfc820000000p-3f,
                                           0x1.c6b33c0000000p-5f,  0x1.3acd260000000p-7f,
                                           0x1.5d70400000000p-10f, 0x1.78e6800000000p-13f};
-/// exp2(r) = 1 + r p(r); relative 2.1e-09.
-inline constexpr std::array exp2_precise{
-    0x1.62e4300000000p-1f,  0x1.ebfbda0000000p-3f,  0x1.c6b0a60000000p-5f, 0x1.3b2e820000000p-7f,
-    0x1.5d4c680000000p-10f, 0x1.4138ac0000000p-13f, 0x1.2d99e40000000p-16f};
+/// exp2(r) = 1 + r log(base) + r^2 p(r); relative 1.7e-09.
+inline constexpr std::array exp2_precise{0x1.ebfbdc0000000p-3f,  0x1.c6b0ca0000000p-5f,
+                                         0x1.3b2df80000000p-7f,  0x1.5d3f640000000p-10f,
+                                         0x1.4187d80000000p-13f, 0x1.2e307e0000000p-16f};
 /// exp2(f) = 1 + f p(f), 1 and 2 at the ends; relative 1.0e-04.
 inline constexpr std::array exp2_fast{0x1.640eac0000000p-1f, 0x1.cf7a500000000p-3f,
                                       0x1.4096080000000p-4f};

@@ -137,9 +137,11 @@ def log_fits(name, scale, word):
 
 def exp_fits(name, base, low, high):
     """base^r, r in [low, high]."""
-    return [Fit(f"{name}_{mode}", f"{name}(r) = 1 + r p(r); relative",
-                lambda r: (base**r - 1) / r, low, high, count, lambda r: r * base**-r)
-            for mode, count in (("standard", 6), ("precise", 7))]
+    return [Fit(f"{name}_standard", f"{name}(r) = 1 + r p(r); relative",
+                lambda r: (base**r - 1) / r, low, high, 6, lambda r: r * base**-r),
+            Fit(f"{name}_precise", f"{name}(r) = 1 + r log(base) + r^2 p(r); relative",
+                lambda r: (base**r - 1 - r * mp.log(base)) / r**2, low, high, 6,
+                lambda r: r * r * base**-r)]
 
 
 def pinned_exp2(name, count):

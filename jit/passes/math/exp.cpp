@@ -1,5 +1,7 @@
 #include "jit/passes/math/coefficients.h"
 #include "jit/passes/math/constants.h"
+#include "jit/passes/math/double_float.h"
+#include "jit/passes/math/exp2_compensated.h"
 #include "jit/passes/math/functions.h"
 #include "jit/passes/math/polynomial.h"
 #include "jit/passes/math/power_of_two.h"
@@ -12,7 +14,8 @@ namespace {
 Float exp2_fast(Float x) {
   const Float inside = min(Float(128.0f), max(Float(-127.0f), x));
   const Float n = floor(inside);
-  return polynomial(inside - n, coefficients::exp2_fast) * power_of_two(n + exponent_shift);
+  const Float f = inside - n;
+  return fma(f, polynomial(f, coefficients::exp2_fast), 1.0f) * power_of_two(n + exponent_shift);
 }
 
 }  // namespace
@@ -27,8 +30,9 @@ Float approximate_exp(Float x, Accuracy accuracy) {
     return fma(r, polynomial(r, coefficients::exp_standard), 1.0f) * power_of_two(n.shifted);
   }
   const Float low = fma(n.value, -ln2_low, first - r);
-  const Float tail = fma(r, polynomial(r, coefficients::exp_precise), low);
-  return (1.0f + tail) * power_of_two(n.shifted);
+  const DoubleFloat linear = fast_two_sum(1.0f, r);
+  const Float tail = fma(r * r, polynomial(r, coefficients::exp_precise), low);
+  return (linear.high + (linear.low + tail)) * power_of_two(n.shifted);
 }
 
 Float approximate_exp2(Float x, Accuracy accuracy) {
@@ -36,9 +40,9 @@ Float approximate_exp2(Float x, Accuracy accuracy) {
   const Float inside = max(Float(-127.0f), x);
   const Exponent n = nearest_exponent(inside + exponent_shift);
   const Float r = inside - n.value;
-  const Float p = accuracy == Accuracy::precise ? polynomial(r, coefficients::exp2_precise)
-                                                : polynomial(r, coefficients::exp2_standard);
-  return fma(r, p, 1.0f) * power_of_two(n.shifted);
+  const Float scale = power_of_two(n.shifted);
+  if (accuracy == Accuracy::precise) return exp2_compensated(r, 0.0f) * scale;
+  return fma(r, polynomial(r, coefficients::exp2_standard), 1.0f) * scale;
 }
 
 }  // namespace nacre

@@ -90,8 +90,9 @@ Angle reduce_large_angle(Recorder& recorder, Float x) {
     const Float high = q.fraction.high * Float(half_pi_high);
     const Float error = fma(q.fraction.high, half_pi_high, -high);
     const Float low = fma(q.fraction.low, half_pi_high, fma(q.fraction.high, half_pi_low, error));
+    const DoubleFloat rest = fast_two_sum(high, low);
     // Infinities and NaN come out as NaN, which 0 x is for them.
-    return Angle{fma(angle, 0.0f, high), low, to_int(q.turns_1) + to_int(q.turns_2)};
+    return Angle{fma(angle, 0.0f, rest.high), rest.low, to_int(q.turns_1) + to_int(q.turns_2)};
   };
   return outline<Angle>(recorder, "reduce_large_angle", body, x);
 }

@@ -1,6 +1,7 @@
 #include "jit/passes/math/coefficients.h"
 #include "jit/passes/math/constants.h"
 #include "jit/passes/math/double_float.h"
+#include "jit/passes/math/exp2_compensated.h"
 #include "jit/passes/math/functions.h"
 #include "jit/passes/math/mantissa.h"
 #include "jit/passes/math/polynomial.h"
@@ -35,7 +36,8 @@ DoubleFloat log2_of_s(DoubleFloat s) {
   const Float square = s.high * s.high;
   const DoubleFloat linear = two_product(s.high, minus_two_l);
   const Float p = polynomial(square, scaled(cubic, minus_two_l));
-  const Float low = fma(s.low, minus_two_l, fma(s.high, minus_two_l_low, linear.low));
+  const Float slope = fma(square, s.low, s.low);  // s^3 / 3 changes by s^2 s.low.
+  const Float low = fma(slope, minus_two_l, fma(s.high, minus_two_l_low, linear.low));
   return {linear.high, fma(s.high * square, p, low)};
 }
 
@@ -70,7 +72,7 @@ Float with_ends(Float magnitude, Float logarithm) {
   return select(magnitude == 0.0f, Float(-infinity), above_zero);
 }
 
-/// magnitude^y. 1 where log2 is 0 only as far as y is finite.
+/// magnitude^y; nothing in particular where y is 0 or magnitude 1 and the other not finite.
 Float positive_pow(Float magnitude, Float y, Accuracy accuracy) {
   DoubleFloat logarithm = extended_log2(magnitude, accuracy);
   logarithm.high = with_ends(magnitude, logarithm.high);
@@ -78,17 +80,14 @@ Float positive_pow(Float magnitude, Float y, Accuracy accuracy) {
   const Float exponent = min(Float(0x1p+40f), max(Float(-0x1p+40f), y));
   const Float product = exponent * logarithm.high;
   const Float inside = min(Float(128.0f), max(Float(-127.0f), product));
-  const Float low = fma(exponent, logarithm.low, fma(exponent, logarithm.high, -inside));
+  const Float beyond = fma(exponent, logarithm.low, fma(exponent, logarithm.high, -inside));
+  // Small, unless the result over- or underflows: then it is far enough beyond.
+  const Float low = min(Float(4.0f), max(Float(-1.0f), beyond));
   const Exponent n = nearest_exponent(inside + exponent_shift);
-  const Float r = max(Float(-1.0f), (inside - n.value) + low);
-  if (accuracy == Accuracy::standard) {
-    return fma(r, polynomial(r, coefficients::exp2_standard), 1.0f) * power_of_two(n.shifted);
-  }
-  const Float lost = low - (r - (inside - n.value));
-  // d 2^r is about 2^r ln 2 dr; below, 2^r is left out where it is of no weight.
-  const Float p = polynomial(r, coefficients::exp2_precise);
-  const Float tail = fma(r, p, lost * Float(ln2_high));
-  return (1.0f + tail) * power_of_two(n.shifted);
+  const DoubleFloat r = fast_two_sum(inside - n.value, low);
+  const Float scale = power_of_two(n.shifted);
+  if (accuracy == Accuracy::precise) return exp2_compensated(r.high, r.low) * scale;
+  return fma(r.high, polynomial(r.high, coefficients::exp2_standard), 1.0f) * scale;
 }
 
 Float positive_pow_fast(Float magnitude, Float y) {
@@ -96,7 +95,7 @@ Float positive_pow_fast(Float magnitude, Float y) {
   const Float inside = min(Float(128.0f), max(Float(-127.0f), x));
   const Float n = floor(inside);
   const Float p = polynomial(inside - n, coefficients::exp2_of_pow_fast);
-  return p * power_of_two(n + exponent_shift);
+  return fma(inside - n, p, 1.0f) * power_of_two(n + exponent_shift);
 }
 
 /// The result for a base with the sign bit, from that of its magnitude.
