@@ -82,9 +82,13 @@ class Job {
         .emit(entry_symbol(program_, options_));
     stats_.emit = clock.lap();
     assert(is_valid());
+    return true;
+  }
+
+  void optimize() {
+    Stopwatch clock;
     codegen::optimize(*module_, *machine_, options_.tier);
     stats_.optimize = clock.lap();
-    return true;
   }
 
   std::string ir() const {
@@ -136,11 +140,18 @@ std::string entry_symbol(const Program& program, const CodegenOptions& options) 
 }
 
 std::optional<ObjectCode> compile_object(const Program& program, const CodegenOptions& options,
-                                         Diagnostics& diagnostics, CompileStats* stats) {
+                                         Diagnostics& diagnostics, CompileStats* stats,
+                                         const std::function<bool()>& cancelled) {
   CompileStats own;
   Job job(program, options, stats != nullptr ? *stats : own);
+  const auto stop = [&] { return cancelled && cancelled(); };
   llvm::SmallVector<char, 0> bytes;
-  if (!job.make_ir() || !job.generate(llvm::CodeGenFileType::ObjectFile, bytes)) {
+  bool done = job.make_ir();
+  if (done && stop()) return std::nullopt;
+  if (done) job.optimize();
+  if (done && stop()) return std::nullopt;
+  done = done && job.generate(llvm::CodeGenFileType::ObjectFile, bytes);
+  if (!done) {
     job.report(diagnostics);
     return std::nullopt;
   }
@@ -152,9 +163,12 @@ std::string dump_ir(const Program& program, const CodegenOptions& options,
                     Diagnostics& diagnostics) {
   CompileStats stats;
   Job job(program, options, stats);
-  if (job.make_ir()) return job.ir();
-  job.report(diagnostics);
-  return {};
+  if (!job.make_ir()) {
+    job.report(diagnostics);
+    return {};
+  }
+  job.optimize();
+  return job.ir();
 }
 
 std::string dump_assembly(const Program& program, const CodegenOptions& options,
@@ -162,9 +176,10 @@ std::string dump_assembly(const Program& program, const CodegenOptions& options,
   CompileStats stats;
   Job job(program, options, stats);
   llvm::SmallVector<char, 0> text;
-  if (job.make_ir() && job.generate(llvm::CodeGenFileType::AssemblyFile, text)) {
-    return {text.begin(), text.end()};
-  }
+  bool done = job.make_ir();
+  if (done) job.optimize();
+  done = done && job.generate(llvm::CodeGenFileType::AssemblyFile, text);
+  if (done) return {text.begin(), text.end()};
   job.report(diagnostics);
   return {};
 }

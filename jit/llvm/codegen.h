@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,12 +35,19 @@ struct ObjectCode {
 /// The entry's name: "nacre_<hash of the Program>_<name>_w16".
 std::string entry_symbol(const Program& program, const CodegenOptions& options);
 
+/// Everything that decides what compile_object() gives, as text: the Program's
+/// hash, the options, this build of Nacre and the LLVM it runs with. Objects may
+/// stand for each other if and only if their keys are equal.
+std::string code_key(const Program& program, const CodegenOptions& options);
+
 /// Compiles on the calling thread, which needs a stack of 8 MiB for large
 /// programs. The Program is verified, its varying values are marked, and
 /// transcendental operations, keep and ddx are gone (asserted). Nothing, with
-/// an error "codegen" in `diagnostics`, if the target is unknown or LLVM fails.
+/// an error "codegen" in `diagnostics`, if the target is unknown or LLVM fails;
+/// nothing also if `cancelled`, which is asked between the stages, says so.
 std::optional<ObjectCode> compile_object(const Program& program, const CodegenOptions& options,
-                                         Diagnostics& diagnostics, CompileStats* stats = nullptr);
+                                         Diagnostics& diagnostics, CompileStats* stats = nullptr,
+                                         const std::function<bool()>& cancelled = {});
 
 /// The text that LLVM has after its passes; empty on failure.
 std::string dump_ir(const Program& program, const CodegenOptions& options,

@@ -26,6 +26,9 @@ enum class Tier : std::uint8_t {
   full,   ///< LLVM's level Default.
 };
 
+/// The number of lanes that is fastest on a CPU: 16 with AVX-512, 8 with AVX, else 4.
+int widest_lanes(const Target& target);
+
 /// Everything besides the Program that decides what code comes out.
 struct CodegenOptions {
   int lanes = 16;  ///< Points in one pass of the code: 1, 4, 8 or 16.

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nacre {
+
+/// A file descriptor, closed at the end of its life.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor();
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return number_; }
+  int release();
+  explicit operator bool() const { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+/// Why what a descriptor refers to is not to be trusted, or "": it must belong to
+/// the effective user, be writable by nobody else, and be a folder or a regular
+/// file as asked.
+std::string distrust(int descriptor, bool folder);
+
+/// All bytes of a file in a folder, touched as just used. Nothing if there is no
+/// such file; `fault` says so if there is one that is not to be trusted or is
+/// larger than `largest`.
+std::optional<std::string> read_trusted(int folder, const std::string& name, std::uint64_t largest,
+                                        std::string& fault);
+
+/// Writes a file under a temporary name and renames it. False if that failed.
+bool write_and_rename(int folder, const std::string& name, const std::string& temporary,
+                      std::string_view bytes);
+
+/// Bytes of all files in a folder. Removes what is left of interrupted writes,
+/// then the least recently used files until the sum is at most `limit`.
+std::uint64_t sweep(int folder, std::uint64_t limit);
+
+/// What temporary names start with.
+inline constexpr std::string_view temporary_prefix = ".writing-";
+
+}  // namespace nacre

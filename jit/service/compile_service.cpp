@@ -1,0 +1,118 @@
+#include "jit/service/compile_service.h"
+
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+
+#include "jit/service/job.h"
+#include "jit/service/service_kernel.h"
+#include "jit/service/threads.h"
+#include "runtime/interpreter/interpreter.h"
+
+namespace nacre {
+
+namespace {
+
+class Service final : public CompileService {
+ public:
+  Service(std::shared_ptr<JitSession> session, std::unique_ptr<KernelCache> cache, int threads,
+          Diagnostics no_session)
+      : session_(std::move(session)),
+        cache_(std::move(cache)),
+        no_session_(std::move(no_session)),
+        threads_(session_ == nullptr ? 1 : threads) {}
+
+  ~Service() override {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& [key, weak] : jobs_) {
+      if (const auto job = weak.lock()) job->give_up();
+    }
+  }
+
+  std::shared_ptr<CompiledKernel> request(Program program, const CodegenOptions& options,
+                                          Diagnostics& diagnostics) override {
+    if (session_ == nullptr) return interpreting_kernel(std::move(program), no_session_);
+    auto shared = std::make_shared<const Program>(std::move(program));
+    const std::shared_ptr<CompileJob> job = joined_job(shared, options, true);
+    auto kernel = std::make_shared<ServiceKernel>(shared, options.lanes, job, nullptr);
+    const bool ready = kernel->wait();
+    const Diagnostics said = kernel->diagnostics();
+    for (const Diagnostic& one : said.all()) diagnostics.add(one);
+    return ready ? kernel : nullptr;
+  }
+
+  std::shared_ptr<CompiledKernel> request_async(Program program,
+                                                const CodegenOptions& options) override {
+    if (session_ == nullptr) return interpreting_kernel(std::move(program), no_session_);
+    auto interpreter = make_interpreter(program);
+    auto shared = std::make_shared<const Program>(std::move(program));
+    const std::shared_ptr<CompileJob> job = joined_job(shared, options, false);
+    return std::make_shared<ServiceKernel>(shared, options.lanes, job, std::move(interpreter));
+  }
+
+ private:
+  /// The job for this code, new and begun or one that is under way or done.
+  std::shared_ptr<CompileJob> joined_job(const std::shared_ptr<const Program>& program,
+                                         const CodegenOptions& options, bool urgent) {
+    std::string key = code_key(*program, options);
+    std::shared_ptr<CompileJob> job;
+    {
+      const std::scoped_lock lock(mutex_);
+      std::weak_ptr<CompileJob>& known = jobs_[key];
+      job = known.lock();
+      if (job != nullptr && job->join()) return job;
+      job = std::make_shared<CompileJob>(key, program, options);
+      job->join();
+      known = job;
+      forget_dead();
+    }
+    threads_.add([this, job] { job->run(*session_, cache_.get()); }, urgent);
+    return job;
+  }
+
+  /// Drops the keys of jobs that are gone, when they may be half of all.
+  void forget_dead() {
+    if (jobs_.size() < worth_cleaning_) return;
+    std::erase_if(jobs_, [](const auto& entry) { return entry.second.expired(); });
+    worth_cleaning_ = 2 * jobs_.size() + 64;
+  }
+
+  std::shared_ptr<JitSession> session_;  ///< Null where there is no JIT.
+  std::unique_ptr<KernelCache> cache_;
+  Diagnostics no_session_;
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::weak_ptr<CompileJob>> jobs_;
+  std::size_t worth_cleaning_ = 64;
+  CompileThreads threads_;  ///< Last: ends before what it works with.
+};
+
+}  // namespace
+
+std::unique_ptr<CompileService> CompileService::create(const ServiceOptions& options,
+                                                       Diagnostics& diagnostics) {
+  Diagnostics refused;
+  std::shared_ptr<JitSession> session = JitSession::create(options.session, refused);
+  if (session == nullptr) {
+    diagnostics.warning("no-jit", {}, "kernels are interpreted: " + refused.to_string());
+  }
+  std::unique_ptr<KernelCache> cache;
+  if (!options.cache.empty()) cache = KernelCache::open(options.cache, diagnostics);
+  return std::make_unique<Service>(std::move(session), std::move(cache), options.threads,
+                                   std::move(refused));
+}
+
+std::shared_ptr<const Kernel> CompileService::compile(Program program,
+                                                      const CompileOptions& options,
+                                                      Diagnostics& diagnostics) {
+  if (options.asynchronous) return request_async(std::move(program), codegen_options(options));
+  return request(std::move(program), codegen_options(options), diagnostics);
+}
+
+CodegenOptions codegen_options(const CompileOptions& options) {
+  CodegenOptions made;
+  made.accuracy = options.accuracy;
+  made.lanes = options.lanes != 0 ? options.lanes : widest_lanes(made.target);
+  return made;
+}
+
+}  // namespace nacre

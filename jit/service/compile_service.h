@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "jit/compile.h"
+#include "jit/llvm/codegen.h"
+#include "jit/llvm/session.h"
+#include "runtime/diagnostic.h"
+#include "runtime/kernel.h"
+
+namespace nacre {
+
+/// A kernel that the service makes. Until its code is ready, and if it never
+/// will be, run() answers through the interpreter, with the same bits.
+class CompiledKernel : public Kernel {
+ public:
+  enum class State { waiting, ready, failed, cancelled };
+
+  virtual State state() const = 0;
+  /// Waits for the code; true if it is there.
+  virtual bool wait() const = 0;
+  /// Withdraws the request: if no other kernel wants the same code, compiling
+  /// ends at the next stage or does not begin. The kernel stays usable.
+  virtual void cancel() = 0;
+  /// Where the time went. Zeros until ready.
+  virtual CompileStats stats() const = 0;
+  /// Why it failed, and warnings about the cache. Empty until ready or failed.
+  virtual Diagnostics diagnostics() const = 0;
+};
+
+struct ServiceOptions {
+  int threads = 0;              ///< That compile; 0: one a core.
+  std::filesystem::path cache;  ///< Folder of compiled kernels; empty: none is kept.
+  SessionOptions session;
+};
+
+/// Compiles Programs on its own threads (with stacks of 16 MiB). Programs that
+/// need the same code share it: what is being compiled or alive is not compiled
+/// again. All members may be called from any thread. Kernels may outlive it.
+class CompileService {
+ public:
+  /// Never null. Where the system allows no code to be made at run time, and
+  /// where the cache is not to be trusted, that is a warning.
+  static std::unique_ptr<CompileService> create(const ServiceOptions& options,
+                                                Diagnostics& diagnostics);
+  /// Cancels what is not finished.
+  virtual ~CompileService() = default;
+
+  /// Returns when the code is ready. Null, with a diagnostic, if LLVM refuses; an
+  /// interpreting kernel where there is no JIT at all.
+  virtual std::shared_ptr<CompiledKernel> request(Program program, const CodegenOptions& options,
+                                                  Diagnostics& diagnostics) = 0;
+  /// Returns at once.
+  virtual std::shared_ptr<CompiledKernel> request_async(Program program,
+                                                        const CodegenOptions& options) = 0;
+
+  /// One of the two, as `options` of the whole pipeline say.
+  std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,
+                                        Diagnostics& diagnostics);
+};
+
+/// What the options of the pipeline mean for LLVM; lanes 0 becomes the widest
+/// that pays on this machine.
+CodegenOptions codegen_options(const CompileOptions& options);
+
+}  // namespace nacre

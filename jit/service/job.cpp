@@ -1,0 +1,122 @@
+#include "jit/service/job.h"
+
+#include <chrono>
+#include <utility>
+
+namespace nacre {
+
+namespace {
+
+/// Adds the time that f takes to `seconds`.
+template <class F>
+auto timed(double& seconds, F&& f) {
+  const auto start = std::chrono::steady_clock::now();
+  auto result = f();
+  seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace
+
+bool CompileJob::join() {
+  const std::scoped_lock lock(mutex_);
+  if (state_ == State::cancelled || state_ == State::failed) return false;
+  ++interested_;
+  return true;
+}
+
+void CompileJob::leave() {
+  const std::scoped_lock lock(mutex_);
+  --interested_;
+}
+
+bool CompileJob::unwanted() {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (state_ == State::waiting && interested_ == 0) state_ = State::cancelled;
+    if (state_ == State::waiting) return false;
+  }
+  ended_.notify_all();
+  return true;
+}
+
+void CompileJob::run(JitSession& session, KernelCache* cache) {
+  Diagnostics said;
+  CompileStats stats;
+  std::shared_ptr<const LoadedCode> code = make(session, cache, said, stats);
+  {
+    const std::scoped_lock lock(mutex_);
+    if (state_ != State::waiting) return;
+    state_ = code != nullptr ? State::ready : State::failed;
+    code_ = std::move(code);
+    stats_ = stats;
+    diagnostics_ = std::move(said);
+    if (code_ != nullptr) entry_.store(code_->entry(), std::memory_order_release);
+  }
+  ended_.notify_all();
+}
+
+std::shared_ptr<const LoadedCode> CompileJob::make(JitSession& session, KernelCache* cache,
+                                                   Diagnostics& said, CompileStats& stats) {
+  const auto load = [&](const ObjectCode& object, Diagnostics& diagnostics) {
+    return timed(stats.link, [&] { return session.load(object, diagnostics); });
+  };
+  if (unwanted()) return nullptr;
+  if (cache != nullptr) {
+    const auto found = timed(stats.cache, [&] { return cache->load(key_, said); });
+    if (found) {
+      Diagnostics unsound;  // Then it is compiled, which says what there is to say.
+      stats.object_bytes = found->bytes.size();
+      if (auto code = load(*found, unsound)) {
+        stats.from_cache = true;
+        return code;
+      }
+    }
+  }
+  const auto object = compile(cache, said, stats);
+  return object && !unwanted() ? load(*object, said) : nullptr;
+}
+
+std::optional<ObjectCode> CompileJob::compile(KernelCache* cache, Diagnostics& said,
+                                              CompileStats& stats) {
+  auto object = compile_object(*program_, options_, said, &stats, [this] { return unwanted(); });
+  if (object && cache != nullptr) {
+    timed(stats.cache, [&] {
+      cache->store(key_, *object, said);
+      return true;
+    });
+  }
+  return object;
+}
+
+void CompileJob::give_up() {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (state_ != State::waiting) return;
+    state_ = State::cancelled;
+  }
+  ended_.notify_all();
+}
+
+bool CompileJob::wait() const {
+  std::unique_lock lock(mutex_);
+  ended_.wait(lock, [this] { return state_ != State::waiting; });
+  return state_ == State::ready;
+}
+
+CompileJob::State CompileJob::state() const {
+  const std::scoped_lock lock(mutex_);
+  return state_;
+}
+
+CompileStats CompileJob::stats() const {
+  const std::scoped_lock lock(mutex_);
+  return stats_;
+}
+
+Diagnostics CompileJob::diagnostics() const {
+  const std::scoped_lock lock(mutex_);
+  return diagnostics_;
+}
+
+}  // namespace nacre

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "jit/cache/kernel_cache.h"
+#include "jit/service/compile_service.h"
+
+namespace nacre {
+
+/// The making of one piece of code, and the code. Shared by all kernels of equal
+/// Programs and options.
+class CompileJob {
+ public:
+  using State = CompiledKernel::State;
+
+  CompileJob(std::string key, std::shared_ptr<const Program> program, CodegenOptions options)
+      : key_(std::move(key)), program_(std::move(program)), options_(std::move(options)) {}
+
+  const std::string& key() const { return key_; }
+
+  /// One more waits for the code. False if the job was given up or has failed.
+  bool join();
+  /// One less does.
+  void leave();
+
+  /// Cache, or LLVM and cache; then the linker. Sets the state.
+  void run(JitSession& session, KernelCache* cache);
+  /// Ends it without code, if it has not ended; running, it stops at the next stage.
+  void give_up();
+  bool wait() const;
+
+  State state() const;
+  /// The code to run, or null. Once not null it stays the same.
+  LoadedCode::Entry entry() const { return entry_.load(std::memory_order_acquire); }
+  CompileStats stats() const;
+  Diagnostics diagnostics() const;
+
+ private:
+  std::optional<ObjectCode> compile(KernelCache* cache, Diagnostics& said, CompileStats& stats);
+  std::shared_ptr<const LoadedCode> make(JitSession& session, KernelCache* cache, Diagnostics& said,
+                                         CompileStats& stats);
+  /// Given up, now or before, because nobody waits for it.
+  bool unwanted();
+
+  const std::string key_;
+  const std::shared_ptr<const Program> program_;
+  const CodegenOptions options_;
+  std::atomic<LoadedCode::Entry> entry_ = nullptr;
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable ended_;
+  State state_ = State::waiting;
+  int interested_ = 0;  ///< Kernels that were not cancelled.
+  std::shared_ptr<const LoadedCode> code_;
+  CompileStats stats_;
+  Diagnostics diagnostics_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,67 @@
+#include "jit/service/service_kernel.h"
+
+#include <utility>
+
+#include "runtime/float_environment.h"
+#include "runtime/interpreter/interpreter.h"
+
+namespace nacre {
+
+namespace {
+
+class InterpretingKernel final : public CompiledKernel {
+ public:
+  InterpretingKernel(Program program, Diagnostics why)
+      : interpreter_(make_interpreter(std::move(program))), why_(std::move(why)) {}
+
+  void run(const KernelArguments& arguments) const override { interpreter_->run(arguments); }
+  const Program& program() const override { return interpreter_->program(); }
+  int lanes() const override { return interpreter_->lanes(); }
+  const char* engine() const override { return interpreter_->engine(); }
+  State state() const override { return State::failed; }
+  bool wait() const override { return false; }
+  void cancel() override {}
+  CompileStats stats() const override { return {}; }
+  Diagnostics diagnostics() const override { return why_; }
+
+ private:
+  std::unique_ptr<Kernel> interpreter_;
+  Diagnostics why_;
+};
+
+}  // namespace
+
+ServiceKernel::ServiceKernel(std::shared_ptr<const Program> program, int lanes,
+                             std::shared_ptr<CompileJob> job, std::unique_ptr<Kernel> interpreter)
+    : program_(std::move(program)),
+      lanes_(lanes),
+      job_(std::move(job)),
+      interpreter_(std::move(interpreter)) {}
+
+ServiceKernel::~ServiceKernel() { cancel(); }
+
+void ServiceKernel::run(const KernelArguments& arguments) const {
+  // Code that was seen once stays: the job holds it, and this kernel the job.
+  const LoadedCode::Entry entry = job_->entry();
+  if (entry == nullptr) return interpreter_->run(arguments);
+  const ScopedFloatEnvironment environment;
+  entry(&arguments);
+}
+
+int ServiceKernel::lanes() const {
+  return job_->entry() == nullptr ? interpreter_->lanes() : lanes_;
+}
+
+const char* ServiceKernel::engine() const {
+  return job_->entry() == nullptr ? interpreter_->engine() : "jit";
+}
+
+void ServiceKernel::cancel() {
+  if (!left_.exchange(true)) job_->leave();
+}
+
+std::shared_ptr<CompiledKernel> interpreting_kernel(Program program, Diagnostics why) {
+  return std::make_shared<InterpretingKernel>(std::move(program), std::move(why));
+}
+
+}  // namespace nacre

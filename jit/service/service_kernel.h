@@ -1,0 +1,43 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "jit/service/compile_service.h"
+#include "jit/service/job.h"
+
+namespace nacre {
+
+/// A Program of its own and the job it shares: names and keys of what is bound
+/// may differ between Programs with the same code.
+class ServiceKernel final : public CompiledKernel {
+ public:
+  /// `interpreter` answers until the code is there; null if that is awaited. The
+  /// job has been joined.
+  ServiceKernel(std::shared_ptr<const Program> program, int lanes, std::shared_ptr<CompileJob> job,
+                std::unique_ptr<Kernel> interpreter);
+  ~ServiceKernel() override;
+
+  void run(const KernelArguments& arguments) const override;
+  const Program& program() const override { return *program_; }
+  int lanes() const override;
+  const char* engine() const override;
+
+  State state() const override { return job_->state(); }
+  bool wait() const override { return job_->wait(); }
+  void cancel() override;
+  CompileStats stats() const override { return job_->stats(); }
+  Diagnostics diagnostics() const override { return job_->diagnostics(); }
+
+ private:
+  std::shared_ptr<const Program> program_;
+  int lanes_;
+  std::shared_ptr<CompileJob> job_;
+  std::unique_ptr<Kernel> interpreter_;
+  std::atomic<bool> left_ = false;
+};
+
+/// A kernel for where there is no JIT: it never becomes ready.
+std::shared_ptr<CompiledKernel> interpreting_kernel(Program program, Diagnostics why);
+
+}  // namespace nacre

@@ -1,0 +1,69 @@
+#include "jit/service/threads.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+namespace nacre {
+
+namespace {
+
+/// LLVM recurses over deep expressions; pages not used cost nothing.
+constexpr std::size_t stack_bytes = 16u << 20;
+
+}  // namespace
+
+CompileThreads::CompileThreads(int count) {
+  if (count <= 0) count = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  pthread_attr_t attributes;
+  if (pthread_attr_init(&attributes) != 0) return;
+  pthread_attr_setstacksize(&attributes, stack_bytes);
+  for (int k = 0; k < count; ++k) {
+    pthread_t thread;
+    if (pthread_create(&thread, &attributes, &enter, this) == 0) threads_.push_back(thread);
+  }
+  pthread_attr_destroy(&attributes);
+}
+
+CompileThreads::~CompileThreads() {
+  {
+    const std::scoped_lock lock(mutex_);
+    ending_ = true;
+    tasks_.clear();
+  }
+  changed_.notify_all();
+  for (const pthread_t thread : threads_) pthread_join(thread, nullptr);
+}
+
+void CompileThreads::add(std::function<void()> task, bool urgent) {
+  if (threads_.empty()) return task();
+  {
+    const std::scoped_lock lock(mutex_);
+    if (urgent) {
+      tasks_.push_front(std::move(task));
+    } else {
+      tasks_.push_back(std::move(task));
+    }
+  }
+  changed_.notify_one();
+}
+
+void* CompileThreads::enter(void* self) {
+  static_cast<CompileThreads*>(self)->work();
+  return nullptr;
+}
+
+void CompileThreads::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return ending_ || !tasks_.empty(); });
+    if (ending_) return;
+    const std::function<void()> task = std::move(tasks_.front());
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    lock.lock();
+  }
+}
+
+}  // namespace nacre
