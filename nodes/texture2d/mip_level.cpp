@@ -41,16 +41,10 @@ Taps taps(Float u, const Extent& extent, TextureFilter filter, AddressMode mode)
   return {};
 }
 
-/// f of every component that is not a literal in all of them.
+/// f of every component.
 template <class F, class... V>
 Float4 each(F&& f, V... v) {
   return {f(v.x...), f(v.y...), f(v.z...), f(v.w...)};
-}
-
-/// a + t (b - a): exactly a where a and b are equal, so flat areas stay flat.
-Float mix_steps(Float a, Float b, Float t) {
-  if (a.is_constant() && b.is_constant()) return a;  // A component that is not there.
-  return fma(t, b - a, a);
 }
 
 /// Uniform cubic B-spline: weights of taps -1, 0, 1, 2 at distance t from tap 0.
@@ -61,13 +55,20 @@ std::array<Float, 4> b_spline(Float t) {
           fma(s * s, fma(s, 0.5f, -1.0f), 2.0f / 3.0f), t * t * t * sixth};
 }
 
-/// The sum of four components, weighted; a literal is the same in all of them.
+/// The weighted sum of a component of four texels; a literal is the same in all of them.
 Float weigh_steps(const std::array<Float, 4>& weight, Float a, Float b, Float c, Float d) {
   if (a.is_constant() && b.is_constant()) return a;
   return fma(weight[3], d, fma(weight[2], c, fma(weight[1], b, weight[0] * a)));
 }
 
 }  // namespace
+
+Float4 mix_steps(const Float4& a, const Float4& b, Float t) {
+  const auto mix = [&](Float x, Float y) {
+    return x.is_constant() && y.is_constant() ? x : fma(t, y - x, x);
+  };
+  return each(mix, a, b);
+}
 
 MipLevel finest_level(const TexelFetch& fetch) {
   return make_level(fetch, fetch.word(Int(word_width)), fetch.word(Int(word_height)), Int(0));
@@ -77,12 +78,6 @@ MipLevel mip_level(const TexelFetch& fetch, Int index) {
   const Int width = fetch.word(Int(word_width)) >> index;
   const Int height = fetch.word(Int(word_height)) >> index;
   return make_level(fetch, max(width, Int(1)), max(height, Int(1)), index);
-}
-
-MipLevel coarser_level(const TexelFetch& fetch, const MipLevel& level, Int index) {
-  const Int width = max(level.x.size >> Int(1), Int(1));
-  const Int height = max(level.y.size >> Int(1), Int(1));
-  return make_level(fetch, width, height, index + Int(1));
 }
 
 Float4 filter_level(const TexelFetch& fetch, const MipLevel& level, Float u, Float v,
@@ -100,10 +95,7 @@ Float4 filter_level(const TexelFetch& fetch, const MipLevel& level, Float u, Flo
     const auto texel = [&](std::size_t i) { return fetch.texel(row + columns[i]); };
     switch (modes.filter) {
       case TextureFilter::closest: rows[j] = texel(0); break;
-      case TextureFilter::linear:
-        rows[j] =
-            each([&](Float a, Float b) { return mix_steps(a, b, across.t); }, texel(0), texel(1));
-        break;
+      case TextureFilter::linear: rows[j] = mix_steps(texel(0), texel(1), across.t); break;
       case TextureFilter::cubic:
         rows[j] = each([&](auto... step) { return weigh_steps(weights_x, step...); }, texel(0),
                        texel(1), texel(2), texel(3));
@@ -112,8 +104,7 @@ Float4 filter_level(const TexelFetch& fetch, const MipLevel& level, Float u, Flo
   }
   switch (modes.filter) {
     case TextureFilter::closest: break;
-    case TextureFilter::linear:
-      return each([&](Float a, Float b) { return mix_steps(a, b, up.t); }, rows[0], rows[1]);
+    case TextureFilter::linear: return mix_steps(rows[0], rows[1], up.t);
     case TextureFilter::cubic:
       return each([&](auto... step) { return weigh_steps(b_spline(up.t), step...); }, rows[0],
                   rows[1], rows[2], rows[3]);

@@ -9,7 +9,7 @@ namespace nacre {
 
 /// A look-up of an image file, with what the node says about it.
 struct ImageLookup {
-  Float2 uv{}; ///< Any floats.
+  Float2 uv{};  ///< Any floats.
   TextureModes modes{};
   int channels = 4;    ///< Components that the result needs, 1..4; the others are 0.
   Float4 otherwise{};  ///< The node's `default`.

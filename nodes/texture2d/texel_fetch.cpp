@@ -50,9 +50,17 @@ std::array<Float, 4> TexelFetch::steps(Int index, int count) const {
 
 Float4 TexelFetch::texel(Int index) const {
   const std::array<Float, 4> all = steps(index, std::min(channels, wanted));
-  Float4 texel{all[0], all[1], all[2], all[3]};
-  if (wanted == 4 && channels < 4) texel.w = Float(one(format));
-  return texel;
+  return completed({all[0], all[1], all[2], all[3]});
+}
+
+Float4 TexelFetch::completed(Float4 steps) const {
+  int c = 0;
+  visit(steps, [&](Float& step) {
+    const bool is_alpha = c == 3;
+    if (c >= channels) step = Float(is_alpha ? one(format) : 0.0f);
+    if (c++ >= wanted) step = Float(0.0f);
+  });
+  return steps;
 }
 
 Float4 TexelFetch::scaled(Float4 steps) const {

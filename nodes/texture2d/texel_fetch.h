@@ -26,7 +26,10 @@ struct TexelFetch {
   /// that means 1.
   Float4 texel(Int index) const;
 
-  /// Value of one step: 1, 1/255 or 1/65535.
+  /// `steps` with those literals: what a function or a region gave back lost them.
+  Float4 completed(Float4 steps) const;
+
+  /// As values: steps times 1, 1/255 or 1/65535.
   Float4 scaled(Float4 steps) const;
 
  private:
