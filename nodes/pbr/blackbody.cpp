@@ -61,9 +61,10 @@ const std::vector<float>& planckian_table() {
 /// Colour of a black body at a temperature in kelvin, scaled to unit luminance, in
 /// linear Rec.709 with what lies outside its gamut cut off. MaterialX 1.39
 /// Physically Based Shading Nodes, "blackbody". Planck's law through the CIE 1931
-/// observer, interpolated in a table (error below 2e-5), as in Open Shading
-/// Language; MaterialX's other generators have cubic fits to the locus, which are
-/// off by up to a hundredth. Below 800 K and for NaN the colour at 800 K; there is no upper limit.
+/// observer, interpolated in a table (error below 4e-5), as in Open Shading
+/// Language. MaterialX's other generators have cubic fits to the locus, off by 0.005
+/// above 1667 K and by more than 1 below, where they are extrapolated. Below 800 K
+/// and for NaN the colour at 800 K; there is no upper limit.
 void record_blackbody(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const std::uint32_t table = recorder.table("planckian_rec709", planckian_table());
