@@ -41,7 +41,9 @@ Angle reduce_small_precise(Float x, Turns turns) {
   const Float rest = first - second;
   const Float lost = (first - rest) - second;
   const Float low = fma(turns.count, -half_pi_3, lost - second_error);
-  return {rest, low, turns.low_bits};
+  // Where rest is tiny, low is more than an ulp of it.
+  const DoubleFloat sum = fast_two_sum(rest, low);
+  return {sum.high, sum.low, turns.low_bits};
 }
 
 Angle reduce_small(Float x, Turns turns) {

@@ -176,7 +176,7 @@ FITS = [
     *log_fits("log", 1, "log"),
     *log_fits("log2", LN2, "log2"),
     Fit("atanh_of_pow", "log2((1 + s) / (1 - s)) = 2 L (s + s^3 p(s^2)); relative",
-        odd(mp.atanh), TINY, mpf("0.0401"), 4, odd_weight(mp.atanh)),
+        odd(mp.atanh), TINY, mpf("0.0295"), 4, odd_weight(mp.atanh)),
     Fit("sin_quarter", "sin(r) = r + r^3 p(r^2), |r| to pi / 4; relative",
         odd(mp.sin), TINY, QUARTER, 3, odd_weight(mp.sin)),
     Fit("cos_standard", "cos(r) = 1 - r^2 / 2 + r^4 p(r^2), |r| to pi / 4; absolute",

@@ -14,7 +14,7 @@ namespace {
 
 // y log2(x) reaches 128, so a relative error e of the logarithm is one of 89 e
 // in the result. With s = f / (2 + f), log2(1 + f) = 2 L (s + s^3 / 3 + ...),
-// L = log2(e), where |s| <= 1/5 keeps all but the first term small. The code
+// L = log2(e), where |s| <= 0.172 keeps all but the first term small. The code
 // works on -s, which needs no negations.
 constexpr float minus_two_l = -2.0f * log2e_high;
 constexpr float minus_two_l_low = -2.0f * log2e_low;
@@ -59,7 +59,8 @@ DoubleFloat log2_of_s_precise(DoubleFloat s) {
 }
 
 DoubleFloat extended_log2(Float x, Accuracy accuracy) {
-  const Mantissa m = split_mantissa(x);
+  // Here the sum with the exponent cancels least.
+  const Mantissa m = split_mantissa(x, sqrt_half_bits);
   const DoubleFloat s = minus_s(m.f);
   const DoubleFloat part = accuracy == Accuracy::precise ? log2_of_s_precise(s) : log2_of_s(s);
   const DoubleFloat sum = fast_two_sum(m.scaled_exponent * Float(0x1p-23f), part.high);
