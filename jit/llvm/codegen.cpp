@@ -106,6 +106,10 @@ class Job {
       error_ = "the target can't emit code";
       return false;
     }
+    // LLVM 19's FastISel copies scalar b1 into mask registers by instructions that
+    // do not exist ("Cannot emit physreg copy instruction"), and leaves vectors to
+    // the other selector anyway. Adding the passes has switched it on.
+    machine_->setFastISel(false);
     passes.run(*module_);
     stats_.codegen = clock.lap();
     return error_.empty();

@@ -8,6 +8,7 @@
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/SubtargetFeature.h>
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -26,6 +27,26 @@ void initialize_llvm() {
 
 llvm::CodeGenOptLevel level(Tier tier) {
   return tier == Tier::quick ? llvm::CodeGenOptLevel::None : llvm::CodeGenOptLevel::Default;
+}
+
+/// Asked first, because LLVM prints about names that it does not know.
+bool is_known(const llvm::Target& target, const std::string& triple, const Target& wanted,
+              std::string& error) {
+  const std::unique_ptr<llvm::MCSubtargetInfo> any(target.createMCSubtargetInfo(triple, "", ""));
+  if (any == nullptr || !any->isCPUStringValid(wanted.cpu)) {
+    error = fmt::format("unknown CPU '{}'", wanted.cpu);
+    return false;
+  }
+  const llvm::SubtargetFeatures features(wanted.features);
+  for (const std::string& feature : features.getFeatures()) {
+    const llvm::StringRef name = llvm::StringRef(feature).drop_front();
+    const bool known = std::ranges::any_of(any->getAllProcessorFeatures(),
+                                           [&](const auto& each) { return name == each.Key; });
+    if (known) continue;
+    error = fmt::format("unknown CPU feature '{}'", feature);
+    return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -63,7 +84,7 @@ std::unique_ptr<llvm::TargetMachine> make_target_machine(const CodegenOptions& o
   initialize_llvm();
   const std::string triple = llvm::sys::getProcessTriple();
   const llvm::Target* target = llvm::TargetRegistry::lookupTarget(triple, error);
-  if (target == nullptr) return nullptr;
+  if (target == nullptr || !is_known(*target, triple, options.target, error)) return nullptr;
   llvm::TargetOptions flags;
   // `fma` is an operation of ours; nothing else is to be contracted, unless an
   // instruction's own flags allow it.
@@ -71,8 +92,8 @@ std::unique_ptr<llvm::TargetMachine> make_target_machine(const CodegenOptions& o
   std::unique_ptr<llvm::TargetMachine> machine(target->createTargetMachine(
       triple, options.target.cpu, options.target.features, flags, llvm::Reloc::PIC_,
       llvm::CodeModel::Small, level(options.tier), /*JIT=*/true));
-  if (machine == nullptr || !machine->getMCSubtargetInfo()->isCPUStringValid(options.target.cpu)) {
-    error = fmt::format("unknown CPU '{}'", options.target.cpu);
+  if (machine == nullptr) {
+    error = "no code can be made for this machine";
     return nullptr;
   }
   return machine;

@@ -1,0 +1,178 @@
+// Loading and unloading: no leak, no page both writable and executable, errors
+// as diagnostics.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/jit/engine.h"
+#include "tests/jit/small_program.h"
+
+namespace nacre {
+namespace {
+
+CodegenOptions quick() {
+  CodegenOptions options;
+  options.tier = Tier::quick;
+  options.lanes = 4;
+  return options;
+}
+
+/// Bytes of memory in use by this process.
+std::size_t resident() {
+  std::size_t size = 0;
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> size >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Mappings that are writable and executable at once.
+std::vector<std::string> writable_code() {
+  std::vector<std::string> found;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find(" rwx") != std::string::npos) found.push_back(line);
+  }
+  return found;
+}
+
+std::size_t mappings() {
+  std::size_t count = 0;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) ++count;
+  return count;
+}
+
+TEST(Session, UnloadedCodeLeavesNothing) {
+  const int cycles = std::getenv("NACRE_TEST_FULL") != nullptr ? 10000 : 1000;
+  const auto cycle = [](int k) {
+    const auto kernel = compiled(small_program(static_cast<float>(k)), quick());
+    ASSERT_NE(kernel, nullptr);
+    ASSERT_EQ(run_small(*kernel, 3.0f), 6.0f + static_cast<float>(k));
+  };
+  for (int k = 0; k < cycles / 5; ++k) cycle(k);
+  const std::size_t before = resident();
+  const std::size_t mapped = mappings();
+  for (int k = 0; k < cycles; ++k) cycle(k);
+  EXPECT_LT(static_cast<double>(resident()), 1.01 * static_cast<double>(before));
+  EXPECT_LE(mappings(), mapped + 4);
+}
+
+TEST(Session, NoPageIsWritableAndExecutable) {
+  std::atomic<bool> done = false;
+  std::atomic<int> seen = 0;
+  std::thread watcher([&] {
+    while (!done) seen += static_cast<int>(writable_code().size());
+  });
+  std::vector<std::thread> workers;
+  for (int t = 0; t < 3; ++t) {
+    workers.emplace_back([t] {
+      std::vector<std::shared_ptr<const Kernel>> held;
+      for (int k = 0; k < 40; ++k) {
+        const float number = static_cast<float>(1000 * t + k);
+        held.push_back(compiled(small_program(number), quick()));
+        ASSERT_EQ(run_small(*held.back(), 1.0f), 2.0f + number);
+        if (held.size() > 10) held.erase(held.begin());
+      }
+    });
+  }
+  for (std::thread& worker : workers) worker.join();
+  done = true;
+  watcher.join();
+  EXPECT_EQ(seen, 0);
+}
+
+TEST(Session, CodeOutlivesItsSession) {
+  Diagnostics diagnostics;
+  auto own = JitSession::create({}, diagnostics);
+  const Program program = small_program(5.0f);
+  const auto object = compile_object(program, quick(), diagnostics);
+  ASSERT_TRUE(object.has_value());
+  const auto kernel = make_jit_kernel(program, own->load(*object, diagnostics), quick().lanes);
+  own.reset();
+  EXPECT_EQ(run_small(*kernel, 1.0f), 7.0f);
+}
+
+TEST(Session, SameObjectLoadsTwice) {
+  Diagnostics diagnostics;
+  const Program program = small_program(6.0f);
+  const auto object = compile_object(program, quick(), diagnostics);
+  const auto first = session()->load(*object, diagnostics);
+  const auto second = session()->load(*object, diagnostics);
+  ASSERT_NE(first, nullptr);
+  ASSERT_NE(second, nullptr);
+  EXPECT_NE(first->entry(), second->entry());
+}
+
+TEST(Session, UnsoundObjectIsADiagnostic) {
+  Diagnostics diagnostics;
+  const auto object = compile_object(small_program(7.0f), quick(), diagnostics);
+  ASSERT_TRUE(object.has_value());
+  ObjectCode cut = *object;
+  cut.bytes.resize(cut.bytes.size() / 2);
+  EXPECT_EQ(session()->load(cut, diagnostics), nullptr);
+  EXPECT_EQ(diagnostics.error_count(), 1u);
+  ObjectCode other = *object;
+  other.symbol = "no_such_entry";
+  EXPECT_EQ(session()->load(other, diagnostics), nullptr);
+  EXPECT_EQ(diagnostics.error_count(), 2u);
+  EXPECT_EQ(diagnostics.all().back().code, "link");
+  EXPECT_NE(session()->load(*object, diagnostics), nullptr);
+}
+
+TEST(Codegen, UnknownCpuIsADiagnostic) {
+  Diagnostics diagnostics;
+  CodegenOptions options = quick();
+  options.target = Target::named("no-such-cpu");
+  EXPECT_FALSE(compile_object(small_program(1.0f), options, diagnostics).has_value());
+  ASSERT_EQ(diagnostics.error_count(), 1u);
+  EXPECT_EQ(diagnostics.all().front().code, "codegen");
+}
+
+TEST(Codegen, ObjectHoldsNoAddresses) {
+  // The same Program compiled twice, with other things in memory meanwhile.
+  Diagnostics diagnostics;
+  const auto first = compile_object(small_program(2.0f), quick(), diagnostics);
+  const auto kept = compiled(small_program(3.0f), quick());
+  const auto second = compile_object(small_program(2.0f), quick(), diagnostics);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->bytes, second->bytes);
+}
+
+TEST(Codegen, DumpsNameTheEntry) {
+  Diagnostics diagnostics;
+  const Program program = small_program(2.0f);
+  const std::string symbol = entry_symbol(program, quick());
+  EXPECT_TRUE(symbol.starts_with("nacre_"));
+  EXPECT_TRUE(symbol.ends_with("_small_w4"));
+  EXPECT_NE(dump_ir(program, quick(), diagnostics).find("define void @" + symbol),
+            std::string::npos);
+  EXPECT_NE(dump_assembly(program, quick(), diagnostics).find(symbol + ":"), std::string::npos);
+}
+
+TEST(Codegen, KeyTellsWhatChangesTheCode) {
+  CodegenOptions options = quick();
+  Program program = small_program(2.0f);
+  const std::string key = code_key(program, options);
+  EXPECT_EQ(key, code_key(small_program(2.0f), options));
+  EXPECT_NE(key, code_key(small_program(2.5f), options));
+  options.lanes = 8;
+  EXPECT_NE(key, code_key(program, options));
+  options = quick();
+  options.accuracy = Accuracy::fast;
+  EXPECT_NE(key, code_key(program, options));
+  options = quick();
+  options.target = Target::named("x86-64-v3");
+  EXPECT_NE(key, code_key(program, options));
+  mark_varying(program, true);
+  EXPECT_NE(key, code_key(program, quick()));
+}
+
+}  // namespace
+}  // namespace nacre
