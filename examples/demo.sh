@@ -1,22 +1,40 @@
 #!/bin/bash
 # usage: demo.sh BUILD OUT
-# Shows what the nacre tool of a build can do; pictures go to OUT.
+# Shows what the nacre tool of a build can do: renders every document beside
+# this script on the built-in scene, bakes its graphs, and puts all on two sheets.
 set -euo pipefail
 build=${1:?usage: demo.sh BUILD OUT}
 out=${2:?usage: demo.sh BUILD OUT}
+here=$(dirname "$0")
+size=${DEMO_SIZE:-384}
+spp=${DEMO_SPP:-64}
+# Matplotlib comes from Debian, so Debian's Python it is.
+python=${PYTHON:-/usr/bin/python3}
 
-nacre=$(find "$build" -type f -name nacre -perm -u+x -print -quit)
-if [[ -z $nacre ]]; then
+nacre=$build/bin/nacre
+if [[ ! -x $nacre ]]; then
   echo "demo: no nacre tool in $build" >&2
   exit 1
 fi
-mkdir -p "$out"
+mkdir -p "$out/rendered" "$out/baked"
 
-for document in "$(dirname "$0")"/documents/*.mtlx; do
-  [[ -e $document ]] || continue
-  echo "== $document"
-  "$nacre" bake "$document" --size 512 --format png --out "$out/$(basename "$document" .mtlx)"
+for document in "$here"/documents/*.mtlx; do
+  name=$(basename "$document" .mtlx)
+  echo "== $name"
+  "$nacre" render "$document" --spp "$spp" --size "$size" --out "$out/rendered/$name.png"
+  # Documents without a graph output have nothing to bake.
+  if grep -q '<output ' "$document"; then
+    "$nacre" bake "$document" --size 512 --format png --out "$out/baked/$name"
+    rm -f "$out/baked/$name/NG_film.thickness.png"  # Nanometres: 8 bits clip them.
+  fi
 done
 
+"$python" "$here/contact_sheet.py" "$out/rendered.png" "$out"/rendered/*.png
+for picture in "$out"/baked/*/*.png; do
+  cp "$picture" "$out/baked/$(basename "$(dirname "$picture")").$(basename "$picture" .png | sed 's/^[^.]*\.//').png"
+done
+"$python" "$here/contact_sheet.py" "$out/baked.png" "$out"/baked/*.png --columns 5 --size 192
+
+echo
 echo "Pictures:"
-find "$out" -type f \( -name '*.png' -o -name '*.exr' \) | sort
+find "$out" -maxdepth 2 -name '*.png' | sort

@@ -151,6 +151,13 @@ std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound,
   };
   set("frame", batch.frame);
   set("time", batch.time);
+  // A slot named as a property says whether the mesh has it (nodes/geometric).
+  for (std::size_t i = 0; i < capabilities_.primvars.size(); ++i) {
+    const std::string& name = capabilities_.primvars[i].name;
+    if (const auto index = bound.kernel->parameter_index("geomprop." + name)) {
+      block[*index] = batch.primvars[i].present ? 1u : 0u;
+    }
+  }
   return block;
 }
 
