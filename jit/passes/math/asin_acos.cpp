@@ -13,7 +13,8 @@ namespace {
 struct Inner {
   Bool far;  ///< |x| > 1/2.
   Float w;
-  Float rest;  ///< asin(w) - w.
+  Float value;  ///< asin(w), w taken as exact.
+  Float rest;   ///< asin(w) - w with what w itself lacks; `precise` only.
 };
 
 Inner inner_asin(Float x, Accuracy accuracy) {
@@ -22,13 +23,14 @@ Inner inner_asin(Float x, Accuracy accuracy) {
   const Float square = select(far, fma(magnitude, -0.5f, 0.5f), x * x);
   const Float root = sqrt(square);
   const Float w = select(far, root, x);
+  const Float cube = w * square;
   if (accuracy == Accuracy::standard) {
-    return {far, w, w * square * polynomial(square, coefficients::asin_standard)};
+    return {far, w, fma(cube, polynomial(square, coefficients::asin_standard), w), 0.0f};
   }
   // One step of Newton for what the root lost; 0 at 0.
   const Float lost = fma(-root, root, square) / max(Float(0x1p-60f), root + root);
   const Float p = polynomial(square, coefficients::asin_precise);
-  return {far, w, fma(w * square, p, select(far, lost, 0.0f))};
+  return {far, w, fma(cube, p, w), fma(cube, p, select(far, lost, 0.0f))};
 }
 
 /// acos(|x|) = sqrt(1 - |x|) p(|x|) (M. Abramowitz, I. Stegun, Handbook of
@@ -46,13 +48,12 @@ Float approximate_asin(Float x, Accuracy accuracy) {
   }
   const Inner in = inner_asin(x, accuracy);
   if (accuracy == Accuracy::standard) {
-    const Float inner = in.w + in.rest;
-    const Float y = fma(inner, -2.0f, half_pi_high);
-    return select(in.far, select(x < 0.0f, -y, y), inner);
+    const Float y = fma(in.value, -2.0f, half_pi_high);
+    return select(in.far, select(x < 0.0f, -y, y), in.value);
   }
   const DoubleFloat sum = fast_two_sum(half_pi_high, in.w * Float(-2.0f));
   const Float y = sum.high + fma(in.rest, -2.0f, sum.low + Float(half_pi_low));
-  return select(in.far, select(x < 0.0f, -y, y), in.w + in.rest);
+  return select(in.far, select(x < 0.0f, -y, y), in.value);
 }
 
 Float approximate_acos(Float x, Accuracy accuracy) {
@@ -63,10 +64,9 @@ Float approximate_acos(Float x, Accuracy accuracy) {
   }
   const Inner in = inner_asin(x, accuracy);
   if (accuracy == Accuracy::standard) {
-    const Float inner = in.w + in.rest;
-    const Float twice = inner + inner;
+    const Float twice = in.value + in.value;
     const Float far = select(x < 0.0f, Float(pi_high) - twice, twice);
-    return select(in.far, far, Float(half_pi_high) - inner);
+    return select(in.far, far, Float(half_pi_high) - in.value);
   }
   // base - factor asin(w), where base is pi / 2, 0 or pi.
   const Bool negative = x < 0.0f;

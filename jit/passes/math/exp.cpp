@@ -22,7 +22,9 @@ Float exp2_fast(Float x) {
 
 Float approximate_exp(Float x, Accuracy accuracy) {
   if (accuracy == Accuracy::fast) return exp2_fast(x * Float(log2e_high));
-  const Float inside = max(Float(-87.5f), x);  // Below, every result is zero.
+  Float inside = max(Float(-87.5f), x);  // Below, every result is zero.
+  // The error-free sum of `precise` has no place for infinity.
+  if (accuracy == Accuracy::precise) inside = min(Float(89.0f), inside);
   const Exponent n = nearest_exponent(fma(inside, log2e_high, exponent_shift));
   const Float first = fma(n.value, -ln2_high, inside);  // Exact but for overflow.
   const Float r = fma(n.value, -ln2_low, first);
@@ -37,7 +39,8 @@ Float approximate_exp(Float x, Accuracy accuracy) {
 
 Float approximate_exp2(Float x, Accuracy accuracy) {
   if (accuracy == Accuracy::fast) return exp2_fast(x);
-  const Float inside = max(Float(-127.0f), x);
+  Float inside = max(Float(-127.0f), x);
+  if (accuracy == Accuracy::precise) inside = min(Float(128.0f), inside);
   const Exponent n = nearest_exponent(inside + exponent_shift);
   const Float r = inside - n.value;
   const Float scale = power_of_two(n.shifted);

@@ -8,12 +8,12 @@ namespace {
 
 Float sin_near_zero(Angle a, Accuracy accuracy) {
   const Float square = a.rest * a.rest;
-  const Float cube = a.rest * square;
   const Float p = polynomial(square, coefficients::sin_quarter);
-  if (accuracy == Accuracy::standard) return fma(cube, p, a.rest);
+  // A product as the last step keeps the sign of zero.
+  if (accuracy == Accuracy::standard) return a.rest * fma(square, p, 1.0f);
   // sin(r + low) = sin(r) + low cos(r).
   const Float from_low = fma(square * Float(-0.5f), a.low, a.low);
-  return a.rest + fma(cube, p, from_low);
+  return a.rest + fma(a.rest * square, p, from_low);
 }
 
 Float cos_near_zero(Angle a, Accuracy accuracy) {
