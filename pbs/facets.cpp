@@ -43,6 +43,14 @@ Color3 FacetFresnel::mean(Recorder&, const GgxReflection& reflection, const GgxV
   return reflection.mean([&](Float cosine) { return at(cosine, inside); });
 }
 
+Float prepare_weight(NodeCall& call) {
+  return keep(call.recorder(), clamp(call.number("weight"), 0.0f, 1e6f));
+}
+
+Color3 prepare_tint(Recorder& recorder, Color3 tint) {
+  return keep(recorder, min(max(tint, Color3(0.0f)), Color3(1e6f)));
+}
+
 Float finite(Float x) { return min(max(x, 0.0f), 1e30f); }
 
 Bool is_unit(Float3 w) { return abs(dot(w, w) - 1.0f) < 1e-3f; }

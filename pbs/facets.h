@@ -52,6 +52,11 @@ class FacetFresnel {
 };
 using FacetFresnelPtr = std::shared_ptr<const FacetFresnel>;
 
+/// The input weight: at least 0, finite, kept.
+Float prepare_weight(NodeCall& call);
+/// A colour that scales a lobe: at least 0, finite.
+Color3 prepare_tint(Recorder& recorder, Color3 tint);
+
 /// min(max(x, 0), 1e30): finite for any bits.
 Float finite(Float x);
 /// Whether w is a unit vector; false for NaN.

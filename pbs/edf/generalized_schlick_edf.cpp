@@ -1,0 +1,42 @@
+#include "pbs/edf.h"
+#include "pbs/facets.h"
+#include "runtime/node/geometry.h"
+
+namespace nacre {
+
+namespace {
+
+/// The base times color0 + (color90 - color0) (1 - cos)^exponent.
+class GeneralizedSchlickEdf final : public Edf {
+ public:
+  GeneralizedSchlickEdf(EdfPtr base, Color3 color0, Color3 color90, Float exponent)
+      : base_(std::move(base)), color0_(color0), color90_(color90), exponent_(exponent) {}
+
+  Color3 radiance(const View& view) const override {
+    if (base_ == nullptr) return Color3(0.0f);
+    const Float3 n = normal(*view.recorder, Space::world);
+    const Float flat = 1.0f - min(abs(dot(n, view.wo)), 1.0f);
+    // pow(0, 0) is 1: with exponent 0 color90 holds at normal incidence as well.
+    return base_->radiance(view) * lerp(color0_, color90_, pow(max(flat, 0.0f), exponent_));
+  }
+
+ private:
+  EdfPtr base_;
+  Color3 color0_, color90_;
+  Float exponent_;
+};
+
+}  // namespace
+
+/// generalized_schlick_edf. MaterialX PBS 1.39: a directional factor on an EDF, by
+/// the angle to the shading normal, the same on both sides. Colours below zero
+/// count as zero; the exponent is clamped to [0, 1000].
+void record_closure_generalized_schlick_edf(NodeCall& call) {
+  Recorder& recorder = call.recorder();
+  call.set(std::make_shared<GeneralizedSchlickEdf>(
+      as_edf(call.closure("base")), prepare_tint(recorder, call.vector3("color0")),
+      prepare_tint(recorder, call.vector3("color90")),
+      keep(recorder, clamp(call.number("exponent"), 0.0f, 1000.0f))));
+}
+
+}  // namespace nacre

@@ -1,0 +1,18 @@
+#include "pbs/bsdf.h"
+#include "pbs/cosine_lobe.h"
+
+namespace nacre {
+
+/// translucent_bsdf: light that leaves in all directions of the side away from
+/// the viewer. MaterialX PBS 1.39, "translucent_bsdf". The library's own shader
+/// always lights the back of the normal; here it is the back as the viewer sees
+/// it, so that light crosses the surface in either direction.
+void record_closure_translucent_bsdf(NodeCall& call) {
+  Recorder& recorder = call.recorder();
+  auto lobe = std::make_shared<LambertLobe>("translucent_bsdf", CosineLobe::Side::other,
+                                            prepare_normal(recorder, call.vector3("normal")),
+                                            prepare_tint(recorder, call.vector3("color")));
+  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call)));
+}
+
+}  // namespace nacre
