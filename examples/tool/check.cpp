@@ -15,7 +15,8 @@ int run(const CommonOptions& options) {
   if (opened) {
     opened.system->check(*opened.document, options.shader_options(), diagnostics);
   }
-  const int status = report(diagnostics);
+  report(diagnostics);
+  const int status = diagnostics.all().empty() ? status_ok : status_problems;
   if (!options.quiet && status == status_ok) fmt::print("{}: ok\n", options.file);
   return status;
 }

@@ -44,19 +44,22 @@ std::optional<host::Environment> environment(const RenderOptions& options,
                                  options.environment_rotation * radians, diagnostics);
 }
 
+/// The scene with a camera that sees it, whatever floor is put below.
 host::Scene scene(const RenderOptions& options, Diagnostics& diagnostics) {
   if (options.scene.empty()) return host::make_builtin_scene();
   host::Scene loaded = host::load_scene(options.scene, diagnostics);
-  if (options.ground && !loaded.meshes.empty()) {
-    loaded.meshes.push_back(host::make_ground_below(loaded));
+  if (loaded.meshes.empty()) return loaded;
+  if (!loaded.camera) {
+    const float aspect =
+        static_cast<float>(options.settings.width) / static_cast<float>(options.settings.height);
+    loaded.camera = host::fit_camera(host::bounds(loaded), aspect);
   }
+  if (options.ground) loaded.meshes.push_back(host::make_ground_below(loaded));
   return loaded;
 }
 
 host::Camera camera(const RenderOptions& options, const host::Scene& scene) {
-  const float aspect =
-      static_cast<float>(options.settings.width) / static_cast<float>(options.settings.height);
-  host::Camera result = scene.camera ? *scene.camera : host::fit_camera(host::bounds(scene), aspect);
+  host::Camera result = scene.camera.value_or(host::Camera{});
   result.lens_radius = options.lens_radius;
   if (options.focus_distance > 0.0f) result.focus_distance = options.focus_distance;
   return result;

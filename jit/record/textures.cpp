@@ -1,6 +1,8 @@
 #include "jit/record/textures.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "runtime/texture/tile_set.h"
 
@@ -23,21 +25,31 @@ TextureSource RecordedTextures::add(const TextureHandle& texture, const std::str
   return source;
 }
 
+void RecordedTextures::warn(const Diagnostics& problems) {
+  for (Diagnostic problem : problems.all()) {
+    problem.severity = std::min(problem.severity, Severity::warning);
+    problem.message += "; the node's default is used";
+    diagnostics_.add(std::move(problem));
+  }
+}
+
 TextureSources RecordedTextures::find(const std::string& name, const std::string& layer) {
   const std::string key = name + '|' + layer;
   if (const auto known = found_.find(key); known != found_.end()) return known->second;
   TextureSources sources;
+  Diagnostics problems;
   if (name.empty()) {
     // No file named: the node's default, without a complaint.
   } else if (has_tile_token(name)) {
-    const TextureSet set = acquire_set(store_, {.path = name, .layer = layer}, diagnostics_);
+    const TextureSet set = acquire_set(store_, {.path = name, .layer = layer}, problems);
     sources.directory = set.directory;
     for (std::size_t i = 0; i < set.textures.size(); ++i) {
       sources.images.push_back(add(set.textures[i], key + '#' + std::to_string(i)));
     }
   } else {
-    sources.images.push_back(add(store_.acquire({.path = name, .layer = layer}, diagnostics_), key));
+    sources.images.push_back(add(store_.acquire({.path = name, .layer = layer}, problems), key));
   }
+  warn(problems);
   found_.emplace(key, sources);
   return sources;
 }

@@ -13,7 +13,8 @@
 namespace nacre {
 
 /// The textures that one recording uses: finds them in the store while nodes
-/// are recorded, and binds them to kernels afterwards. Holds the handles, so it
+/// are recorded (one that cannot be read is a warning, since the node's default
+/// takes its place), and binds them to kernels afterwards. Holds the handles, so it
 /// must live as long as a kernel runs.
 class RecordedTextures final : public TextureProvider {
  public:
@@ -28,6 +29,7 @@ class RecordedTextures final : public TextureProvider {
   static void look_up(void* user, const TextureCall* call);
 
  private:
+  void warn(const Diagnostics& problems);
   TextureSource add(const TextureHandle& texture, const std::string& key);
 
   TextureStore& store_;

@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "jit/graph/check.h"
 #include "jit/graph/find.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
@@ -132,18 +133,20 @@ GraphOptions ShadingSystem::graph_options(const ShaderOptions& options) const {
 
 void ShadingSystem::check(const Document& document, const ShaderOptions& options,
                           Diagnostics& diagnostics) {
-  const auto try_request = [&](const GraphRequest& request) {
-    const auto graph = build(document, request, options, diagnostics);
+  if (!check_document(document, *library_, graph_options(options), diagnostics)) return;
+  // What only recording finds: images that cannot be read, nodes without a body.
+  const auto try_recording = [&](const GraphRequest& request) {
+    Diagnostics already_known;
+    const auto graph = build(document, request, options, already_known);
     if (!graph) return;
     Compilation(options, *bodies_, *textures_, service_.get(), diagnostics).record(*graph);
   };
   for (const FoundOutput& output : find_outputs(document)) {
-    try_request({.outputs = {output.name}, .material = {}});
+    try_recording({.outputs = {output.name}, .material = {}});
   }
   for (const FoundMaterial& material : find_materials(document)) {
-    try_request({.outputs = {}, .material = material.name});
+    try_recording({.outputs = {}, .material = material.name});
   }
-  find_looks(document, diagnostics);
 }
 
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(
