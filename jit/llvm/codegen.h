@@ -28,7 +28,7 @@ struct CompileStats {
 /// Relocatable machine code of one Program: an ELF object without addresses of
 /// this process, so it may be kept on disk.
 struct ObjectCode {
-  std::string symbol;  ///< The entry, `void(const KernelArguments*)`.
+  std::string symbol;  ///< The entry, `void(const KernelArguments*)`; see run_code().
   std::vector<char> bytes;
 };
 

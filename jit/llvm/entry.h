@@ -6,14 +6,9 @@
 
 namespace nacre::codegen {
 
-/// Fills `into`, `void(const KernelArguments*)`, with the Program's entry:
-///
-///   what is uniform at top level, once
-///   for each batch of W points
-///     a full batch works on the host's arrays;
-///     the last, if points are missing, on copies filled up with zeros
-///
-/// so the body is there only once, and nothing beyond the arrays is touched.
+/// Fills `into`, `void(const KernelArguments*)`, with the Program's entry: what
+/// is uniform at top level, once; then a loop over whole batches of W points.
+/// The count must be a multiple of W and not 0: run_code() sees to that.
 void emit_entry(ModuleEmitter& module, llvm::Function& into);
 
 }  // namespace nacre::codegen

@@ -60,12 +60,10 @@ class FunctionEmitter {
   llvm::Value* canonical_bits(llvm::Value* x);
 
   llvm::Value* kernel_arguments = nullptr;  ///< const KernelArguments*.
-  /// Where a batch of the entry reads and writes: arrays of pointers, and the
-  /// index of its first point in each of those.
-  llvm::Value* input_pointers = nullptr;
+  llvm::Value* input_pointers = nullptr;    ///< In the entry: arrays by channel,
   llvm::Value* output_pointers = nullptr;
-  llvm::Value* first_point = nullptr;
-  std::vector<llvm::Value*> gives;  ///< Results of an outlined function, by index.
+  llvm::Value* first_point = nullptr;  ///< and the batch's first index in them.
+  std::vector<llvm::Value*> gives;     ///< Results of an outlined function, by index.
 
   std::vector<Region> regions;  ///< Open ones, outermost first.
 

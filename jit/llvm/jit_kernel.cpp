@@ -1,7 +1,6 @@
 #include <utility>
 
-#include "jit/llvm/session.h"
-#include "runtime/float_environment.h"
+#include "jit/llvm/run_code.h"
 
 namespace nacre {
 
@@ -13,8 +12,7 @@ class JitKernel final : public Kernel {
       : program_(std::move(program)), code_(std::move(code)), lanes_(lanes) {}
 
   void run(const KernelArguments& arguments) const override {
-    const ScopedFloatEnvironment environment;
-    code_->entry()(&arguments);
+    run_code(code_->entry(), program_, lanes_, arguments);
   }
   const Program& program() const override { return program_; }
   int lanes() const override { return lanes_; }

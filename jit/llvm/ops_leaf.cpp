@@ -30,13 +30,16 @@ Value* parameter(FunctionEmitter& e, ValueId id) {
   return e.spread(word, e.lanes_of(id));
 }
 
-Value* input(FunctionEmitter& e, ValueId id) {
+/// Where the batch's first point stands in a channel's array.
+Value* batch_address(FunctionEmitter& e, Value* arrays, std::uint32_t channel) {
   Builder& b = e.builder();
+  Value* base = e.load_invariant(b.getPtrTy(), e.byte_offset(arrays, channel * sizeof(void*)));
+  return b.CreateInBoundsGEP(b.getInt32Ty(), base, e.first_point);
+}
+
+Value* input(FunctionEmitter& e, ValueId id) {
   const Instruction& instruction = e.at(id);
-  Value* base = b.CreateAlignedLoad(
-      b.getPtrTy(), e.byte_offset(e.input_pointers, instruction.imm * sizeof(void*)),
-      llvm::Align(8));
-  Value* address = b.CreateInBoundsGEP(b.getInt32Ty(), base, e.first_point);
+  Value* address = batch_address(e, e.input_pointers, instruction.imm);
   return from_word(e, address, instruction.type, e.lanes());
 }
 
@@ -52,10 +55,7 @@ Value* store(FunctionEmitter& e, ValueId id) {
       break;
     default: break;
   }
-  Value* base = b.CreateAlignedLoad(
-      b.getPtrTy(), e.byte_offset(e.output_pointers, instruction.imm * sizeof(void*)),
-      llvm::Align(8));
-  Value* address = b.CreateInBoundsGEP(b.getInt32Ty(), base, e.first_point);
+  Value* address = batch_address(e, e.output_pointers, instruction.imm);
   b.CreateAlignedStore(e.spread(value, e.lanes()), address, llvm::Align(4));
   return nullptr;
 }

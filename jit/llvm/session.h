@@ -21,7 +21,8 @@ class LoadedCode {
   using Entry = void (*)(const KernelArguments*);
 
   virtual ~LoadedCode() = default;
-  /// Runs in the caller's floating-point environment: see ScopedFloatEnvironment.
+  /// For whole batches, in the caller's floating-point environment: run it by
+  /// run_code() or make a kernel of it.
   virtual Entry entry() const = 0;
 };
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "runtime/float_environment.h"
+#include "jit/llvm/run_code.h"
 #include "runtime/interpreter/interpreter.h"
 
 namespace nacre {
@@ -44,8 +44,7 @@ void ServiceKernel::run(const KernelArguments& arguments) const {
   // Code that was seen once stays: the job holds it, and this kernel the job.
   const LoadedCode::Entry entry = job_->entry();
   if (entry == nullptr) return interpreter_->run(arguments);
-  const ScopedFloatEnvironment environment;
-  entry(&arguments);
+  run_code(entry, *program_, lanes_, arguments);
 }
 
 int ServiceKernel::lanes() const {
