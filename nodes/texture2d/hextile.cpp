@@ -50,10 +50,9 @@ Hexagon make_hexagon(Float weight, Float2 vertex, Float2 coord, const Variation&
   };
   const Float2 from = coord - centre;
   const Float2 turned{from.x * turn.cos - from.y * turn.sin, from.x * turn.sin + from.y * turn.cos};
-  return {
-      weight,
-      {turned.x / size + centre.x + shift(random.x), turned.y / size + centre.y + shift(random.y)},
-      turn};
+  const Float2 found{turned.x / size + centre.x + shift(random.x),
+                     turned.y / size + centre.y + shift(random.y)};
+  return {weight, {found.x, 1.0f - found.y}, turn};
 }
 
 /// Schlick's gain: x for r = 1/2, steeper around 1/2 below that.
@@ -70,7 +69,8 @@ Float3 to_unit_sum(Float3 w) {
 }  // namespace
 
 std::array<Hexagon, 3> find_hexagons(NodeCall& call) {
-  const Float2 coord = call.vector2("texcoord") * call.vector2("tiling");
+  const Float2 tiled = call.vector2("texcoord") * call.vector2("tiling");
+  const Float2 coord{tiled.x, 1.0f - tiled.y};  // See the header: v counts from the top.
   const Variation vary{call.number("rotation"),    call.number("scale"),
                        call.number("offset"),      call.vector2("rotationrange"),
                        call.vector2("scalerange"), call.vector2("offsetrange")};

@@ -18,11 +18,13 @@ struct Hexagon {
 /// 2022, with the parameters of hextiledimage and hextilednormalmap, whose inputs
 /// texcoord, tiling, rotation..., offsetrange it reads.
 ///
-/// The lattice has vertices at texture coordinates tiling^-1 (i + j/2, j sqrt(3)/2) /
-/// (2 sqrt(3)). Rotation, scale and offset of vertex (i, j) come from one hash of two
-/// floats (Hoskins, shadertoy.com/view/4djSRW), which decides in binary32 and in this
-/// order of operations: the tiles are the same in every engine but the double reference,
-/// whose random numbers are others.
+/// The lattice is that of (u, 1 - v): the library's renderers turn v over before this
+/// function and read images from the top, and only so do images turn the way that
+/// hextilednormalmap turns their frames. In these coordinates, times `tiling`, vertex
+/// (i, j) lies at (i + j/2, j sqrt(3)/2) / (2 sqrt(3)). Its rotation, scale and offset come
+/// from one hash of two floats (Hoskins, shadertoy.com/view/4djSRW), in binary32 and this
+/// order of operations, so the tiles are the same in every engine; only the double
+/// reference, and reassociation in `fast`, have other random numbers (by some 1e-4).
 std::array<Hexagon, 3> find_hexagons(NodeCall& call);
 
 /// Weights of the hexagons raised to the seventh power, times `emphasis`, moved by

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "jit/passes/derive.h"
+#include "jit/passes/expand_math.h"
 #include "runtime/interpreter/interpreter.h"
 #include "runtime/node/geometry.h"
 #include "runtime/program/slice.h"
@@ -69,7 +70,8 @@ RecordedLookup::RecordedLookup(TextureStore& store, const Body& body)
   const Float4 rgba = body(recorder_, textures_, texcoord(recorder_, 0));
   const std::vector<SliceOutput> outputs{
       {"r", rgba.x.ref()}, {"g", rgba.y.ref()}, {"b", rgba.z.ref()}, {"a", rgba.w.ref()}};
-  kernel_ = make_interpreter(derive(slice(recorder_.program(), "lookup", outputs)));
+  kernel_ = make_interpreter(
+      expand_math(derive(slice(recorder_.program(), "lookup", outputs)), Accuracy::precise));
 }
 
 bool RecordedLookup::reads(const std::string& channel) const {
