@@ -13,7 +13,9 @@ MAY_INCLUDE = {
     "bench": ("bench", "jit", "nodes", "pbs", "runtime"),
     "examples": ("examples", "jit", "nodes", "pbs", "runtime"),
     "tests": ("jit", "nodes", "pbs", "runtime", "tests"),
+    "tests/conformance": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
     "tests/examples": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
+    "tests/render": ("examples", "runtime", "tests"),
 }
 
 # The path through jit/: a stage includes itself and what comes before, never what comes after.
