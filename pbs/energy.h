@@ -37,13 +37,17 @@ GgxReflection ggx_reflection(Recorder& recorder, const GgxView& view);
 
 /// An interface between two dielectrics, eta the index beyond over before.
 struct GgxInterface {
-  Float fresnel;       ///< Mean Fresnel factor of the reflected light; only where eta < 1.
+  Float fresnel;       ///< Mean Fresnel factor of the reflected light.
   Float transmission;  ///< Albedo of transmission without a Fresnel factor.
   Float total;         ///< Albedo of reflection and transmission, both with it.
 };
+template <class F>
+void visit(GgxInterface& interface, F&& f) {
+  f(interface.fresnel), f(interface.transmission), f(interface.total);
+}
 /// eta < 1: total reflection from some angle on. `perfect` is ggx_reflection's albedo.
 GgxInterface ggx_leaving(Recorder& recorder, const GgxView& view, Float eta, Float perfect);
-/// eta >= 1; `fresnel` is not set.
+/// eta >= 1; leaves `fresnel` 0, which ggx_reflection's cosines give.
 GgxInterface ggx_entering(Recorder& recorder, const GgxView& view, Float eta);
 
 /// Factor for a lobe whose facets have mean Fresnel factor `fresnel`, so that what

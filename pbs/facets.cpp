@@ -38,9 +38,23 @@ Float3 prepare_normal(Recorder& recorder, Float3 given) {
   return keep(recorder, select(usable, unit, shading));
 }
 
-Color3 FacetFresnel::mean(Recorder&, const GgxReflection& reflection, const GgxView&,
+Float relative_index(Float index, Bool inside) { return select(inside, 1.0f / index, index); }
+
+Color3 FacetFresnel::mean(Recorder& recorder, const GgxReflection& reflection, const GgxView& view,
                           Bool inside) const {
-  return reflection.mean([&](Float cosine) { return at(cosine, inside); });
+  const auto plain = [&] { return reflection.mean([&](Float c) { return at(c, inside); }); };
+  if (!has_inside()) return plain();
+  // Where total reflection sets in no two cosines stand for all facets. A table
+  // has the mean for dielectrics; the rest of a curve is smooth.
+  const auto leaving = [&] {
+    const Float eta = min(index(), 1.0f / index());
+    const Color3 mean(ggx_leaving(recorder, view, eta, reflection.albedo).fresnel);
+    if (is_dielectric()) return mean;
+    const Color3 rest = reflection.mean(
+        [&](Float c) { return at(c, inside) - Color3(fresnel_dielectric(c, eta)); });
+    return saturate(mean + rest);
+  };
+  return choose(inside ^ (index() < 1.0f), leaving, plain);
 }
 
 Float prepare_weight(NodeCall& call) {
@@ -49,6 +63,12 @@ Float prepare_weight(NodeCall& call) {
 
 Color3 prepare_tint(Recorder& recorder, Color3 tint) {
   return keep(recorder, min(max(tint, Color3(0.0f)), Color3(1e6f)));
+}
+
+Float grey(Color3 colour) {
+  const bool one =
+      same_value(colour.x.ref(), colour.y.ref()) && same_value(colour.x.ref(), colour.z.ref());
+  return one ? colour.x : average(colour);
 }
 
 Float finite(Float x) { return min(max(x, 0.0f), 1e30f); }

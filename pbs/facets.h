@@ -38,6 +38,9 @@ Facets prepare_facets(NodeCall& call);
 /// normalized, and the shading normal stands in for a zero or a NaN.
 Float3 prepare_normal(Recorder& recorder, Float3 normal);
 
+/// Index of the side beyond over the viewer's.
+Float relative_index(Float index, Bool inside);
+
 /// The Fresnel factor of facets; its members are prepared and kept.
 class FacetFresnel {
  public:
@@ -45,10 +48,15 @@ class FacetFresnel {
   /// Fraction reflected, in [0, 1]; finite for a finite cosine.
   virtual Color3 at(Float cosine, Bool inside) const = 0;
   /// Its mean over the light that a surface reflects to a view.
-  virtual Color3 mean(Recorder& recorder, const GgxReflection& reflection, const GgxView& view,
-                      Bool inside) const;
+  Color3 mean(Recorder& recorder, const GgxReflection& reflection, const GgxView& view,
+              Bool inside) const;
   /// Index of the inside relative to the outside, for lobes that transmit.
   virtual Float index() const { return 1.0f; }
+  /// Whether light from the denser side is totally reflected beyond the critical
+  /// angle of that index.
+  virtual bool has_inside() const { return false; }
+  /// Whether at() is Fresnel's formula for that index and nothing else.
+  virtual bool is_dielectric() const { return false; }
 };
 using FacetFresnelPtr = std::shared_ptr<const FacetFresnel>;
 
@@ -56,6 +64,9 @@ using FacetFresnelPtr = std::shared_ptr<const FacetFresnel>;
 Float prepare_weight(NodeCall& call);
 /// A colour that scales a lobe: at least 0, finite.
 Color3 prepare_tint(Recorder& recorder, Color3 tint);
+
+/// The mean of the channels; nothing to record where they are one value.
+Float grey(Color3 colour);
 
 /// min(max(x, 0), 1e30): finite for any bits.
 Float finite(Float x);

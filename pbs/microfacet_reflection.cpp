@@ -62,7 +62,7 @@ LobeSample MicrofacetReflection::sample(const View& view, Float3 u) const {
 }
 
 Color3 MicrofacetReflection::reflected(const View& view) const {
-  return terms_.prepare(view, [&] { return compute(view); }).reflected;
+  return terms_.get(view, [&] { return compute(view); }).reflected;
 }
 
 Color3 MicrofacetReflection::albedo(const View& view) const {
@@ -72,7 +72,7 @@ Color3 MicrofacetReflection::albedo(const View& view) const {
 Color3 MicrofacetReflection::throughput(const View& view) const {
   if (options_.opaque) return Color3(0.0f);
   const Color3 lost = reflected(view);
-  return Color3(1.0f) - (options_.grey_throughput ? Color3(average(lost)) : lost);
+  return Color3(1.0f) - (options_.grey_throughput ? Color3(grey(lost)) : lost);
 }
 
 }  // namespace nacre

@@ -15,29 +15,23 @@ inline bool same_value(Float3 a, Float3 b) {
          same_value(a.z.ref(), b.z.ref());
 }
 
-/// What a lobe works out once for a view: a structure with visit(). Seen from
-/// the viewer it is kept, so that `begin` computes it and the other kernels load
-/// it. Lives while one Program is recorded.
+/// What a lobe works out once for a view: a structure with visit(). Recorded at
+/// top level, as the kernels do when they ask for albedo and throughput, it serves
+/// every later use; seen from the viewer it is kept too, so that `begin` computes
+/// it and the other kernels load it. Lives while one Program is recorded.
 template <class T>
 class PerView {
  public:
-  /// Records it, at top level: from Lobe::albedo and Lobe::throughput, which the
-  /// kernels ask for before they evaluate anything.
   template <class F>
-  T prepare(const View& view, F&& compute) const {
+  T get(const View& view, F&& compute) const {
     if (const T* known = find(view)) return *known;
     T value = compute();
+    if (!view.recorder->at_top_level()) return value;
     if (same_value(view.wo, view_direction(*view.recorder))) {
       visit(value, [&](auto& scalar) { scalar = keep(*view.recorder, scalar); });
     }
     known_.push_back({view.wo, view.thin_walled, value});
     return value;
-  }
-  /// What prepare() made for this view, or else recorded here.
-  template <class F>
-  T get(const View& view, F&& compute) const {
-    if (const T* known = find(view)) return *known;
-    return compute();
   }
 
  private:

@@ -31,8 +31,7 @@ void record_closure_conductor_bsdf(NodeCall& call) {
       MicrofacetReflection::Options{.name = "conductor_bsdf",
                                     .retroreflective = call.boolean("retroreflective"),
                                     .opaque = true});
-  const Float weight = keep(recorder, max(call.number("weight"), 0.0f));
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), weight));
+  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call)));
 }
 
 }  // namespace nacre

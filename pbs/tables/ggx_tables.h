@@ -16,7 +16,7 @@ struct GgxTable {
 
 /// For perfectly reflecting facets: the albedo E, and the facet cosines that
 /// stand for the darker and the brighter half of the reflected light, each less
-/// the cosine of the view. The mean over a half of (1 - cosine)^5 is exact.
+/// the cosine of the view. The mean over a half of (1 - cosine)^5.5 is exact.
 const GgxTable& ggx_reflection_table();
 
 /// Relative index above 1. The albedo of transmission without a Fresnel factor,

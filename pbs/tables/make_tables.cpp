@@ -69,6 +69,10 @@ double fresnel(double cosine, double eta) {
   return 0.5 * (s * s + p * p);
 }
 
+/// Of the mean that a stand-in for many facet cosines keeps: Schlick's 5 and a
+/// little more, for the steeper curves of low indices.
+constexpr double moment_exponent = 5.5;
+
 std::vector<double> reflection(double cosine, double alpha, double) {
   const Scene scene(cosine, alpha);
   std::vector<std::pair<double, double>> parts;  // Facet cosine, light.
@@ -84,11 +88,13 @@ std::vector<double> reflection(double cosine, double alpha, double) {
   double before = 0.0;
   for (const auto& [c, light] : parts) {
     const double low = std::clamp(0.5 * total - before, 0.0, light);
-    moment[0] += low * std::pow(1.0 - c, 5);
-    moment[1] += (light - low) * std::pow(1.0 - c, 5);
+    moment[0] += low * std::pow(1.0 - c, moment_exponent);
+    moment[1] += (light - low) * std::pow(1.0 - c, moment_exponent);
     before += light;
   }
-  const auto stand_in = [&](double m) { return 1.0 - std::pow(m / (0.5 * total), 0.2); };
+  const auto stand_in = [&](double m) {
+    return 1.0 - std::pow(m / (0.5 * total), 1.0 / moment_exponent);
+  };
   return {total, stand_in(moment[0]) - scene.cosine, stand_in(moment[1]) - scene.cosine};
 }
 

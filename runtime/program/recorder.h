@@ -42,6 +42,9 @@ class Recorder {
   /// x, marked as a place where a material's scatter state may be cut.
   /// Constants and uniform values pass unmarked.
   Ref keep(Ref x);
+  /// Whether what is recorded now stands outside all regions and functions, so
+  /// that everything after it may use it: where keep() may be called.
+  bool at_top_level() const { return open_.size() == 1 && open_.back().regions.size() == 1; }
   /// Number of keeps so far; keep k has imm k.
   std::uint32_t keep_count() const { return keep_count_; }
   /// A number for the function that values are recorded into now; 0 the entry.

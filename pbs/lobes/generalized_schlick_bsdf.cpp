@@ -1,0 +1,60 @@
+#include "pbs/bsdf.h"
+#include "pbs/microfacet_interface.h"
+
+namespace nacre {
+
+namespace {
+
+/// A curve between colours. Transmission bends light by the index whose
+/// reflectance is the mean of color0.
+///
+/// Reflection alone is the same from both sides: the curve may stand for a metal,
+/// of which there is no inside. Where the light that is not reflected passes (RT),
+/// the inside sees what the outside sees along the refracted ray, and all of it
+/// beyond the critical angle.
+class SchlickFresnel final : public FacetFresnel {
+ public:
+  SchlickFresnel(Recorder& recorder, const SchlickCurve& curve, bool two_sided)
+      : curve_(curve), two_sided_(two_sided) {
+    curve_.color0 = keep(recorder, curve_.color0);
+    curve_.color90 = keep(recorder, curve_.color90);
+    curve_.dip = keep(recorder, curve_.dip);
+    curve_.exponent = keep(recorder, curve_.exponent);
+    index_ = keep(recorder, index_of_reflectance(grey(curve_.color0)));
+  }
+
+  Color3 at(Float cosine, Bool inside) const override {
+    if (two_sided_) return curve_.at(cosine);
+    const Float eta = 1.0f / index_;
+    const Float squared = fma(cosine, cosine, (eta - 1.0f) * (eta + 1.0f));
+    const Float refracted = min(safe_sqrt(squared) * index_, 1.0f);
+    const Color3 curve = curve_.at(select(inside, refracted, cosine));
+    return select(inside & (squared <= 0.0f), Color3(1.0f), curve);
+  }
+
+  Float index() const override { return index_; }
+  bool has_inside() const override { return !two_sided_; }
+
+ private:
+  SchlickCurve curve_;
+  bool two_sided_;
+  Float index_;
+};
+
+}  // namespace
+
+void record_closure_generalized_schlick_bsdf(NodeCall& call) {
+  Recorder& recorder = call.recorder();
+  const std::string& mode = call.text("scatter_mode");
+  const SchlickCurve curve(call.vector3("color0"), call.vector3("color82"), call.vector3("color90"),
+                           call.number("exponent"));
+  const auto fresnel = std::make_shared<SchlickFresnel>(recorder, curve, mode != "RT");
+  const MicrofacetReflection::Options options{.name = "generalized_schlick_bsdf",
+                                              .retroreflective = call.boolean("retroreflective"),
+                                              .grey_throughput = true};
+  call.set(std::make_shared<LobeBsdf>(
+      microfacet_lobe(recorder, mode, prepare_facets(call), fresnel, options),
+      prepare_weight(call)));
+}
+
+}  // namespace nacre

@@ -1,0 +1,152 @@
+#include "pbs/microfacet_interface.h"
+
+namespace nacre {
+
+MicrofacetInterface::MicrofacetInterface(Recorder& recorder, const Facets& facets,
+                                         const FacetFresnelPtr& fresnel,
+                                         MicrofacetReflection::Options options)
+    : facets_(facets),
+      fresnel_(fresnel),
+      options_(options),
+      reflection_(facets, fresnel, options),
+      transmission_(recorder, facets, fresnel->index(), options.tint, options.name),
+      straight_(keep(recorder, goes_straight(fresnel->index()))) {}
+
+Bool MicrofacetInterface::separate(const View& view) const {
+  return view.thin_walled | straight_ | facets_.delta;
+}
+
+/// One over what the facets return in all. The tables know dielectrics; another
+/// Fresnel factor moves light between what reflection and transmission return.
+Color3 MicrofacetInterface::joint_factor(const View& view) const {
+  Recorder& recorder = *view.recorder;
+  const LocalView local = facets_.look(view);
+  const GgxView seen = facets_.table_view(local);
+  const Float index = fresnel_->index();
+  const Float dense = max(index, 1.0f / index);
+  const Float rare = min(index, 1.0f / index);
+  const GgxReflection perfect = ggx_reflection(recorder, seen);
+  const GgxInterface both = choose(
+      local.below ^ (index < 1.0f),
+      [&] { return ggx_leaving(recorder, seen, rare, perfect.albedo); },
+      [&] {
+        GgxInterface entering = ggx_entering(recorder, seen, dense);
+        entering.fresnel = perfect.mean([&](Float c) { return fresnel_dielectric(c, dense); });
+        return entering;
+      });
+  Color3 total = Color3(both.total);
+  if (!fresnel_->is_dielectric()) {
+    const Color3 fresnel = fresnel_->mean(recorder, perfect, seen, local.below);
+    total = fma(fresnel - Color3(both.fresnel), Color3(perfect.albedo - both.transmission), total);
+  }
+  return Color3(1.0f) / max(total, Color3(0.05f));
+}
+
+MicrofacetInterface::Terms MicrofacetInterface::compute(const View& view) const {
+  const Color3 reflected = reflection_.reflected(view);
+  const Float transmitted = transmission_.transmitted(view);
+  const Color3 passing = Color3(1.0f) - reflected;
+  const Float back = grey(reflected);
+  const Float forth = grey(passing) * transmitted;
+  const Float probability = select(back + forth > 0.0f, back / (back + forth), 1.0f);
+  const Color3 factor =
+      choose(separate(view), [] { return Color3(1.0f); }, [&] { return joint_factor(view); });
+  return {factor, passing, transmitted, probability};
+}
+
+MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {
+  return terms_.get(view, [&] { return compute(view); });
+}
+
+Float3 MicrofacetInterface::turned(Float3 wi) const {
+  const Bool back = options_.retroreflective & (wi.z > 0.0f);
+  return {select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};
+}
+
+LobeValue MicrofacetInterface::evaluate(const View& view, Float3 wi) const {
+  const Terms seen = terms(view);
+  return choose(
+      separate(view), [&] { return evaluate_separate(view, seen, wi); },
+      [&] { return evaluate_joint(view, seen, wi); });
+}
+
+LobeValue MicrofacetInterface::evaluate_separate(const View& view, const Terms& terms,
+                                                 Float3 wi) const {
+  const LobeValue back = reflection_.evaluate(view, wi);
+  const LobeValue forth = transmission_.evaluate(view, wi);
+  return {.f = fma(terms.passing, forth.f, back.f),
+          .pdf = fma(terms.probability, back.pdf, (1.0f - terms.probability) * forth.pdf)};
+}
+
+LobeValue MicrofacetInterface::evaluate_joint(const View& view, const Terms& terms,
+                                              Float3 wi_world) const {
+  const LocalView local = facets_.look(view);
+  const Float3 wi = turned(local.frame.to_local(wi_world));
+  const Float eta = relative_index(fresnel_->index(), local.below);
+  const FacetEvent event = facet_between(local.wo, wi, eta, facets_.alpha);
+  const Bool reflects = wi.z > 0.0f;
+  const Color3 fresnel = fresnel_->at(event.cosine, local.below);
+  const Color3 share = select(reflects, fresnel, Color3(1.0f) - fresnel);
+  const Float probability = grey(fresnel);
+  const Float scale = finite(event.pdf * event.shadowing);
+  const Float pdf = event.pdf * select(reflects, probability, 1.0f - probability);
+  return {.f = options_.tint * share * terms.factor * Color3(select(event.possible, scale, 0.0f)),
+          .pdf = select(event.possible, max(pdf, 0.0f), 0.0f)};
+}
+
+LobeSample MicrofacetInterface::sample(const View& view, Float3 u) const {
+  const Terms seen = terms(view);
+  return choose(
+      separate(view), [&] { return sample_separate(view, seen, u); },
+      [&] { return sample_joint(view, u); });
+}
+
+LobeSample MicrofacetInterface::sample_separate(const View& view, const Terms& terms,
+                                                Float3 u) const {
+  const LobeSample back = reflection_.sample(view, u);
+  const LobeSample forth = transmission_.sample(view, u);
+  const Bool reflects = u.z < terms.probability;
+  const Float probability = select(reflects, terms.probability, 1.0f - terms.probability);
+  LobeSample sample{.wi = select(reflects, back.wi, forth.wi),
+                    .valid = select(reflects, back.valid, forth.valid) & (probability > 0.0f),
+                    .delta = select(reflects, back.delta, forth.delta)};
+  if (!sample.delta.is_constant(false)) {
+    const Color3 weight = select(reflects, back.delta_weight, terms.passing * forth.delta_weight);
+    sample.delta_weight = weight * Color3(1.0f / max(probability, 1e-20f));
+    sample.delta_probability = probability;
+  }
+  return sample;
+}
+
+LobeSample MicrofacetInterface::sample_joint(const View& view, Float3 u) const {
+  const LocalView local = facets_.look(view);
+  const Float3 h = sample_visible_normal(local.wo, facets_.alpha, u.x, u.y);
+  const Float cosine = saturate(dot(local.wo, h));
+  const Float eta = relative_index(fresnel_->index(), local.below);
+  const Refraction bent = refract(local.wo, h, cosine, eta);
+  const Float3 mirrored = turned(reflect(local.wo, h));
+  const Bool reflects = u.z < grey(fresnel_->at(cosine, local.below));
+  const Float3 world = local.frame.to_world(select(reflects, mirrored, bent.wi));
+  const Bool possible = select(reflects, mirrored.z > 0.0f, bent.possible);
+  return {.wi = world, .valid = (local.wo.z > 0.0f) & possible & is_unit(world)};
+}
+
+Color3 MicrofacetInterface::albedo(const View& view) const {
+  const Terms seen = terms(view);
+  const Color3 apart = fma(seen.passing, Color3(seen.transmitted), reflection_.reflected(view));
+  return options_.tint * select(separate(view), saturate(apart), Color3(1.0f));
+}
+
+LobePtr microfacet_lobe(Recorder& recorder, std::string_view scatter_mode, const Facets& facets,
+                        const FacetFresnelPtr& fresnel, MicrofacetReflection::Options options) {
+  if (scatter_mode == "RT") {
+    return std::make_shared<MicrofacetInterface>(recorder, facets, fresnel, options);
+  }
+  if (scatter_mode == "T") {
+    return std::make_shared<MicrofacetTransmission>(recorder, facets, fresnel->index(),
+                                                    options.tint, options.name);
+  }
+  return std::make_shared<MicrofacetReflection>(facets, fresnel, options);
+}
+
+}  // namespace nacre
