@@ -1,0 +1,94 @@
+#include "tests/pbs/battery/lobe_case.h"
+
+#include <utility>
+
+namespace nacre {
+
+namespace {
+
+Recorded flag(bool x) { return {Type::boolean, Bool(x)}; }
+Recorded color(Color3 x) { return {Type::color3, x}; }
+
+Ports diffuse(const LobeInputs& in) {
+  return {{"color", color(in.color)}, {"roughness", number(in.roughness)}};
+}
+Ports with(Ports ports, const char* name, Recorded value) {
+  ports[name] = std::move(value);
+  return ports;
+}
+/// A metal of index 0 reflects all light; its colour is not an input.
+Ports metal(const LobeInputs& in, float n, float k, float stretch) {
+  const Float alpha = square(in.roughness);
+  return {{"ior", colour(n)},
+          {"extinction", colour(k)},
+          {"roughness", roughness(alpha, min(stretch * alpha, 1.0f))}};
+}
+
+}  // namespace
+
+const std::vector<LobeCase>& lobe_cases() {
+  using In = const LobeInputs&;
+  static const std::vector<LobeCase> cases{
+      {.name = "oren_nayar",
+       .category = "oren_nayar_diffuse_bsdf",
+       .ports = [](In in) { return with(diffuse(in), "energy_compensation", flag(false)); },
+       .energy = Energy::exceeding,
+       .most_light = 1.0065},
+      {.name = "oren_nayar_compensated",
+       .category = "oren_nayar_diffuse_bsdf",
+       .ports = [](In in) { return with(diffuse(in), "energy_compensation", flag(true)); },
+       .energy = Energy::preserving,
+       .preserving_error = 2e-3},
+      {.name = "burley",
+       .category = "burley_diffuse_bsdf",
+       .ports = diffuse,
+       .energy = Energy::exceeding,
+       .most_light = 1.4006},
+      {.name = "translucent",
+       .category = "translucent_bsdf",
+       .ports = diffuse,
+       .rough = false,
+       .energy = Energy::preserving,
+       .preserving_error = 2e-3},
+      {.name = "subsurface",
+       .category = "subsurface_bsdf",
+       .ports = diffuse,
+       .rough = false,
+       .energy = Energy::preserving,
+       .preserving_error = 2e-3},
+      {.name = "sheen_conty_kulla",
+       .category = "sheen_bsdf",
+       .ports = [](In in) { return with(diffuse(in), "mode", text("conty_kulla")); },
+       .reciprocity = 1.58},
+      {.name = "sheen_zeltner",
+       .category = "sheen_bsdf",
+       .ports = [](In in) { return with(diffuse(in), "mode", text("zeltner")); },
+       .reciprocity = 0.0},
+      {.name = "white_metal",
+       .category = "conductor_bsdf",
+       .ports = [](In in) { return metal(in, 0.0f, 1.0f, 1.0f); },
+       .energy = Energy::preserving,
+       .albedo_error = 1e-2,
+       .reciprocity = 3.25},
+      {.name = "metal",
+       .category = "conductor_bsdf",
+       .ports = [](In in) { return metal(in, 0.2f, 3.0f, 1.0f); },
+       .albedo_error = 1e-2,
+       .reciprocity = 3.08},
+      {.name = "anisotropic_metal",
+       .category = "conductor_bsdf",
+       .ports = [](In in) { return metal(in, 0.2f, 3.0f, 4.0f); },
+       .albedo_error = 8e-2,
+       .reciprocity = 3.08},
+  };
+  return cases;
+}
+
+BsdfPtr make_lobe(Recorder& recorder, const LobeCase& row, const LobeInputs& inputs,
+                  Accuracy accuracy, Ports more) {
+  Ports ports = row.ports(inputs);
+  for (auto& [name, value] : more) ports[name] = value;
+  return microfacet_bsdf(recorder, row.category, std::move(ports), accuracy);
+}
+
+}  // namespace nacre

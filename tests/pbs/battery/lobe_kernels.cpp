@@ -1,0 +1,129 @@
+#include "tests/pbs/battery/lobe_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "jit/compile.h"
+#include "jit/service/compile_service.h"
+#include "tests/support/random.h"
+
+namespace nacre {
+
+namespace {
+
+CompileService* service() {
+  static Diagnostics diagnostics;
+  static const std::unique_ptr<CompileService> service =
+      CompileService::create({.threads = 1, .cache = {}, .session = {}}, diagnostics);
+  return service.get();
+}
+
+std::vector<float> take(Columns& columns, const char* name) { return std::move(columns.at(name)); }
+
+}  // namespace
+
+Direction direction(double degrees, double azimuth_degrees) {
+  const double theta = degrees * std::numbers::pi / 180.0;
+  const double phi = azimuth_degrees * std::numbers::pi / 180.0;
+  return {static_cast<float>(std::sin(theta) * std::cos(phi)),
+          static_cast<float>(std::sin(theta) * std::sin(phi)), static_cast<float>(std::cos(theta))};
+}
+
+LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile) {
+  Recorder recorder;
+  const auto channel = [&](const char* name) { return input(recorder, name); };
+  const LobeInputs inputs{.roughness = channel("roughness"),
+                          .color = {channel("color.x"), channel("color.y"), channel("color.z")}};
+  Ports more;
+  if (hostile) {
+    more["weight"] = number(channel("weight"));
+    more["normal"] = {Type::vector3,
+                      Float3(channel("normal.x"), channel("normal.y"), channel("normal.z"))};
+  }
+  Surface surface;
+  surface.bsdf = make_lobe(recorder, row, inputs, accuracy, more);
+  const SurfaceKernels kernels = record_kernels(
+      recorder, surface, accuracy, {.lobes = lobe_all, .lobe_mask = false, .reverse_pdf = true});
+  return {slice(recorder.program(), "evaluate", kernels.evaluate),
+          slice(recorder.program(), "sample", kernels.sample),
+          slice(recorder.program(), "albedo", kernels.albedo)};
+}
+
+std::shared_ptr<const Kernel> machine_code(Program program, Accuracy accuracy) {
+  CompileOptions options;
+  options.accuracy = accuracy;
+  Diagnostics diagnostics;
+  auto kernel = compile(std::move(program), options, service(), diagnostics);
+  EXPECT_NE(kernel, nullptr);
+  return kernel;
+}
+
+LobeKernels::LobeKernels(const LobeCase& row, Accuracy accuracy) {
+  LobePrograms programs = lobe_programs(row, accuracy);
+  evaluate_ = machine_code(std::move(programs.evaluate), accuracy);
+  sample_ = machine_code(std::move(programs.sample), accuracy);
+  albedo_ = machine_code(std::move(programs.albedo), accuracy);
+}
+
+Columns lobe_columns(float roughness) {
+  return {{"roughness", {roughness}}, {"color.x", {1.0f}}, {"color.y", {1.0f}},
+          {"color.z", {1.0f}},        {"N.z", {1.0f}},     {"T.x", {1.0f}}};
+}
+
+void set_directions(Columns& columns, const std::string& name, const std::vector<Direction>& w) {
+  std::vector<float>& x = columns[name + ".x"];
+  std::vector<float>& y = columns[name + ".y"];
+  std::vector<float>& z = columns[name + ".z"];
+  for (auto* each : {&x, &y, &z}) each->clear(), each->reserve(w.size());
+  for (const Direction& d : w) x.push_back(d.x), y.push_back(d.y), z.push_back(d.z);
+}
+
+void set_random(Columns& columns, std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  for (const char* name : {"u.x", "u.y", "u.z"}) {
+    std::vector<float>& column = columns[name];
+    column.resize(count);
+    for (float& u : column) u = static_cast<float>(random.word() >> 40) * 0x1p-24f;
+  }
+}
+
+Evaluated LobeKernels::evaluate(float roughness, Direction wo,
+                                const std::vector<Direction>& wi) const {
+  return evaluate(roughness, std::vector<Direction>{wo}, wi);
+}
+
+Evaluated LobeKernels::evaluate(float roughness, const std::vector<Direction>& wo,
+                                const std::vector<Direction>& wi) const {
+  Columns columns = lobe_columns(roughness);
+  set_directions(columns, "wo", wo);
+  set_directions(columns, "wi", wi);
+  Columns out = run(*evaluate_, columns);
+  return {take(out, "f.x"), take(out, "pdf"), take(out, "pdf_reverse")};
+}
+
+Sampled LobeKernels::sample(float roughness, Direction wo, std::size_t count,
+                            std::uint64_t seed) const {
+  Columns columns = lobe_columns(roughness);
+  set_directions(columns, "wo", {wo});
+  set_random(columns, count, seed);
+  Columns out = run(*sample_, columns);
+  Sampled sampled;
+  sampled.weight = take(out, "weight.x");
+  sampled.pdf = take(out, "pdf");
+  sampled.pdf_reverse = take(out, "pdf_reverse");
+  for (std::size_t i = 0; i < count; ++i) {
+    sampled.wi.push_back({out.at("wi.x")[i], out.at("wi.y")[i], out.at("wi.z")[i]});
+    sampled.valid.push_back((static_cast<int>(out.at("flags")[i]) & sample_valid) != 0);
+  }
+  return sampled;
+}
+
+double LobeKernels::albedo(float roughness, Direction wo) const {
+  Columns columns = lobe_columns(roughness);
+  set_directions(columns, "wo", {wo});
+  return run(*albedo_, columns).at("albedo.x")[0];
+}
+
+}  // namespace nacre
