@@ -47,9 +47,10 @@ function(nacre_test name)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
-# nacre_bench(NAME SOURCES...): a Google Benchmark program, run by the target `bench`.
+# nacre_bench(NAME SOURCES...): a Google Benchmark program, run by the target `bench`; it
+# defines register_benchmarks() (bench/common/benchmarks.h).
 function(nacre_bench name)
   add_executable(${name} ${ARGN})
-  target_link_libraries(${name} PRIVATE nacre_flags benchmark::benchmark benchmark::benchmark_main)
+  target_link_libraries(${name} PRIVATE nacre_flags nacre_bench_common)
   set_property(GLOBAL APPEND PROPERTY NACRE_BENCHES ${name})
 endfunction()
