@@ -18,7 +18,7 @@ FunctionEmitter::FunctionEmitter(ModuleEmitter& module, const Function& function
 void FunctionEmitter::emit(ValueId id) {
   const EmitOp op = emit_op(at(id).op);
   assert(op != nullptr && "a pass should have expanded this operation");
-  if (llvm::Value* value = op(*this, id)) define(id, value);
+  if (llvm::Value* value = op(*this, id)) define(id, kept(value));
 }
 
 llvm::Value* FunctionEmitter::use(ValueId id, int lanes) {
@@ -32,7 +32,24 @@ llvm::Value* FunctionEmitter::use(ValueId id, int lanes) {
     }
   }
   assert(values_[id] != nullptr);
-  return spread(values_[id], lanes);
+  return unkept(spread(values_[id], lanes), instruction.type);
+}
+
+llvm::Value* FunctionEmitter::keep(ValueId id, int lanes) {
+  if (at(id).op == Op::constant) return kept(use(id, lanes));
+  return kept(spread(values_[id], lanes));
+}
+
+llvm::Value* FunctionEmitter::kept(llvm::Value* value) {
+  const auto* vector = llvm::dyn_cast<llvm::FixedVectorType>(value->getType());
+  if (vector == nullptr || !vector->getElementType()->isIntegerTy(1)) return value;
+  llvm::Type* type = module_.kept_type(Scalar::b1, static_cast<int>(vector->getNumElements()));
+  return type == value->getType() ? value : builder_.CreateSExt(value, type);
+}
+
+llvm::Value* FunctionEmitter::unkept(llvm::Value* value, Scalar scalar) {
+  if (scalar != Scalar::b1 || value->getType()->getScalarType()->isIntegerTy(1)) return value;
+  return builder_.CreateICmpSLT(value, llvm::Constant::getNullValue(value->getType()));
 }
 
 llvm::Value* FunctionEmitter::spread(llvm::Value* value, int lanes) {

@@ -43,14 +43,19 @@ llvm::Type* ModuleEmitter::type(Scalar scalar, int lanes) {
   return lanes == 1 ? one : llvm::FixedVectorType::get(one, static_cast<unsigned>(lanes));
 }
 
+llvm::Type* ModuleEmitter::kept_type(Scalar scalar, int lanes) {
+  const bool as_words = scalar == Scalar::b1 && lanes > 1 && !features_.avx512;
+  return type(as_words ? Scalar::i32 : scalar, lanes);
+}
+
 llvm::Function* ModuleEmitter::instance(std::uint32_t index, int lanes) {
   llvm::Function*& known = instances_[{index, lanes}];
   if (known != nullptr) return known;
   const Function& function = program_.functions[index];
   std::vector<llvm::Type*> arguments{llvm::PointerType::getUnqual(context())};
-  for (const Scalar argument : function.arguments) arguments.push_back(type(argument, lanes));
+  for (const Scalar argument : function.arguments) arguments.push_back(kept_type(argument, lanes));
   std::vector<llvm::Type*> results;
-  for (const Scalar result : function.results) results.push_back(type(result, lanes));
+  for (const Scalar result : function.results) results.push_back(kept_type(result, lanes));
   llvm::StructType* result = llvm::StructType::get(context(), results);
   auto* made = llvm::Function::Create(
       llvm::FunctionType::get(result, arguments, false), llvm::GlobalValue::InternalLinkage,

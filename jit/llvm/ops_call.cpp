@@ -16,7 +16,7 @@ Value* argument(FunctionEmitter& e, ValueId id) {
 Value* give(FunctionEmitter& e, ValueId id) {
   const Instruction& instruction = e.at(id);
   e.gives.resize(e.function().results.size());
-  e.gives[instruction.imm] = e.operand(instruction, 0, e.lanes());
+  e.gives[instruction.imm] = e.keep(instruction.operands[0], e.lanes());
   return nullptr;
 }
 
@@ -26,7 +26,7 @@ Value* call(FunctionEmitter& e, ValueId id) {
   llvm::Function* callee = e.module().instance(instruction.imm, lanes);
   std::vector<Value*> arguments{e.kernel_arguments};
   for (const ValueId operand : e.function().operands(instruction)) {
-    arguments.push_back(e.use(operand, lanes));
+    arguments.push_back(e.keep(operand, lanes));
   }
   llvm::CallInst* made = e.builder().CreateCall(callee, arguments);
   made->setCallingConv(callee->getCallingConv());

@@ -37,8 +37,18 @@ Value* compare(FunctionEmitter& e, ValueId id) {
   return e.builder().CreateICmp(predicate, operand(e, id, 0), operand(e, id, 1));
 }
 
+/// On masks in the form they are kept in.
+template <llvm::Instruction::BinaryOps op>
+Value* logic(FunctionEmitter& e, ValueId id) {
+  const Instruction& instruction = e.at(id);
+  const int lanes = e.lanes_of(id);
+  return e.builder().CreateBinOp(op, e.keep(instruction.operands[0], lanes),
+                                 e.keep(instruction.operands[1], lanes));
+}
+
 Value* complement(FunctionEmitter& e, ValueId id) {
-  return e.builder().CreateXor(operand(e, id, 0), llvm::ConstantInt::getTrue(e.type_of(id)));
+  return e.builder().CreateXor(e.keep(e.at(id).operands[0], e.lanes_of(id)),
+                               llvm::Constant::getAllOnesValue(e.kept_type_of(id)));
 }
 
 Value* select(FunctionEmitter& e, ValueId id) {
@@ -60,9 +70,9 @@ constexpr std::array<std::pair<Op, EmitOp>, 18> group{{
     {Op::ieq, compare<llvm::CmpInst::ICMP_EQ>},
     {Op::ilt, compare<llvm::CmpInst::ICMP_SLT>},
     {Op::ult, compare<llvm::CmpInst::ICMP_ULT>},
-    {Op::band, binary<llvm::Instruction::And>},
-    {Op::bor, binary<llvm::Instruction::Or>},
-    {Op::bxor, binary<llvm::Instruction::Xor>},
+    {Op::band, logic<llvm::Instruction::And>},
+    {Op::bor, logic<llvm::Instruction::Or>},
+    {Op::bxor, logic<llvm::Instruction::Xor>},
     {Op::bnot, complement},
     {Op::select, select},
 }};

@@ -2,6 +2,8 @@
 #include <array>
 #include <cstddef>
 
+#include "jit/llvm/lanes.h"
+#include "jit/llvm/lookup.h"
 #include "jit/llvm/ops.h"
 
 namespace nacre::codegen {
@@ -9,22 +11,6 @@ namespace nacre::codegen {
 namespace {
 
 using llvm::Value;
-
-Value* lane(Builder& b, Value* value, int k) {
-  if (!value->getType()->isVectorTy()) return value;
-  return b.CreateExtractElement(value, static_cast<std::uint64_t>(k));
-}
-
-/// load(k) for every lane k, put together.
-template <class F>
-Value* each_lane(FunctionEmitter& e, Scalar scalar, int lanes, F&& load) {
-  if (lanes == 1) return load(0);
-  Value* all = llvm::PoisonValue::get(e.module().type(scalar, lanes));
-  for (int k = 0; k < lanes; ++k) {
-    all = e.builder().CreateInsertElement(all, load(k), static_cast<std::uint64_t>(k));
-  }
-  return all;
-}
 
 Value* table(FunctionEmitter& e, ValueId id) {
   Builder& b = e.builder();
@@ -35,11 +21,7 @@ Value* table(FunctionEmitter& e, ValueId id) {
   index = b.CreateBinaryIntrinsic(llvm::Intrinsic::smax, index, e.i32(0, lanes));
   index = b.CreateBinaryIntrinsic(llvm::Intrinsic::umin, index,
                                   e.i32(static_cast<std::uint32_t>(size - 1), lanes));
-  Value* data = e.module().table_data(instruction.imm);
-  return each_lane(e, Scalar::f32, lanes, [&](int k) {
-    Value* wide = b.CreateZExt(lane(b, index, k), b.getInt64Ty());
-    return e.load_invariant(b.getFloatTy(), b.CreateInBoundsGEP(b.getFloatTy(), data, wide));
-  });
+  return look_up(e, instruction.imm, index, lanes);
 }
 
 /// A texture's first word, and the number of the last that 32 bits reach.
@@ -83,12 +65,12 @@ Value* texel(FunctionEmitter& e, ValueId id) {
     Value* inside = b.CreateICmpULE(word, e.spread(binding.last, lanes));
     Value* index = b.CreateSelect(inside, word, e.i32(0, lanes));
     return each_lane(e, Scalar::i32, lanes,
-                     [&](int k) { return load(binding.words, lane(b, index, k)); });
+                     [&](int k) { return load(binding.words, lane(e, index, k)); });
   }
   Value* slot = e.use(slot_id, lanes);
   return each_lane(e, Scalar::i32, lanes, [&](int k) {
-    const Binding binding = load_binding(e, lane(b, slot, k));
-    Value* own = lane(b, word, k);
+    const Binding binding = load_binding(e, lane(e, slot, k));
+    Value* own = lane(e, word, k);
     return load(binding.words, b.CreateSelect(b.CreateICmpULE(own, binding.last), own, e.i32(0)));
   });
 }

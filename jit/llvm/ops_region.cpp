@@ -14,11 +14,11 @@ BasicBlock* new_block(FunctionEmitter& e, const char* name) {
   return BasicBlock::Create(e.module().context(), name, e.builder().GetInsertBlock()->getParent());
 }
 
-/// use(id), emitted where the region has not begun.
-Value* use_before(FunctionEmitter& e, const Region& region, ValueId id, int lanes) {
+/// keep(id), emitted where the region has not begun.
+Value* keep_before(FunctionEmitter& e, const Region& region, ValueId id, int lanes) {
   const llvm::IRBuilderBase::InsertPointGuard guard(e.builder());
   e.builder().SetInsertPoint(region.before->getTerminator());
-  return e.use(id, lanes);
+  return e.keep(id, lanes);
 }
 
 bool is_true(Value* mask) {
@@ -34,7 +34,6 @@ Region open(FunctionEmitter& e, ValueId id, const char* name) {
   Region region{.open = id,
                 .before = e.builder().GetInsertBlock(),
                 .after = new_block(e, "after"),
-                .mask = mask,
                 .always = is_true(mask),
                 .merges = {},
                 .carries = {}};
@@ -62,23 +61,29 @@ Value* merge(FunctionEmitter& e, ValueId id) {
   for (const Merge& earlier : region.merges) {
     if (earlier.id == outer) skipped = e.spread(earlier.skipped, lanes);
   }
-  if (skipped == nullptr) skipped = use_before(e, region, outer, lanes);
+  if (skipped == nullptr) skipped = keep_before(e, region, outer, lanes);
   region.merges.push_back({id, skipped});
   Value* inner = e.use(instruction.operands[0], lanes);
   if (!e.is_wide(region.open)) return inner;  // All lanes run it, or none.
-  return e.builder().CreateSelect(region.mask, inner, e.use(outer, lanes));
+  Value* mask = e.operand(e.at(region.open), 0, lanes);
+  return e.builder().CreateSelect(mask, inner, e.use(outer, lanes));
 }
 
 Value* end_if(FunctionEmitter& e, ValueId) {
   const Region region = std::move(e.regions.back());
   e.regions.pop_back();
   BasicBlock* last = e.builder().GetInsertBlock();
+  std::vector<Value*> merged;
+  for (const Merge& merge : region.merges) {
+    merged.push_back(e.keep(merge.id, e.lanes_of(merge.id)));
+  }
   e.builder().CreateBr(region.after);
   e.builder().SetInsertPoint(region.after);
   if (region.always) return nullptr;
-  for (const Merge& merge : region.merges) {
-    llvm::PHINode* phi = e.builder().CreatePHI(e.type_of(merge.id), 2);
-    phi->addIncoming(e.defined(merge.id), last);
+  for (std::size_t k = 0; k < merged.size(); ++k) {
+    const Merge& merge = region.merges[k];
+    llvm::PHINode* phi = e.builder().CreatePHI(e.kept_type_of(merge.id), 2);
+    phi->addIncoming(merged[k], last);
     phi->addIncoming(merge.skipped, region.before);
     e.define(merge.id, phi);
   }
@@ -92,8 +97,9 @@ Value* loop(FunctionEmitter& e, ValueId id) {
   region.iteration = e.builder().CreatePHI(e.builder().getInt32Ty(), 2, "iteration");
   region.iteration->addIncoming(e.i32(0), region.before);
   if (e.is_wide(id)) {
-    region.active = e.builder().CreatePHI(region.mask->getType(), 2, "active");
-    region.active->addIncoming(region.mask, region.before);
+    region.active = e.builder().CreatePHI(e.module().kept_type(Scalar::b1, e.lanes()), 2, "active");
+    region.active->addIncoming(keep_before(e, region, e.at(id).operands[0], e.lanes()),
+                               region.before);
   }
   e.regions.push_back(std::move(region));
   return nullptr;
@@ -101,8 +107,8 @@ Value* loop(FunctionEmitter& e, ValueId id) {
 
 Value* carry(FunctionEmitter& e, ValueId id) {
   Region& region = e.regions.back();
-  Value* initial = use_before(e, region, e.at(id).operands[0], e.lanes_of(id));
-  auto* phi = llvm::PHINode::Create(e.type_of(id), 2, "", region.header->getFirstNonPHIIt());
+  Value* initial = keep_before(e, region, e.at(id).operands[0], e.lanes_of(id));
+  auto* phi = llvm::PHINode::Create(e.kept_type_of(id), 2, "", region.header->getFirstNonPHIIt());
   phi->addIncoming(initial, region.before);
   region.carries.push_back({.id = id, .phi = phi, .initial = initial});
   return phi;
@@ -116,17 +122,17 @@ Value* next(FunctionEmitter& e, ValueId id) {
   }
   const int lanes = e.lanes_of(id);
   if (region.active == nullptr) return e.use(value, lanes);
-  return e.builder().CreateSelect(region.active, e.use(value, lanes), e.use(carry, lanes));
+  return e.builder().CreateSelect(e.unkept(region.active, Scalar::b1), e.use(value, lanes),
+                                  e.use(carry, lanes));
 }
 
 Value* again(FunctionEmitter& e, ValueId id) {
   Region& region = e.regions.back();
-  const Instruction& instruction = e.at(id);
+  const ValueId condition = e.at(id).operands[0];
   if (region.active == nullptr) {
-    region.again = e.operand(instruction, 0, 1);
+    region.again = e.use(condition, 1);
   } else {
-    region.again =
-        e.builder().CreateAnd(region.active, e.operand(instruction, 0, e.lanes()), "active");
+    region.again = e.builder().CreateAnd(region.active, e.keep(condition, e.lanes()), "active");
   }
   return nullptr;
 }
@@ -137,20 +143,27 @@ Value* end_loop(FunctionEmitter& e, ValueId) {
   Builder& b = e.builder();
   Value* count = b.CreateAdd(region.iteration, e.i32(1));
   Value* below = b.CreateICmpULT(count, e.i32(e.at(region.open).imm));
-  Value* goes_on = b.CreateAnd(below, e.any(region.again));
+  Value* goes_on = b.CreateAnd(below, e.any(e.unkept(region.again, Scalar::b1)));
+  if (region.active != nullptr) {
+    region.active->addIncoming(region.again, b.GetInsertBlock());
+  }
+  std::vector<Value*> finals;
+  for (const Carry& carry : region.carries) {
+    // A carry without a next keeps its value.
+    finals.push_back(carry.next == no_value ? carry.phi
+                                            : e.keep(carry.next, e.lanes_of(carry.next)));
+  }
   BasicBlock* latch = b.GetInsertBlock();
   b.CreateCondBr(goes_on, region.header, region.after);
   region.iteration->addIncoming(count, latch);
-  if (region.active != nullptr) region.active->addIncoming(region.again, latch);
   b.SetInsertPoint(region.after);
-  for (const Carry& carry : region.carries) {
-    // A carry without a next keeps its value.
-    Value* last = carry.next == no_value ? carry.phi : e.defined(carry.next);
-    carry.phi->addIncoming(last, latch);
-    if (region.always || carry.next == no_value) continue;
+  for (std::size_t k = 0; k < finals.size(); ++k) {
+    const Carry& carry = region.carries[k];
+    carry.phi->addIncoming(finals[k], latch);
+    if (carry.next == no_value) continue;
     llvm::PHINode* final = b.CreatePHI(carry.phi->getType(), 2);
-    final->addIncoming(last, latch);
-    final->addIncoming(carry.initial, region.before);
+    final->addIncoming(finals[k], latch);
+    if (!region.always) final->addIncoming(carry.initial, region.before);
     e.define(carry.next, final);
   }
   return nullptr;

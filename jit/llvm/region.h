@@ -31,8 +31,7 @@ struct Region {
   ValueId open;
   llvm::BasicBlock* before;  ///< Ends in the branch into or around the region.
   llvm::BasicBlock* after;
-  llvm::Value* mask;  ///< The b1 of the opening instruction.
-  bool always;        ///< Nothing branches around it: the mask is a literal true.
+  bool always;  ///< Nothing branches around it: the mask is a literal true.
   std::vector<Merge> merges;
 
   // Loops only.
