@@ -13,6 +13,7 @@ struct KernelRequest {
   std::int32_t lobes = lobe_all;  ///< LobeKind bits; others are left out for good.
   bool lobe_mask = false;         ///< Lobes can be switched off by the slot "lobe_mask" too.
   bool reverse_pdf = false;       ///< The density of wo given wi as well.
+  bool evaluate_at = false;       ///< Also evaluate for one point and many directions.
 };
 
 /// The recorded entry points of one surface: named values for `slice`, all of

@@ -8,6 +8,7 @@
 #include "jit/graph/find.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
+#include "runtime/program/fix_inputs.h"
 #include "runtime/program/slice.h"
 
 namespace nacre {
@@ -66,7 +67,11 @@ class Compilation {
   std::optional<BoundKernel> kernel(const char* name, const std::vector<SliceOutput>& outputs,
                                     Keeps keeps, std::vector<StageReport>& stages) {
     if (outputs.empty()) return std::nullopt;
-    Program program = slice(recorder_.program(), name, outputs, keeps);
+    return finish(name, slice(recorder_.program(), name, outputs, keeps), stages);
+  }
+
+  std::optional<BoundKernel> finish(const char* name, Program program,
+                                    std::vector<StageReport>& stages) {
     std::vector<StageReport> reports;
     std::shared_ptr<const Kernel> compiled =
         compile(std::move(program), options_.compile, service_, diagnostics_, &reports);
@@ -216,6 +221,14 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
   auto& stages = kernels->stages;
   kernels->sample = compilation.kernel("sample", recorded.sample, Keeps::load, stages);
   kernels->evaluate = compilation.kernel("evaluate", recorded.evaluate, Keeps::load, stages);
+  if (options.kernels.evaluate_at && !recorded.evaluate.empty()) {
+    const Program evaluate =
+        slice(compilation.recorder().program(), "evaluate_at", recorded.evaluate, Keeps::load);
+    kernels->evaluate_at = compilation.finish(
+        "evaluate_at",
+        fix_inputs(evaluate, [](std::string_view channel) { return !channel.starts_with("wi."); }),
+        stages);
+  }
   kernels->albedo = compilation.kernel("albedo", recorded.albedo, Keeps::pass, stages);
   kernels->emission = compilation.kernel("emission", recorded.emission, Keeps::pass, stages);
   kernels->opacity = compilation.kernel("opacity", recorded.opacity, Keeps::pass, stages);

@@ -53,6 +53,10 @@ struct MaterialKernels {
   /// Stores the state channels "state.<k>" that sample and evaluate read.
   std::optional<BoundKernel> begin;
   std::optional<BoundKernel> sample, evaluate, albedo, emission, opacity;
+  /// Only if requested: evaluate for one point and n directions. Its inputs are
+  /// wi.*; every other channel of evaluate, state and geometry, is a slot of the
+  /// parameter block under the channel's name, for the host to fill from the point.
+  std::optional<BoundKernel> evaluate_at;
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
   std::vector<std::string> lobes;
