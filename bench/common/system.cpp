@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "jit/document/read.h"
-#include "jit/service/compile_service.h"
 
 namespace nacre::bench {
 
@@ -19,6 +18,8 @@ namespace {
   std::exit(2);
 }
 
+}  // namespace
+
 CompileService& compile_service() {
   static const std::unique_ptr<CompileService> service = [] {
     Diagnostics diagnostics;
@@ -27,8 +28,6 @@ CompileService& compile_service() {
   }();
   return *service;
 }
-
-}  // namespace
 
 ShadingSystem& shading_system() {
   static const std::unique_ptr<ShadingSystem> system = [] {

@@ -7,6 +7,7 @@
 #include "bench/common/kernel_run.h"
 #include "jit/compile.h"
 #include "jit/document/document.h"
+#include "jit/service/compile_service.h"
 #include "jit/shading/shading_system.h"
 #include "runtime/program/slice.h"
 
@@ -15,6 +16,9 @@ namespace nacre::bench {
 /// The shading system that a benchmark program measures: the MaterialX library, no
 /// cache on disk, one compiling thread. Ends the program where there is no library.
 ShadingSystem& shading_system();
+
+/// A compiler without a cache, for Programs that are no document's.
+CompileService& compile_service();
 
 /// A document of bench/documents, "chain.mtlx". Ends the program where it can't be read.
 const Document& bench_document(const std::string& file);
