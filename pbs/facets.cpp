@@ -71,7 +71,7 @@ Float grey(Color3 colour) {
   return one ? colour.x : average(colour);
 }
 
-Float finite(Float x) { return min(max(x, 0.0f), 1e30f); }
+Float finite(Float x) { return min(max(x, 0.0f), 1e20f); }
 
 Bool is_unit(Float3 w) { return abs(dot(w, w) - 1.0f) < 1e-3f; }
 

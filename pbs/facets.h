@@ -68,7 +68,7 @@ Color3 prepare_tint(Recorder& recorder, Color3 tint);
 /// The mean of the channels; nothing to record where they are one value.
 Float grey(Color3 colour);
 
-/// min(max(x, 0), 1e30): finite for any bits.
+/// min(max(x, 0), 1e20): finite for any bits, also times a tint and a weight.
 Float finite(Float x);
 /// Whether w is a unit vector; false for NaN.
 Bool is_unit(Float3 w);

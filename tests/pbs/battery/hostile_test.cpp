@@ -40,7 +40,7 @@ void hostile_directions(Columns& columns, const std::string& name, Random& rando
 Columns hostile_columns(std::uint64_t seed) {
   Random random(seed);
   Columns columns = lobe_columns(0.0f);
-  for (const char* name : {"roughness", "color.x", "color.y", "color.z", "weight"}) {
+  for (const char* name : {"roughness", "color.x", "color.y", "color.z", "weight", "index"}) {
     std::vector<float>& column = columns[name];
     column.resize(count);
     for (float& x : column) x = hostile(random);

@@ -24,6 +24,23 @@ Ports metal(const LobeInputs& in, float n, float k, float stretch) {
           {"roughness", roughness(alpha, min(stretch * alpha, 1.0f))}};
 }
 
+Ports glass(const LobeInputs& in, const char* mode) {
+  const Float alpha = square(in.roughness);
+  return {{"tint", color(in.color)},
+          {"ior", number(in.index)},
+          {"roughness", roughness(alpha, alpha)},
+          {"scatter_mode", text(mode)}};
+}
+/// From a tenth of the colour at normal incidence to all of it at grazing.
+Ports schlick(const LobeInputs& in, const char* mode) {
+  const Float alpha = square(in.roughness);
+  return {{"color0", color(in.color * Color3(0.1f))},
+          {"color82", color(in.color)},
+          {"color90", color(in.color)},
+          {"roughness", roughness(alpha, alpha)},
+          {"scatter_mode", text(mode)}};
+}
+
 }  // namespace
 
 const std::vector<LobeCase>& lobe_cases() {
@@ -80,6 +97,16 @@ const std::vector<LobeCase>& lobe_cases() {
        .ports = [](In in) { return metal(in, 0.2f, 3.0f, 4.0f); },
        .albedo_error = 8e-2,
        .reciprocity = 3.08},
+      {.name = "dielectric_reflection",
+       .category = "dielectric_bsdf",
+       .ports = [](In in) { return glass(in, "R"); },
+       .albedo_error = 1e-2,
+       .reciprocity = 0.0},
+      {.name = "schlick_reflection",
+       .category = "generalized_schlick_bsdf",
+       .ports = [](In in) { return schlick(in, "R"); },
+       .albedo_error = 1e-2,
+       .reciprocity = 0.0},
   };
   return cases;
 }

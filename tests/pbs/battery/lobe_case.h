@@ -13,6 +13,7 @@ namespace nacre {
 struct LobeInputs {
   Float roughness;  ///< As an artist sets it; microfacets get its square.
   Color3 color;
+  Float index;  ///< Of refraction.
 };
 
 /// What a lobe promises of the light that it sends back where its colour is white.

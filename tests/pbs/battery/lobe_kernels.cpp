@@ -35,7 +35,8 @@ LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile)
   Recorder recorder;
   const auto channel = [&](const char* name) { return input(recorder, name); };
   const LobeInputs inputs{.roughness = channel("roughness"),
-                          .color = {channel("color.x"), channel("color.y"), channel("color.z")}};
+                          .color = {channel("color.x"), channel("color.y"), channel("color.z")},
+                          .index = channel("index")};
   Ports more;
   if (hostile) {
     more["weight"] = number(channel("weight"));
@@ -68,7 +69,7 @@ LobeKernels::LobeKernels(const LobeCase& row, Accuracy accuracy) {
 }
 
 Columns lobe_columns(float roughness) {
-  return {{"roughness", {roughness}}, {"color.x", {1.0f}}, {"color.y", {1.0f}},
+  return {{"roughness", {roughness}}, {"color.x", {1.0f}}, {"color.y", {1.0f}}, {"index", {1.5f}},
           {"color.z", {1.0f}},        {"N.z", {1.0f}},     {"T.x", {1.0f}}};
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t seed = 20261121;
 constexpr std::size_t sample_count = 100'000;
 constexpr float roughnesses[] = {0.05f, 0.1f, 0.3f, 0.6f, 1.0f};
-constexpr double angles[] = {0.0, 30.0, 60.0, 80.0, 85.0, 130.0};
+constexpr double angles[] = {0.0, 30.0, 60.0, 80.0, 85.0, 130.0, 160.0};
 
 std::vector<float> roughnesses_of(const LobeCase& row) {
   std::vector<float> list;
