@@ -58,6 +58,7 @@ struct Timed {
       benchmark::ClobberMemory();
     }
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * batch_points));
+    for (const auto& [name, value] : run->counters) state.counters[name] = value;
   }
 };
 

@@ -34,6 +34,9 @@ class KernelRun {
   /// The array of an input or output, four bytes an element.
   const float* input(const std::string& channel) const;
 
+  /// What the benchmark tells besides the time.
+  std::map<std::string, double> counters;
+
  private:
   std::shared_ptr<const void> kept_;
   BoundKernel kernel_;
