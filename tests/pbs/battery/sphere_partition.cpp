@@ -21,8 +21,8 @@ constexpr double node_weight[nodes] = {0.0856622461895852, 0.1803807865240693, 0
 
 Direction at(double z, double phi) {
   const double sine = std::sqrt((1.0 - z) * (1.0 + z));
-  return {static_cast<float>(sine * std::cos(phi)), static_cast<float>(sine * std::sin(phi)),
-          static_cast<float>(z)};
+  return {static_cast<float>(sine * std::cos(phi)), static_cast<float>(z),
+          static_cast<float>(sine * std::sin(phi))};
 }
 
 }  // namespace
@@ -110,13 +110,13 @@ bool SpherePartition::converged(const Cell& parent) const {
     f += cells_[parent.child + k].f;
   }
   const auto close = [&](double a, double b) {
-    return std::abs(a - b) * samples_ <= 0.02 * std::sqrt(std::max(b * samples_, 1.0));
+    return std::abs(a - b) * samples_ <= 0.01 * std::sqrt(std::max(b * samples_, 1.0));
   };
   return close(parent.pdf, pdf) && close(parent.f, f);
 }
 
 SpherePartition::Place SpherePartition::place(Direction w) {
-  const double x = w.x, y = w.y, z = w.z;
+  const double x = w.x, y = w.z, z = w.y;
   const double across2 = x * x + y * y;
   const double length = std::sqrt(across2 + z * z);
   // 1 - |cos| by the sine: float directions near the pole have no digits in z.

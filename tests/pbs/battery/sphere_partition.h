@@ -8,10 +8,11 @@
 namespace nacre {
 
 /// The sphere cut into cells over which pdf and f are integrated: a grid in
-/// cos(theta) and phi about z, cut in four wherever the integral is not exact
-/// enough to be compared with `samples` random samples, or where a cell holds
-/// more than a 300th of them. Exact enough: Gauss-Legendre quadrature of a cell
-/// and of its quarters differ by less than a 50th of the samples' deviation.
+/// cos(theta) and phi about the y axis (a lobe at the pole, where mirrors look
+/// along the normal, would need cells as thin as needles), cut in four wherever the integral is not
+/// exact enough to be compared with `samples` random samples, or where a cell holds more than a
+/// 300th of them. Exact enough: Gauss-Legendre quadrature of a cell and of its quarters differ by
+/// less than a 100th of the samples' deviation.
 class SpherePartition {
  public:
   using Evaluate = std::function<Evaluated(const std::vector<Direction>&)>;
