@@ -33,7 +33,8 @@ GgxInterface ggx_leaving(Recorder& recorder, const GgxView& view, Float eta, Flo
              table_axes::within_critical(cosine, alpha, critical));
   const std::vector<Float> found = look_up(recorder, "ggx_leaving", ggx_leaving_table(), angle,
                                            table_axes::roughness(alpha), table_axes::index(eta));
-  return {saturate(found[0]), saturate(found[1]), saturate(found[2] * perfect)};
+  const Float mirror = table_axes::mirror_share(alpha) * fresnel_dielectric(cosine, eta);
+  return {saturate(found[0] + mirror), saturate(found[1]), saturate(found[2] * perfect)};
 }
 
 GgxInterface ggx_entering(Recorder& recorder, const GgxView& view, Float eta) {

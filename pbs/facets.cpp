@@ -40,6 +40,8 @@ Float3 prepare_normal(Recorder& recorder, Float3 given) {
 
 Float relative_index(Float index, Bool inside) { return select(inside, 1.0f / index, index); }
 
+Bool goes_straight(Float index) { return abs(index - 1.0f) < 1e-3f; }
+
 Color3 FacetFresnel::mean(Recorder& recorder, const GgxReflection& reflection, const GgxView& view,
                           Bool inside) const {
   const auto plain = [&] { return reflection.mean([&](Float c) { return at(c, inside); }); };
@@ -63,6 +65,12 @@ Float prepare_weight(NodeCall& call) {
 
 Color3 prepare_tint(Recorder& recorder, Color3 tint) {
   return keep(recorder, min(max(tint, Color3(0.0f)), Color3(1e6f)));
+}
+
+ThinFilm prepare_film(NodeCall& call) {
+  ThinFilm film(call.number("thinfilm_thickness"), call.number("thinfilm_ior"), call.accuracy());
+  if (film.exists()) visit(film, [&](Float& x) { x = keep(call.recorder(), x); });
+  return film;
 }
 
 Float grey(Color3 colour) {

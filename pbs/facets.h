@@ -5,6 +5,7 @@
 #include "pbs/energy.h"
 #include "pbs/lobe.h"
 #include "pbs/microfacet.h"
+#include "pbs/thin_film.h"
 #include "runtime/node/node_call.h"
 #include "runtime/value/control.h"
 
@@ -41,6 +42,10 @@ Float3 prepare_normal(Recorder& recorder, Float3 normal);
 /// Index of the side beyond over the viewer's.
 Float relative_index(Float index, Bool inside);
 
+/// Too little to bend light: the facets' equations lose all digits, and rays go
+/// straight through instead.
+Bool goes_straight(Float index);
+
 /// The Fresnel factor of facets; its members are prepared and kept.
 class FacetFresnel {
  public:
@@ -64,6 +69,9 @@ using FacetFresnelPtr = std::shared_ptr<const FacetFresnel>;
 Float prepare_weight(NodeCall& call);
 /// A colour that scales a lobe: at least 0, finite.
 Color3 prepare_tint(Recorder& recorder, Color3 tint);
+
+/// From the inputs thinfilm_thickness (nm) and thinfilm_ior; kept.
+ThinFilm prepare_film(NodeCall& call);
 
 /// The mean of the channels; nothing to record where they are one value.
 Float grey(Color3 colour);

@@ -47,8 +47,6 @@ Refraction refract(Float3 wo, Float3 h, Float cosine, Float eta) {
   return {wi, (squared > 0.0f) & (wi.z < 0.0f)};
 }
 
-Bool goes_straight(Float index) { return abs(index - 1.0f) < 1e-3f; }
-
 MicrofacetTransmission::MicrofacetTransmission(Recorder& recorder, Facets facets, Float index,
                                                Color3 tint, std::string_view name)
     : facets_(std::move(facets)),

@@ -35,10 +35,6 @@ void visit(Refraction& refraction, F&& f) {
 }
 Refraction refract(Float3 wo, Float3 h, Float cosine, Float eta);
 
-/// Too little to bend light: the facets' equations lose all digits, and rays go
-/// straight through instead.
-Bool goes_straight(Float index);
-
 /// Light refracted once by GGX facets, without a Fresnel factor: the layer above
 /// has taken what is reflected. Scaled so that all light passes but for total
 /// reflection. Smooth surfaces refract like glass. An index within 1e-3 of 1

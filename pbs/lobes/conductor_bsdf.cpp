@@ -8,24 +8,28 @@ namespace {
 /// Complex index n + ik relative to vacuum, on either side.
 class ConductorFresnel final : public FacetFresnel {
  public:
-  ConductorFresnel(Recorder& recorder, Color3 n, Color3 k)
-      : n_(keep(recorder, bounded(n))), k_(keep(recorder, bounded(k))) {}
+  ConductorFresnel(Recorder& recorder, Color3 n, Color3 k, const ThinFilm& film)
+      : n_(keep(recorder, bounded(n))), k_(keep(recorder, bounded(k))), film_(film) {}
 
-  Color3 at(Float cosine, Bool) const override { return fresnel_conductor(cosine, n_, k_); }
+  Color3 at(Float cosine, Bool) const override {
+    const Color3 bare = fresnel_conductor(cosine, n_, k_);
+    return film_.exists() ? film_.reflectance(cosine, 1.0f, n_, k_, bare) : bare;
+  }
 
  private:
   /// To what float can square twice; reflectance 1 - 4e-4 there.
   static Color3 bounded(Color3 x) { return min(max(x, Color3(0.0f)), Color3(1e4f)); }
 
   Color3 n_, k_;
+  ThinFilm film_;
 };
 
 }  // namespace
 
 void record_closure_conductor_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  auto fresnel =
-      std::make_shared<ConductorFresnel>(recorder, call.vector3("ior"), call.vector3("extinction"));
+  auto fresnel = std::make_shared<ConductorFresnel>(recorder, call.vector3("ior"),
+                                                    call.vector3("extinction"), prepare_film(call));
   auto lobe = std::make_shared<MicrofacetReflection>(
       prepare_facets(call), std::move(fresnel),
       MicrofacetReflection::Options{.name = "conductor_bsdf",

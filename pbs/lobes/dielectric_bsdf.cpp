@@ -8,18 +8,26 @@ namespace {
 /// Index of the inside over the outside, real; seen from inside it inverts.
 class DielectricFresnel final : public FacetFresnel {
  public:
-  DielectricFresnel(Recorder& recorder, Float index) : index_(keep(recorder, index)) {}
+  DielectricFresnel(Recorder& recorder, Float index, const ThinFilm& film)
+      : index_(keep(recorder, index)), film_(film) {}
 
   Color3 at(Float cosine, Bool inside) const override {
-    return Color3(fresnel_dielectric(cosine, relative_index(index_, inside)));
+    const Float eta = relative_index(index_, inside);
+    const Color3 bare(fresnel_dielectric(cosine, eta));
+    if (!film_.exists()) return bare;
+    const Float before = select(inside, index_, 1.0f);
+    const Float behind = select(inside, 1.0f, index_);
+    const Color3 film = film_.reflectance(cosine, before, Color3(behind), Color3(0.0f), bare);
+    return select(totally_reflected(cosine, eta), Color3(1.0f), film);
   }
 
   Float index() const override { return index_; }
   bool has_inside() const override { return true; }
-  bool is_dielectric() const override { return true; }
+  bool is_dielectric() const override { return !film_.exists(); }
 
  private:
   Float index_;
+  ThinFilm film_;
 };
 
 }  // namespace
@@ -28,7 +36,7 @@ void record_closure_dielectric_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Float index = clamp(call.number("ior"), 0.02f, 50.0f);
   const Color3 tint = prepare_tint(recorder, call.vector3("tint"));
-  const auto fresnel = std::make_shared<DielectricFresnel>(recorder, index);
+  const auto fresnel = std::make_shared<DielectricFresnel>(recorder, index, prepare_film(call));
   const MicrofacetReflection::Options options{
       .name = "dielectric_bsdf", .tint = tint, .retroreflective = call.boolean("retroreflective")};
   call.set(std::make_shared<LobeBsdf>(

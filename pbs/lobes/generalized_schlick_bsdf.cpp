@@ -12,10 +12,14 @@ namespace {
 /// of which there is no inside. Where the light that is not reflected passes (RT),
 /// the inside sees what the outside sees along the refracted ray, and all of it
 /// beyond the critical angle.
+///
+/// Under a film the curve gives way to dielectrics whose reflectances are color0:
+/// a curve has no phase, and its colours are for light from vacuum.
 class SchlickFresnel final : public FacetFresnel {
  public:
-  SchlickFresnel(Recorder& recorder, const SchlickCurve& curve, bool two_sided)
-      : curve_(curve), two_sided_(two_sided) {
+  SchlickFresnel(Recorder& recorder, const SchlickCurve& curve, bool two_sided,
+                 const ThinFilm& film)
+      : curve_(curve), two_sided_(two_sided), film_(film) {
     curve_.color0 = keep(recorder, curve_.color0);
     curve_.color90 = keep(recorder, curve_.color90);
     curve_.dip = keep(recorder, curve_.dip);
@@ -24,20 +28,30 @@ class SchlickFresnel final : public FacetFresnel {
   }
 
   Color3 at(Float cosine, Bool inside) const override {
-    if (two_sided_) return curve_.at(cosine);
+    if (two_sided_) return filmed(cosine, curve_.at(cosine));
     const Float eta = 1.0f / index_;
     const Float squared = fma(cosine, cosine, (eta - 1.0f) * (eta + 1.0f));
     const Float refracted = min(safe_sqrt(squared) * index_, 1.0f);
-    const Color3 curve = curve_.at(select(inside, refracted, cosine));
-    return select(inside & (squared <= 0.0f), Color3(1.0f), curve);
+    const Float outer = select(inside, refracted, cosine);
+    // What a film reflects is the same from both sides along one path of light.
+    return select(inside & (squared <= 0.0f), Color3(1.0f), filmed(outer, curve_.at(outer)));
   }
 
   Float index() const override { return index_; }
   bool has_inside() const override { return !two_sided_; }
 
  private:
+  Color3 filmed(Float cosine, Color3 bare) const {
+    if (!film_.exists()) return bare;
+    const Color3 indices{index_of_reflectance(curve_.color0.x),
+                         index_of_reflectance(curve_.color0.y),
+                         index_of_reflectance(curve_.color0.z)};
+    return film_.reflectance(cosine, 1.0f, indices, Color3(0.0f), bare);
+  }
+
   SchlickCurve curve_;
   bool two_sided_;
+  ThinFilm film_;
   Float index_;
 };
 
@@ -48,7 +62,8 @@ void record_closure_generalized_schlick_bsdf(NodeCall& call) {
   const std::string& mode = call.text("scatter_mode");
   const SchlickCurve curve(call.vector3("color0"), call.vector3("color82"), call.vector3("color90"),
                            call.number("exponent"));
-  const auto fresnel = std::make_shared<SchlickFresnel>(recorder, curve, mode != "RT");
+  const auto fresnel =
+      std::make_shared<SchlickFresnel>(recorder, curve, mode != "RT", prepare_film(call));
   const MicrofacetReflection::Options options{.name = "generalized_schlick_bsdf",
                                               .retroreflective = call.boolean("retroreflective"),
                                               .grey_throughput = true};

@@ -67,6 +67,14 @@ T within_critical(T cosine, T alpha, T critical) {
   return T(0.6) + T(0.4) * steep(most(cosine - critical, T(0.0)) / room, width);
 }
 
+/// How much of the view's own Fresnel factor is left out of the mean one in the
+/// table of light that leaves: all for a mirror, whose mean has a kink that no
+/// table holds; nothing from alpha = 0.04 on, where the mean has none.
+template <class T>
+T mirror_share(T alpha) {
+  return most(T(1.0) - T(5.0) * sqrt(alpha), T(0.0));
+}
+
 }  // namespace table_axes
 
 }  // namespace nacre

@@ -129,7 +129,8 @@ std::vector<double> entering(double cosine, double alpha, double eta) {
 
 std::vector<double> leaving(double cosine, double alpha, double eta) {
   const Interface sum = interface(cosine, alpha, 1.0 / eta);
-  return {sum.reflected / sum.perfect, sum.passing,
+  const double mirror = nacre::table_axes::mirror_share(alpha) * fresnel(cosine, 1.0 / eta);
+  return {sum.reflected / sum.perfect - mirror, sum.passing,
           (sum.reflected + sum.transmitted) / sum.perfect};
 }
 
@@ -164,7 +165,7 @@ void write(const char* name, int angles, int roughnesses, int indices, Axis axis
     const double offset = indices == 1 ? 0.0 : std::pow(0.8 * k / (indices - 1), 2);
     const double eta = std::max((1.0 + offset) / (1.0 - offset), 1.0 + 1e-6);
     for (int j = 0; j < roughnesses; ++j) {
-      const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-4);
+      const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-8);
       for (int i = 0; i < angles; ++i) {
         const double cosine =
             invert(double(i) / (angles - 1), [&](double c) { return axis(c, alpha, eta); });
