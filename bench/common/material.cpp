@@ -74,6 +74,10 @@ std::unique_ptr<KernelRun> run_material(const Graph& graph, ParameterMode parame
       RecordedMaterial::record(graph, options.accuracy, parameters, error);
   if (material == nullptr) return nullptr;
   const auto make = [&](Entry wanted, const Columns& given) -> std::unique_ptr<KernelRun> {
+    if (wanted == Entry::begin && material->state().empty()) {
+      error = "nothing to do";
+      return nullptr;
+    }
     Diagnostics diagnostics;
     auto kernel = compile(material->program(wanted), options, &compile_service(), diagnostics);
     error = diagnostics.to_string();
