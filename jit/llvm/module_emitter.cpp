@@ -57,13 +57,9 @@ llvm::Function* ModuleEmitter::instance(std::uint32_t index, int lanes) {
   std::vector<llvm::Type*> results;
   for (const Scalar result : function.results) results.push_back(kept_type(result, lanes));
   llvm::StructType* result = llvm::StructType::get(context(), results);
-  auto* made = llvm::Function::Create(
-      llvm::FunctionType::get(result, arguments, false), llvm::GlobalValue::InternalLinkage,
-      fmt::format("{}.{}.w{}", function.name, index, lanes), module_);
+  llvm::Function* made = add_function(fmt::format("{}.{}.w{}", function.name, index, lanes),
+                                      llvm::FunctionType::get(result, arguments, false));
   known = made;
-  made->setCallingConv(llvm::CallingConv::Fast);
-  made->addFnAttr(llvm::Attribute::NoInline);
-  set_attributes(*made);
 
   FunctionEmitter emitter(*this, function, *made, lanes);
   emitter.kernel_arguments = made->getArg(0);
@@ -73,6 +69,14 @@ llvm::Function* ModuleEmitter::instance(std::uint32_t index, int lanes) {
     all = emitter.builder().CreateInsertValue(all, emitter.gives[i], i);
   }
   emitter.builder().CreateRet(all);
+  return made;
+}
+
+llvm::Function* ModuleEmitter::add_function(const std::string& name, llvm::FunctionType* type) {
+  auto* made = llvm::Function::Create(type, llvm::GlobalValue::InternalLinkage, name, module_);
+  made->setCallingConv(llvm::CallingConv::Fast);
+  made->addFnAttr(llvm::Attribute::NoInline);
+  set_attributes(*made);
   return made;
 }
 

@@ -48,6 +48,9 @@ class ModuleEmitter {
   /// lanes = 1. Emitted when first asked for.
   llvm::Function* instance(std::uint32_t index, int lanes);
 
+  /// A function that only this module calls, by the fast convention; never inlined.
+  llvm::Function* add_function(const std::string& name, llvm::FunctionType* type);
+
   /// A read-only array that loads may index.
   llvm::GlobalVariable* table_data(std::uint32_t index);
   /// 1.0, but LLVM must not know. See flush() in function_emitter.h.

@@ -11,8 +11,8 @@ using Table = std::array<EmitOp, op_count>;
 
 Table make_table() {
   Table table{};
-  for (const auto& group : {leaf_ops(), float_ops(), integer_ops(), conversion_ops(), memory_ops(),
-                            region_ops(), call_ops()}) {
+  for (const auto& group : {leaf_ops(), float_ops(), integer_ops(), conversion_ops(), table_ops(),
+                            texel_ops(), region_ops(), call_ops()}) {
     for (const auto& [op, emit] : group) table[static_cast<std::size_t>(op)] = emit;
   }
   return table;

@@ -16,8 +16,9 @@ OpGroup leaf_ops();
 OpGroup float_ops();
 OpGroup integer_ops();
 OpGroup conversion_ops();
-OpGroup memory_ops();
 OpGroup region_ops();
 OpGroup call_ops();
+OpGroup table_ops();
+OpGroup texel_ops();
 
 }  // namespace nacre::codegen

@@ -1,0 +1,50 @@
+#include "jit/llvm/texel_run.h"
+
+#include <algorithm>
+
+namespace nacre::codegen {
+
+namespace {
+
+/// A word's number as a value and a constant added to it.
+struct Place {
+  ValueId base;
+  std::uint32_t offset;
+};
+
+Place place_of(const Function& function, ValueId word) {
+  const Instruction& instruction = function.code[word];
+  if (instruction.op != Op::iadd) return {word, 0};
+  for (const std::size_t k : {0u, 1u}) {
+    const Instruction& constant = function.code[instruction.operands[k]];
+    if (constant.op == Op::constant) return {instruction.operands[1 - k], constant.imm};
+  }
+  return {word, 0};
+}
+
+/// Instructions after the first that are looked through.
+constexpr std::size_t horizon = 64;
+
+}  // namespace
+
+std::vector<ValueId> texel_run(const Function& function, ValueId first) {
+  const Instruction& start = function.code[first];
+  const Place place = place_of(function, start.operands[1]);
+  std::vector<ValueId> run(4, no_value);
+  run[0] = first;
+  const std::size_t end = std::min(function.code.size(), first + horizon);
+  for (std::size_t i = first + 1; i < end; ++i) {
+    const Instruction& instruction = function.code[i];
+    if (opens_region(instruction.op) || closes_region(instruction.op)) break;
+    if (instruction.op != Op::texel || instruction.operands[0] != start.operands[0]) continue;
+    const Place other = place_of(function, instruction.operands[1]);
+    const std::uint32_t distance = other.offset - place.offset;
+    if (other.base != place.base || distance == 0 || distance >= run.size()) continue;
+    if (run[distance] == no_value) run[distance] = static_cast<ValueId>(i);
+  }
+  const auto there = static_cast<std::size_t>(std::ranges::find(run, no_value) - run.begin());
+  run.resize(there == 4 ? 4 : there >= 2 ? 2 : 1);
+  return run;
+}
+
+}  // namespace nacre::codegen
