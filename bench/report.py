@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+"""Turns the results of one run of the benchmarks into Markdown tables and plots.
+
+    bench/report.py build/bench-results --out bench/results
+"""
+
+import argparse
+import pathlib
+import platform
+
+import plots
+import results
+
+PEERS = ("chain", "fractal", "conductor")
+FILTERS = ("closest", "bilinear", "trilinear")
+WIDTHS = (1, 4, 8, 16)
+
+
+def table(head: list[str], rows: list[list[str]]) -> str:
+    align = ["---"] + ["---:"] * (len(head) - 1)
+    return "\n".join("| " + " | ".join(row) + " |" for row in [head, align, *rows]) + "\n"
+
+
+def number(x: float | None) -> str:
+    if x is None:
+        return "–"
+    return f"{x:.3g}" if x < 100 else f"{x:.0f}"
+
+
+def cell(figure: results.Figure | None) -> str:
+    if figure is None:
+        return "–"
+    noise = f" ±{100 * figure.noise:.0f}%" if figure.noise >= 0.03 else ""
+    return number(figure.median) + noise
+
+
+def ratio(a: results.Figure | None, b: results.Figure | None) -> float | None:
+    return a.median / b.median if a and b else None
+
+
+def cpu_model() -> str:
+    try:
+        for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    except OSError:
+        pass
+    return platform.processor()
+
+
+def machine(run: results.Run) -> str:
+    context = run.context
+    return (f"{cpu_model()} (LLVM: {context.get('cpu')}), {context['num_cpus']} CPUs, "
+            f"{platform.system()}; peers by {context.get('peer_compiler', '?')}; "
+            f"run {context['run']}. One thread, 4096 points a batch, ns a point unless said "
+            "otherwise; medians, with the median absolute deviation where it is 3 % or more.\n")
+
+
+def acceptance(run: results.Run) -> str:
+    rows = []
+
+    def row(what: str, target: float | None, value: float | None, unit: str = "×",
+            below: bool = False) -> None:
+        if value is None:
+            rows.append([what, "–", "not measured", ""])
+            return
+        met = target is None or (value <= target if below else value >= target)
+        goal = "report" if target is None else f"{'≤' if below else '≥'} {target:g} {unit}"
+        rows.append([what, goal, f"{number(value)} {unit}", "yes" if met else "**no**"])
+
+    for name in PEERS:
+        subject = f"peers/{name}"
+        best = run.best_jit(subject)
+        if best is None:
+            continue
+        lanes, figure = best
+        row(f"{name}: JIT (W = {lanes}) against xsimd by hand", 0.9,
+            ratio(run.get(f"{subject}/xsimd"), figure))
+        row(f"{name}: W = {lanes} against W = 1", 8 if name == "chain" else 6,
+            ratio(run.get(f"{subject}/jit_w1/standard"), figure))
+        row(f"{name}: JIT against interpreter", 3,
+            ratio(run.get(f"{subject}/interpreter/standard"), figure))
+    for name in FILTERS:
+        for pattern, target in (("coherent", 8), ("random", 5)):
+            subject = f"textures/{name}/{pattern}"
+            best = run.best_jit(subject)
+            row(f"texture, {name}, {pattern}: against OpenImageIO", target,
+                ratio(run.get(f"{subject}/oiio"), best[1] if best else None))
+    for entry in ("begin", "sample", "evaluate"):
+        subject = "materials/standard_surface"
+        row(f"standard_surface {entry}: folded against live parameters", None,
+            ratio(run.get(f"{subject}/live/{entry}/jit_w16/standard"),
+                  run.get(f"{subject}/frozen/{entry}/jit_w16/standard")))
+    load = [run.get(f"latency/{stage}") for stage in ("library_load", "document_load")]
+    row("library and document load", 15,
+        sum(f.median for f in load) / 1e6 if all(load) else None, "ms", True)
+    for stage, target in (("interpreter_first_batch", 10), ("cold_compile", 150),
+                          ("cache_hit", 2)):
+        for case in ("folded", "live"):
+            figure = run.get(f"latency/{stage}/{case}")
+            row(f"standard_surface, {stage.replace('_', ' ')}, {case}", target,
+                figure.median / 1e6 if figure else None, "ms", True)
+    return table(["what", "target", "measured", "met"], rows)
+
+
+def variants(run: results.Run, top: str, columns: list[tuple[str, str]]) -> str:
+    rows = [[name] + [cell(run.get(f"{top}/{name}/{variant}")) for _, variant in columns]
+            for name in run.below(top)]
+    return table([top.removesuffix("s")] + [title for title, _ in columns], rows)
+
+
+WIDE = [(f"W = {w}", f"jit_w{w}/standard") for w in WIDTHS]
+MODES = [("precise", "jit_w16/precise"), ("fast", "jit_w16/fast")]
+SLOW = [("interpreter", "interpreter/standard")]
+
+
+def functions(run: results.Run) -> str:
+    columns = [(f"{mode}, W = {w}", f"jit_w{w}/{mode}") for mode in ("precise", "standard", "fast")
+               for w in (1, 16)]
+    return variants(run, "functions", columns + SLOW)
+
+
+def materials(run: results.Run) -> str:
+    text = variants(run, "materials", WIDE + MODES + SLOW)
+    rows = []
+    for name in run.below("materials"):
+        figure = run.get(f"materials/{name}/jit_w16/standard")
+        if figure and name.endswith("/evaluate"):
+            rows.append([name.removesuffix("/evaluate"), number(figure.counters["state_bytes"])])
+    return text + "\n" + table(["material", "state, bytes a point"], rows)
+
+
+def latency(run: results.Run) -> str:
+    names = sorted(name for name in run.figures if name.startswith("latency/"))
+    stages = []
+    for stage in ("read", "graph", "record", "slice", "derive", "contract", "expand_math", "run",
+                  "emit", "optimize", "codegen", "link", "cache"):
+        if any(f"{stage}_ms" in run.figures[name].counters for name in names):
+            stages.append(stage)
+    rows = []
+    for name in names:
+        figure = run.figures[name]
+        rows.append([name.removeprefix("latency/"), number(figure.median / 1e6)] +
+                    [number(figure.counters.get(f"{stage}_ms")) for stage in stages])
+    return "Milliseconds.\n\n" + table(["what", "all"] + stages, rows)
+
+
+PAGES = {
+    "acceptance": ("The figures the project promises", acceptance),
+    "closures": ("Lobes", lambda run: variants(run, "closures", WIDE + MODES + SLOW)),
+    "functions": ("Transcendental functions", functions),
+    "latency": ("Latency", latency),
+    "materials": ("Shading models", materials),
+    "nodes": ("Nodes", lambda run: variants(
+        run, "nodes", [("W = 1", "jit_w1/standard"), ("W = 16", "jit_w16/standard")] + SLOW)),
+    "peers": ("Kernels against the same formula by hand",
+              lambda run: variants(run, "peers", WIDE + MODES + SLOW + [("xsimd", "xsimd")])),
+    "textures": ("Texture look-ups, RGBA8, 2048²",
+                 lambda run: variants(run, "textures", WIDE + SLOW + [("OpenImageIO", "oiio")])),
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("results", type=pathlib.Path)
+    parser.add_argument("--out", type=pathlib.Path, required=True)
+    arguments = parser.parse_args()
+    run = results.Run(arguments.results)
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    for name, (title, write) in PAGES.items():
+        page = f"# {title}\n\n{machine(run)}\n{write(run)}"
+        (arguments.out / f"{name}.md").write_text(page, encoding="utf-8")
+    print(acceptance(run))
+    for name, message in run.errors.items():
+        if message != "nothing to do":
+            print(f"not timed: {name}: {message}")
+    plots.draw(run, arguments.out)
+
+
+if __name__ == "__main__":
+    main()
