@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <llvm/Support/MemoryBuffer.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
@@ -38,10 +40,26 @@ orc::SymbolMap library_functions(orc::ExecutionSession& session) {
   return symbols;
 }
 
+/// Whether the system lets written memory become executable. Hardened ones don't
+/// (SELinux without execmem, PR_SET_MDWE).
+bool may_make_code() {
+  const long page = sysconf(_SC_PAGESIZE);
+  const auto size = static_cast<std::size_t>(page);
+  void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return false;
+  const bool may = mprotect(memory, size, PROT_READ | PROT_EXEC) == 0;
+  munmap(memory, size);
+  return may;
+}
+
 /// The ORC session; handles share it, so it goes when the last of all goes.
 class Core {
  public:
   static std::shared_ptr<Core> create(const SessionOptions& options, std::string& error) {
+    if (!may_make_code()) {
+      error = "the system refuses executable memory";
+      return nullptr;
+    }
     auto control = orc::SelfExecutorProcessControl::Create(
         nullptr, std::make_unique<orc::InPlaceTaskDispatcher>());
     if (!control) {
@@ -80,6 +98,7 @@ class Core {
   }
 
   void remove(orc::JITDylib& library) {
+    if (keeps_code_) return;
     const std::scoped_lock lock(mutex_);
     remove_locked(library);
   }
@@ -93,6 +112,7 @@ class Core {
   }
 
   llvm::Error prepare(const SessionOptions& options) {
+    keeps_code_ = options.debugger;
     functions_ = &session_.createBareJITDylib("functions");
     if (auto failed = functions_->define(orc::absoluteSymbols(library_functions(session_)))) {
       return failed;
@@ -110,6 +130,7 @@ class Core {
   std::mutex mutex_;
   std::string reported_;
   std::uint64_t number_ = 0;
+  bool keeps_code_ = false;
   orc::ExecutionSession session_;
   orc::ObjectLinkingLayer layer_;
   orc::JITDylib* functions_ = nullptr;

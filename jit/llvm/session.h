@@ -11,8 +11,10 @@ namespace nacre {
 
 /// Who is told about the code that is loaded.
 struct SessionOptions {
-  bool debugger = false;  ///< GDB, through its JIT interface.
-  bool perf = false;      ///< Linux perf, through a jitdump file in ~/.debug/jit.
+  /// GDB, through its JIT interface. Code then stays in memory until the session
+  /// ends, because LLVM 19 does not tell the debugger when it goes.
+  bool debugger = false;
+  bool perf = false;  ///< Linux perf, through a jitdump file in ~/.debug/jit.
 };
 
 /// Machine code in memory. It stays there while a handle to it is held.

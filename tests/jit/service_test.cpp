@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -137,6 +140,30 @@ TEST(Service, FailureIsADiagnosticAndTheInterpreterAnswers) {
   EXPECT_FALSE(kernel->wait());
   EXPECT_TRUE(kernel->diagnostics().has_errors());
   EXPECT_EQ(run_small(*kernel, 2.0f), 5.0f);
+}
+
+/// In a process that may not make memory executable.
+[[noreturn]] void interpret_without_jit() {
+  constexpr int set_mdwe = 65;  // PR_SET_MDWE, PR_MDWE_REFUSE_EXEC_GAIN: Linux 6.3.
+  if (prctl(set_mdwe, 1ul, 0ul, 0ul, 0ul) != 0) _exit(2);
+  Diagnostics diagnostics;
+  const auto one = CompileService::create({}, diagnostics);
+  const bool warned = diagnostics.warning_count() == 1 && diagnostics.error_count() == 0 &&
+                      diagnostics.all().front().code == "no-jit";
+  const auto kernel = one->request(small_program(1.0f), quick(), diagnostics);
+  const bool runs = kernel != nullptr && run_small(*kernel, 2.0f) == 5.0f &&
+                    std::string(kernel->engine()) == "interpreter";
+  _exit(warned && runs ? 0 : 1);
+}
+
+TEST(Service, InterpretsWhereMemoryMayNotBecomeExecutable) {
+  const pid_t child = fork();
+  if (child == 0) interpret_without_jit();
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 2) GTEST_SKIP() << "this kernel has no PR_SET_MDWE";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST(Service, SecondRunComesFromTheCache) {

@@ -1,11 +1,13 @@
 // Loading and unloading: no leak, no page both writable and executable, errors
 // as diagnostics.
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -99,6 +101,62 @@ TEST(Session, CodeOutlivesItsSession) {
   EXPECT_EQ(run_small(*kernel, 1.0f), 7.0f);
 }
 
+TEST(Session, PerfGetsADumpFile) {
+  namespace fs = std::filesystem;
+  std::string folder = (fs::temp_directory_path() / "nacre-perf-XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  setenv("JITDUMPDIR", folder.c_str(), 1);
+  {
+    Diagnostics diagnostics;
+    SessionOptions options;
+    options.perf = true;
+    const auto own = JitSession::create(options, diagnostics);
+    ASSERT_NE(own, nullptr) << diagnostics.to_string();
+    const Program program = small_program(1.0f);
+    const auto code = own->load(*compile_object(program, quick(), diagnostics), diagnostics);
+    ASSERT_NE(code, nullptr) << diagnostics.to_string();
+    EXPECT_EQ(run_small(*make_jit_kernel(program, code, quick().lanes), 1.0f), 3.0f);
+  }
+  std::string dump;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream stream(entry.path(), std::ios::binary);
+    dump.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  EXPECT_EQ(dump.substr(0, 4), "DTiJ");  // The magic of a jitdump file, little-endian.
+  EXPECT_NE(dump.find("_small_w4"), std::string::npos);
+  fs::remove_all(folder);
+}
+
+TEST(Session, DebuggerKnowsTheCode) {
+  Diagnostics diagnostics;
+  SessionOptions options;
+  options.debugger = true;
+  const auto own = JitSession::create(options, diagnostics);
+  ASSERT_NE(own, nullptr) << diagnostics.to_string();
+  const Program program = small_program(1.0f);
+  const auto code = own->load(*compile_object(program, quick(), diagnostics), diagnostics);
+  ASSERT_NE(code, nullptr) << diagnostics.to_string();
+  // The list that GDB walks ("JIT Compilation Interface" in its manual).
+  struct Entry {
+    Entry* next;
+    Entry* previous;
+    const char* file;
+    std::uint64_t size;
+  };
+  struct Descriptor {
+    std::uint32_t version;
+    std::uint32_t action;
+    Entry* relevant;
+    Entry* first;
+  };
+  const auto* list = static_cast<const Descriptor*>(dlsym(RTLD_DEFAULT, "__jit_debug_descriptor"));
+  ASSERT_NE(list, nullptr);
+  ASSERT_NE(list->first, nullptr);
+  const std::string object(list->first->file, list->first->size);
+  EXPECT_NE(object.find("_small_w4"), std::string::npos);
+}
+
 TEST(Session, SameObjectLoadsTwice) {
   Diagnostics diagnostics;
   const Program program = small_program(6.0f);
@@ -154,6 +212,22 @@ TEST(Codegen, DumpsNameTheEntry) {
   EXPECT_NE(dump_ir(program, quick(), diagnostics).find("define void @" + symbol),
             std::string::npos);
   EXPECT_NE(dump_assembly(program, quick(), diagnostics).find(symbol + ":"), std::string::npos);
+}
+
+TEST(Codegen, OnlyFastGivesLlvmFreedomAndNeverOverNan) {
+  Diagnostics diagnostics;
+  CodegenOptions options = quick();
+  const Program program = small_program(2.0f);
+  for (const Accuracy accuracy : {Accuracy::precise, Accuracy::standard, Accuracy::fast}) {
+    options.accuracy = accuracy;
+    const std::string ir = dump_ir(program, options, diagnostics);
+    const bool is_fast = accuracy == Accuracy::fast;
+    EXPECT_EQ(ir.find("fmul reassoc nsz arcp contract <4 x float>") != std::string::npos, is_fast);
+    EXPECT_EQ(ir.find("contract") != std::string::npos, is_fast);
+    for (const char* never : {" fast ", "nnan", "ninf", "afn"}) {
+      EXPECT_EQ(ir.find(never), std::string::npos) << never;
+    }
+  }
 }
 
 TEST(Codegen, KeyTellsWhatChangesTheCode) {
