@@ -1,28 +1,61 @@
 #include "bench/common/kernel_run.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstdlib>
+#include <new>
 #include <utility>
 
 #include "bench/common/points.h"
 
 namespace nacre::bench {
 
+namespace {
+
+constexpr std::size_t page = 4096;
+/// Floats from one array to the next: five cache lines more than the points.
+constexpr std::size_t stride = batch_points + 80;
+
+float* allocate(std::size_t arrays) {
+  const std::size_t bytes = std::max<std::size_t>(arrays, 1) * stride * sizeof(float);
+  auto* block = static_cast<float*>(std::aligned_alloc(page, (bytes + page - 1) / page * page));
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+template <class Pointers>
+auto* find(const std::vector<Channel>& channels, const Pointers& arrays, const std::string& name) {
+  const auto at = std::ranges::find(channels, name, &Channel::name);
+  return at == channels.end() ? nullptr : arrays[static_cast<std::size_t>(at - channels.begin())];
+}
+
+}  // namespace
+
+void KernelRun::Free::operator()(float* block) const { std::free(block); }
+
 KernelRun::KernelRun(BoundKernel kernel, const Columns& given, std::shared_ptr<const void> kept)
-    : kept_(std::move(kept)), kernel_(std::move(kernel)) {
+    : kept_(std::move(kept)),
+      kernel_(std::move(kernel)),
+      block_(allocate(program().inputs.size() + program().outputs.size())) {
+  float* next = block_.get();
   for (const Channel& channel : program().inputs) {
     const auto found = given.find(channel.name);
-    arrays_.push_back(found != given.end() ? found->second : shading_points(channel));
+    std::ranges::copy(found != given.end() ? found->second : shading_points(channel), next);
+    inputs_.push_back(next);
+    next += stride;
   }
-  for (std::size_t k = 0; k < program().outputs.size(); ++k) arrays_.emplace_back(batch_points);
-  const std::size_t count = program().inputs.size();
-  for (std::size_t k = 0; k < count; ++k) inputs_.push_back(arrays_[k].data());
-  for (std::size_t k = count; k < arrays_.size(); ++k) outputs_.push_back(arrays_[k].data());
+  for (std::size_t k = 0; k < program().outputs.size(); ++k) {
+    std::fill_n(next, batch_points, 0.0f);
+    outputs_.push_back(next);
+    next += stride;
+  }
 }
 
 Columns KernelRun::raw_results() const {
   Columns columns;
-  for (std::size_t k = 0; k < program().outputs.size(); ++k) {
-    columns[program().outputs[k].name] = arrays_[inputs_.size() + k];
+  for (const Channel& channel : program().outputs) {
+    const float* from = output(channel.name);
+    columns[channel.name].assign(from, from + batch_points);
   }
   return columns;
 }
@@ -37,10 +70,11 @@ Columns KernelRun::results() const {
 }
 
 const float* KernelRun::input(const std::string& channel) const {
-  for (std::size_t k = 0; k < program().inputs.size(); ++k) {
-    if (program().inputs[k].name == channel) return arrays_[k].data();
-  }
-  return nullptr;
+  return static_cast<const float*>(find(program().inputs, inputs_, channel));
+}
+
+float* KernelRun::output(const std::string& channel) const {
+  return static_cast<float*>(find(program().outputs, outputs_, channel));
 }
 
 }  // namespace nacre::bench

@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -18,35 +19,35 @@ namespace {
 /// Both sides round differently; steps and cell boundaries move with rounding.
 constexpr Tolerance tolerance{.absolute = 2e-5, .relative = 1e-4, .outliers = 0.002};
 
-using Outputs = Columns;
-/// Computes a batch on the inputs of `ours` into `out`.
-using Peer = std::function<void(const KernelRun& ours, Outputs& out)>;
+/// Computes a batch from the inputs into the outputs of a kernel of ours.
+using Peer = std::function<void(const KernelRun& arrays)>;
 
-/// The peer on the inputs of our interpreter, whose results it must give.
+/// What the peer is timed on, or the reason why it is not: it must give what our reference
+/// engine gives.
+std::unique_ptr<KernelRun> checked(const MakeRun& make, const Peer& peer, std::string& error) {
+  auto arrays = make({.backend = Backend::reference}, error);
+  if (arrays == nullptr) return nullptr;
+  (*arrays)();
+  const Columns expected = arrays->results();
+  for (const auto& [channel, values] : expected) {
+    std::fill_n(arrays->output(channel), values.size(), -7.0f);
+  }
+  peer(*arrays);
+  error = difference(arrays->results(), expected, tolerance);
+  return error.empty() ? std::move(arrays) : nullptr;
+}
+
 void register_peer(const std::string& name, const MakeRun& make, const Peer& peer) {
-  struct Held {
-    std::unique_ptr<KernelRun> ours;
-    Outputs out;
-    std::string error;
-  };
-  auto held = std::make_shared<Held>();
+  auto arrays = std::make_shared<std::unique_ptr<KernelRun>>();
   benchmark::RegisterBenchmark((name + "/xsimd").c_str(), [=](benchmark::State& state) {
-    if (held->ours == nullptr) {
-      held->ours = make({.backend = Backend::reference}, held->error);
-      if (held->ours != nullptr) {
-        (*held->ours)();
-        held->out = held->ours->results();
-        for (auto& [channel, values] : held->out) values.assign(batch_points, -7.0f);
-        peer(*held->ours, held->out);
-        held->error = difference(held->out, held->ours->results(), tolerance);
-      }
-    }
-    if (!held->error.empty()) {
-      state.SkipWithError(held->error.c_str());
+    std::string error;
+    if (*arrays == nullptr) *arrays = checked(make, peer, error);
+    if (*arrays == nullptr) {
+      state.SkipWithError(error.c_str());
       return;
     }
     for (auto _ : state) {
-      peer(*held->ours, held->out);
+      peer(**arrays);
       benchmark::ClobberMemory();
     }
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * batch_points));
@@ -67,13 +68,13 @@ MakeRun pattern(const std::string& file, const std::string& output) {
 
 template <class F>
 Peer on_position(const std::string& output, F* kernel) {
-  return [=](const KernelRun& ours, Outputs& out) {
-    kernel(ours.input("Po.x"), ours.input("Po.y"), ours.input("Po.z"), out.at(output).data(),
+  return [=](const KernelRun& ours) {
+    kernel(ours.input("Po.x"), ours.input("Po.y"), ours.input("Po.z"), ours.output(output),
            batch_points);
   };
 }
 
-void conductor_peer(const KernelRun& ours, Outputs& out) {
+void conductor_peer(const KernelRun& ours) {
   NacreConductor c{.wo_x = ours.input("wo.x"),
                    .wo_y = ours.input("wo.y"),
                    .wo_z = ours.input("wo.z"),
@@ -84,10 +85,10 @@ void conductor_peer(const KernelRun& ours, Outputs& out) {
                    .alpha_y = ours.input("alpha.y"),
                    .n = {gold_n[0], gold_n[1], gold_n[2]},
                    .k = {gold_k[0], gold_k[1], gold_k[2]},
-                   .f_x = out.at("f.x").data(),
-                   .f_y = out.at("f.y").data(),
-                   .f_z = out.at("f.z").data(),
-                   .pdf = out.at("pdf").data()};
+                   .f_x = ours.output("f.x"),
+                   .f_y = ours.output("f.y"),
+                   .f_z = ours.output("f.z"),
+                   .pdf = ours.output("pdf")};
   nacre_peer_conductor(&c, batch_points);
 }
 
