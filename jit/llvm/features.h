@@ -4,10 +4,8 @@ namespace nacre::codegen {
 
 /// The x86 features that the emitter asks about.
 struct Features {
-  bool sse41 = false;
   bool avx = false;
   bool avx2 = false;
-  bool fma = false;
   bool f16c = false;
   bool avx512 = false;  ///< F, BW, DQ and VL: masks are native at every width.
 };

@@ -102,10 +102,8 @@ std::unique_ptr<llvm::TargetMachine> make_target_machine(const CodegenOptions& o
 Features features_of(const llvm::TargetMachine& machine) {
   const llvm::MCSubtargetInfo& info = *machine.getMCSubtargetInfo();
   const auto has = [&](const char* feature) { return info.checkFeatures(feature); };
-  return {.sse41 = has("+sse4.1"),
-          .avx = has("+avx"),
+  return {.avx = has("+avx"),
           .avx2 = has("+avx2"),
-          .fma = has("+fma"),
           .f16c = has("+f16c"),
           .avx512 = has("+avx512f") && has("+avx512bw") && has("+avx512dq") && has("+avx512vl")};
 }
