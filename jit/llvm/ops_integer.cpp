@@ -51,7 +51,25 @@ Value* complement(FunctionEmitter& e, ValueId id) {
                                llvm::Constant::getAllOnesValue(e.kept_type_of(id)));
 }
 
+/// A sign that a mask flips, on bits: AVX-512 then needs one masked xor, where LLVM makes
+/// a negation and a blend of floats. `flipped` is the side that is negated.
+Value* select_sign(FunctionEmitter& e, ValueId id, std::size_t flipped) {
+  Builder& b = e.builder();
+  const int lanes = e.lanes_of(id);
+  Value* plain = b.CreateBitCast(operand(e, id, 3 - flipped), e.module().type(Scalar::i32, lanes));
+  Value* negated = b.CreateXor(plain, e.i32(0x80000000u, lanes));
+  Value* mask = e.use(e.at(id).operands[0], lanes);
+  Value* chosen =
+      flipped == 1 ? b.CreateSelect(mask, negated, plain) : b.CreateSelect(mask, plain, negated);
+  return b.CreateBitCast(chosen, e.type_of(id));
+}
+
 Value* select(FunctionEmitter& e, ValueId id) {
+  for (const std::size_t side : {1, 2}) {
+    const Instruction& negated = e.at(e.at(id).operands[side]);
+    const bool is_neg = negated.op == Op::neg && negated.operands[0] == e.at(id).operands[3 - side];
+    if (is_neg && e.is_wide(id)) return select_sign(e, id, side);
+  }
   return e.builder().CreateSelect(e.use(e.at(id).operands[0], e.lanes_of(id)), operand(e, id, 1),
                                   operand(e, id, 2));
 }
