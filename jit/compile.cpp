@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "jit/llvm/codegen.h"
 #include "jit/passes/contract.h"
 #include "jit/passes/derive.h"
 #include "jit/passes/expand_math.h"
@@ -80,6 +81,15 @@ std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& opt
     case Backend::jit: break;
   }
   assert(service != nullptr);
+  const auto dump = [&](bool wanted, const char* name, auto&& text_of) {
+    if (!wanted || stages == nullptr) return;
+    StageReport report;
+    report.name = name;
+    report.text = text_of(program, codegen_options(options), diagnostics);
+    stages->push_back(std::move(report));
+  };
+  dump(options.dump_ir, "llvm", [](auto&&... x) { return nacre::dump_ir(x...); });
+  dump(options.dump_assembly, "assembly", [](auto&&... x) { return nacre::dump_assembly(x...); });
   return service->compile(std::move(program), options, diagnostics);
 }
 
