@@ -35,7 +35,7 @@ def bars(run: results.Run, subjects: dict[str, str], variants: list[str], title:
     axes.set_title(title)
     axes.grid(axis="y", alpha=0.3)
     axes.set_axisbelow(True)
-    axes.legend(fontsize=8, ncols=3, loc="upper center", bbox_to_anchor=(0.5, -0.12))
+    axes.legend(fontsize=8, ncols=3, loc="upper center", bbox_to_anchor=(0.5, -0.17))
     figure.savefig(file, bbox_inches="tight")
     pyplot.close(figure)
 
@@ -55,6 +55,6 @@ def draw(run: results.Run, out: pathlib.Path) -> None:
          "Texture look-ups, RGBA8, resident, one thread", out / "textures.png")
     names = ("standard_surface", "open_pbr_surface", "gltf_pbr", "UsdPreviewSurface",
              "disney_principled")
-    bars(run, {f"materials/{n}/frozen/evaluate": n.replace("_", "\n", 1) for n in names}
-         | {"materials/standard_surface/live/evaluate": "standard_surface\nlive parameters"},
+    bars(run, {f"materials/{n}/frozen/evaluate": "_\n".join(n.rsplit("_", 1)) for n in names}
+         | {"materials/standard_surface/live/evaluate": "standard_\nsurface, live"},
          widths, "evaluate: f and pdf of all lobes, one thread", out / "materials.png")

@@ -66,7 +66,8 @@ def acceptance(run: results.Run) -> str:
             return
         met = target is None or (value <= target if below else value >= target)
         goal = "report" if target is None else f"{'≤' if below else '≥'} {target:g} {unit}"
-        rows.append([what, goal, f"{number(value)} {unit}", "yes" if met else "**no**"])
+        rows.append([what, goal, f"{number(value)} {unit}",
+                     "" if target is None else "yes" if met else "**no**"])
 
     for name in PEERS:
         subject = f"peers/{name}"
@@ -134,7 +135,7 @@ def latency(run: results.Run) -> str:
     names = sorted(name for name in run.figures if name.startswith("latency/"))
     stages = []
     for stage in ("read", "graph", "record", "slice", "derive", "contract", "expand_math", "run",
-                  "emit", "optimize", "codegen", "link", "cache"):
+                  "emit", "optimize", "codegen", "link", "cache", "begin", "sample", "evaluate"):
         if any(f"{stage}_ms" in run.figures[name].counters for name in names):
             stages.append(stage)
     rows = []
@@ -142,7 +143,8 @@ def latency(run: results.Run) -> str:
         figure = run.figures[name]
         rows.append([name.removeprefix("latency/"), number(figure.median / 1e6)] +
                     [number(figure.counters.get(f"{stage}_ms")) for stage in stages])
-    return "Milliseconds.\n\n" + table(["what", "all"] + stages, rows)
+    return ("Milliseconds: the whole, then by stage, then by kernel.\n\n"
+            + table(["what", "all"] + stages, rows))
 
 
 PAGES = {

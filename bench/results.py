@@ -62,13 +62,13 @@ class Run:
         return self.figures.get(name)
 
     def below(self, prefix: str) -> list[str]:
-        """What comes between "<prefix>/" and the variant, in order."""
+        """What comes between "<prefix>/" and the variant. Interleaved ones come by chance."""
         start = prefix + "/"
         found = {}
         for name in self.figures:
             if name.startswith(start):
                 found["/".join(cut(name)[0].split("/")[1:])] = None
-        return list(found)
+        return sorted(found) if prefix in ("peers", "textures") else list(found)
 
     def best_jit(self, name: str, accuracy: str = "standard") -> tuple[int, Figure] | None:
         """The fastest width."""

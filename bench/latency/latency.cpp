@@ -84,12 +84,13 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(RecordedMaterial& materia
                                                        Diagnostics& diagnostics) {
   std::vector<std::shared_ptr<const Kernel>> kernels;
   for (const Entry entry : entries) {
-    auto start = Clock::now();
+    const auto start = Clock::now();
     Program program = material.program(entry);
     stages.add("slice", milliseconds_since(start));
     std::vector<StageReport> reports;
     auto kernel = compile(std::move(program), options, service, diagnostics, &reports);
     stages.add(reports);
+    stages.add(entry_name(entry), milliseconds_since(start));
     if (kernel == nullptr) return {};
     if (const auto* made = dynamic_cast<const CompiledKernel*>(kernel.get())) {
       stages.add(made->stats());
