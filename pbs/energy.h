@@ -35,7 +35,10 @@ struct GgxReflection {
 };
 GgxReflection ggx_reflection(Recorder& recorder, const GgxView& view);
 
-/// An interface between two dielectrics, eta the index beyond over before.
+/// An interface between two dielectrics, eta the index beyond over before. Glass
+/// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 % as far
+/// as 85 degrees, from outside and from inside, layered or joint
+/// (tests/pbs/furnace_test.cpp). Beyond 4.56 the tables stay as there.
 struct GgxInterface {
   Float fresnel;       ///< Mean Fresnel factor of the reflected light.
   Float transmission;  ///< Albedo of transmission without a Fresnel factor.

@@ -5,7 +5,7 @@ namespace nacre {
 namespace {
 
 /// Seen from where next to nothing is refracted, what is is not scaled beyond this.
-constexpr float least_transmission = 1e-3f;
+constexpr float least_transmission = 2e-3f;
 
 Facets scaled(const Facets& facets, Float scale) {
   Facets thin = facets;

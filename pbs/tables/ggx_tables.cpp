@@ -19,7 +19,7 @@ const GgxTable& ggx_entering_table() {
 }
 
 const GgxTable& ggx_leaving_table() {
-  static const GgxTable table{16, 16, 16, 3, leaving_values};
+  static const GgxTable table{16, 16, 24, 3, leaving_values};
   return table;
 }
 

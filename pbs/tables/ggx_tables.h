@@ -24,8 +24,8 @@ const GgxTable& ggx_reflection_table();
 const GgxTable& ggx_entering_table();
 
 /// Relative index below 1. The mean Fresnel factor of what is reflected, less
-/// mirror_share of that of the view; the albedo of transmission without a Fresnel
-/// factor; and that of both with it, divided by E.
+/// mirror_share of that of the view; the albedo of transmission
+/// without a Fresnel factor; and that of both with it, divided by E.
 const GgxTable& ggx_leaving_table();
 
 }  // namespace nacre

@@ -183,5 +183,5 @@ int main() {
   std::printf("// Written by pbs/tables/make_tables.cpp.\n");
   write("reflection_values", 24, 20, 1, angle, reflection);
   write("entering_values", 12, 10, 8, angle, entering);
-  write("leaving_values", 16, 16, 16, angle_below_one, leaving);
+  write("leaving_values", 16, 16, 24, angle_below_one, leaving);
 }

@@ -111,7 +111,7 @@ BsdfPtr layered_glass(Recorder& recorder, Float index, float alpha) {
 }
 
 constexpr double outside[] = {0.0, 30.0, 60.0, 75.0, 85.0};
-constexpr double inside[] = {180.0, 160.0, 140.0, 120.0, 105.0, 95.0};
+constexpr double inside[] = {180.0, 160.0, 140.0, 130.0, 120.0, 105.0, 95.0};
 
 TEST(Furnace, GlassReturnsAllLightToTheOutside) {
   for (const float alpha : {0.05f, 0.2f, 0.5f, 1.0f}) {
