@@ -1,8 +1,13 @@
 #include "pbs/thin_film.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "pbs/per_view.h"
+#include "runtime/value/control.h"
 
 namespace nacre {
 
@@ -140,6 +145,40 @@ class Airy {
   Float passed_, sum_, amplitude_;
 };
 
+/// ThinFilm::reflectance, to so many orders.
+Color3 film_reflectance(int terms, Float cosine, Float before, Float thickness, Float index,
+                        Color3 n, Color3 k, Color3 bare) {
+  const Float eta = index / before;
+  const Float squared = 1.0f - max(1.0f - square(cosine), 0.0f) / square(eta);
+  const Float inner = safe_sqrt(squared);
+  // First interface: real amplitudes, 0 where the film is as what is before it.
+  const Float s_sum = fma(eta, inner, cosine);
+  const Float p_sum = fma(eta, cosine, inner);
+  const Float r12_s = (cosine - eta * inner) / max(s_sum, 1e-15f);
+  const Float r12_p = (eta * cosine - inner) / max(p_sum, 1e-15f);
+
+  Spectrum spectrum(2.0f * index * inner * thickness);
+  std::vector<std::array<Complex, 3>> means;  // By order.
+  for (int m = 0; m < terms; ++m) {
+    if (m > 0) spectrum.next_order();
+    means.push_back({spectrum.mean(0), spectrum.mean(1), spectrum.mean(2)});
+  }
+  const Float x = saturate(thickness * Float(1.0f / 30.0f));
+  const Float presence = square(x) * fma(-2.0f, x, 3.0f);
+  const Float sine2 = max(1.0f - squared, 0.0f);
+  const auto channel = [&](std::size_t c, Float real, Float imaginary, Float without) {
+    const Amplitudes behind = amplitudes(inner, sine2, real / index, imaginary / index);
+    Airy s(r12_s, behind.s);
+    Airy p(r12_p, behind.p);
+    for (const auto& mean : means) s.add(mean[c]), p.add(mean[c]);
+    const Float film = saturate(0.5f * (s.sum() + p.sum()));
+    return saturate(lerp(without, select(squared > 0.0f, film, 1.0f), presence));
+  };
+  return {channel(0, n.x, k.x, bare.x), channel(1, n.y, k.y, bare.y), channel(2, n.z, k.z, bare.z)};
+}
+
+bool is_grey(Color3 x) { return same_value(x, Color3(x.x)); }
+
 }  // namespace
 
 ThinFilm::ThinFilm(Float thickness, Float index, Accuracy accuracy)
@@ -150,33 +189,25 @@ ThinFilm::ThinFilm(Float thickness, Float index, Accuracy accuracy)
                                               : 10) {}
 
 Color3 ThinFilm::reflectance(Float cosine, Float before, Color3 n, Color3 k, Color3 bare) const {
-  const Float eta = index_ / before;
-  const Float squared = 1.0f - max(1.0f - square(cosine), 0.0f) / square(eta);
-  const Float inner = safe_sqrt(squared);
-  // First interface: real amplitudes, 0 where the film is as what is before it.
-  const Float s_sum = fma(eta, inner, cosine);
-  const Float p_sum = fma(eta, cosine, inner);
-  const Float r12_s = (cosine - eta * inner) / max(s_sum, 1e-15f);
-  const Float r12_p = (eta * cosine - inner) / max(p_sum, 1e-15f);
-
-  Spectrum spectrum(2.0f * index_ * inner * thickness_);
-  std::vector<std::array<Complex, 3>> means;  // By order.
-  for (int m = 0; m < terms_; ++m) {
-    if (m > 0) spectrum.next_order();
-    means.push_back({spectrum.mean(0), spectrum.mean(1), spectrum.mean(2)});
+  Recorder* recorder = cosine.ref().recorder;
+  if (recorder == nullptr) {
+    return film_reflectance(terms_, cosine, before, thickness_, index_, n, k, bare);
   }
-  const Float x = saturate(thickness_ * Float(1.0f / 30.0f));
-  const Float presence = square(x) * fma(-2.0f, x, 3.0f);
-  const Float sine2 = max(1.0f - squared, 0.0f);
-  const auto channel = [&](std::size_t c, Float real, Float imaginary, Float without) {
-    const Amplitudes behind = amplitudes(inner, sine2, real / index_, imaginary / index_);
-    Airy s(r12_s, behind.s);
-    Airy p(r12_p, behind.p);
-    for (const auto& mean : means) s.add(mean[c]), p.add(mean[c]);
-    const Float film = saturate(0.5f * (s.sum() + p.sum()));
-    return saturate(lerp(without, select(squared > 0.0f, film, 1.0f), presence));
+  // Several hundred operations, and a surface asks for several angles.
+  if (is_grey(n) && is_grey(k) && is_grey(bare)) {
+    const auto body = [terms = terms_](Float c, Float v, Float d, Float i, Float real,
+                                       Float imaginary, Float without) {
+      return film_reflectance(terms, c, v, d, i, real, imaginary, without);
+    };
+    return outline<Color3>(*recorder, fmt::format("grey_film_{}", terms_), body, cosine, before,
+                           thickness_, index_, n.x, k.x, bare.x);
+  }
+  const auto body = [terms = terms_](Float c, Float v, Float d, Float i, Color3 real,
+                                     Color3 imaginary, Color3 without) {
+    return film_reflectance(terms, c, v, d, i, real, imaginary, without);
   };
-  return {channel(0, n.x, k.x, bare.x), channel(1, n.y, k.y, bare.y), channel(2, n.z, k.z, bare.z)};
+  return outline<Color3>(*recorder, fmt::format("film_{}", terms_), body, cosine, before,
+                         thickness_, index_, n, k, bare);
 }
 
 }  // namespace nacre

@@ -170,5 +170,31 @@ TEST(Furnace, SchlickInterfaceReturnsAllLight) {
   }
 }
 
+// A film moves light between reflection and transmission of each channel; the
+// tables know the bare interface (pbs/microfacet_interface.cpp).
+TEST(Furnace, FilmedGlassReturnsAllLight) {
+  for (const float alpha : {0.0f, 0.1f, 0.5f}) {
+    for (const float thickness : {20.0f, 300.0f}) {
+      const auto film = [&](Recorder& r, const char* mode) {
+        return microfacet_bsdf(r, "dielectric_bsdf",
+                               {{"roughness", roughness(alpha, alpha)},
+                                {"thinfilm_thickness", number(thickness)},
+                                {"thinfilm_ior", number(1.9f)},
+                                {"scatter_mode", text(mode)}});
+      };
+      const Furnace joint([&](Recorder& r) { return film(r, "RT"); });
+      const Furnace layer(
+          [&](Recorder& r) { return std::make_shared<LayerBsdf>(film(r, "R"), film(r, "T")); });
+      for (const double angle : {0.0, 50.0, 80.0, 155.0}) {
+        const double error = angle < 90.0 ? 2e-2 : 3e-2;
+        EXPECT_NEAR(joint.light(angle), 1.0, error)
+            << "RT " << alpha << " film " << thickness << " angle " << angle;
+        EXPECT_NEAR(layer.light(angle), 1.0, error)
+            << "R over T " << alpha << " film " << thickness << " angle " << angle;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nacre
