@@ -25,7 +25,6 @@ for document in "$here"/documents/*.mtlx; do
   # Documents without a graph output have nothing to bake.
   if grep -q '<output ' "$document"; then
     "$nacre" bake "$document" --size 512 --format png --out "$out/baked/$name"
-    rm -f "$out/baked/$name/NG_film.thickness.png"  # Nanometres: 8 bits clip them.
   fi
 done
 

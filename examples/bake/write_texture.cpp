@@ -4,21 +4,15 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "examples/common/atomic_file.h"
+#include "examples/common/srgb.h"
 
 namespace nacre::host {
 
 namespace {
-
-/// IEC 61966-2-1.
-float srgb_encode(float v) {
-  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
-}
 
 bool is_color(Type type) { return type == Type::color3 || type == Type::color4; }
 
@@ -62,7 +56,7 @@ std::string write_rows(const OutputKernel& kernel, std::size_t output,
         if (encode) {
           for (std::size_t i = 0; i < encoded.size(); ++i) {
             const bool alpha = spec.nchannels == 4 && i % 4 == 3;
-            if (!alpha) encoded[i] = srgb_encode(std::clamp(encoded[i], 0.0f, 1.0f));
+            if (!alpha) encoded[i] = srgb_encode(encoded[i]);
           }
         }
         return out->write_scanlines(rows.first, rows.first + rows.rows, 0, OIIO::TypeDesc::FLOAT,

@@ -1,26 +1,21 @@
 #include "examples/render/image_io.h"
 
 #include <OpenImageIO/imageio.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <atomic>
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
+#include "examples/common/atomic_file.h"
+#include "examples/common/srgb.h"
 #include "examples/render/environment.h"
 
 namespace nacre::host {
 
 namespace {
-
-/// IEC 61966-2-1, the transfer from linear to coded values.
-float srgb_encode(float v) {
-  v = std::clamp(v, 0.f, 1.f);
-  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.f / 2.4f) - 0.055f;
-}
 
 std::vector<std::uint8_t> developed(const Film& film, const WriteOptions& options) {
   std::vector<std::uint8_t> bytes;
@@ -37,21 +32,6 @@ std::vector<std::uint8_t> developed(const Film& film, const WriteOptions& option
     }
   }
   return bytes;
-}
-
-std::string temporary_name(const std::string& path) {
-  static std::atomic<unsigned> count = 0;
-  const std::filesystem::path p(path);
-  return (p.parent_path() / fmt::format(".{}.{}-{}.tmp", p.filename().string(), getpid(), count++))
-      .string();
-}
-
-/// Data reach the disk before the name does.
-bool sync_file(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool ok = ::fsync(file) == 0;
-  return ::close(file) == 0 && ok;
 }
 
 /// Empty when written; otherwise why not.
@@ -84,19 +64,12 @@ bool write_image(const Film& film, const std::string& path, const WriteOptions& 
                       "a name ending in .exr or .png", "\"" + extension + "\"");
     return false;
   }
-  const std::string temporary = temporary_name(path);
-  std::error_code status;
-  std::string problem = write_file(film, temporary, extension == ".exr", options);
-  if (problem.empty() && !sync_file(temporary)) problem = "the data cannot be flushed";
-  if (problem.empty()) {
-    fs::rename(temporary, path, status);
-    if (!status) return true;
-    problem = status.message();
-  }
-  fs::remove(temporary, status);
-  diagnostics.error("cannot-write", {path, 0, 0, {}}, "the image could not be written", {},
-                    problem);
-  return false;
+  return write_atomically(
+      path,
+      [&](const std::string& file) {
+        return write_file(film, file, extension == ".exr", options);
+      },
+      diagnostics);
 }
 
 std::optional<Environment> Environment::load(const std::string& path, float scale, float rotation,

@@ -72,8 +72,8 @@ Json stage_list(const std::vector<StageReport>& stages) {
   return list;
 }
 
-Json inspect_material(const InspectOptions& options, const Opened& opened,
-                      const std::string& material, const ShaderOptions& shader,
+Json inspect_material(const Opened& opened, const std::string& material,
+                      const ShaderOptions& shader,
                       Diagnostics& diagnostics) {
   const auto kernels =
       opened.system->compile_material(*opened.document, material, shader, diagnostics);
@@ -92,7 +92,6 @@ Json inspect_material(const InspectOptions& options, const Opened& opened,
   }
   result["kernels"] = std::move(list);
   result["stages"] = stage_list(kernels->stages);
-  (void)options;
   return result;
 }
 
@@ -169,7 +168,7 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& material : materials) {
-    results.push_back(inspect_material(options, opened, material, shader, diagnostics));
+    results.push_back(inspect_material(opened, material, shader, diagnostics));
   }
   std::vector<std::string> outputs = options.outputs;
   if (everything) {

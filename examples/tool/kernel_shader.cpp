@@ -108,6 +108,8 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
                         const std::vector<std::string_view>& extras) {
   if (!kernel.has_value()) return;
   bound.kernel = &*kernel;
+  bound.frame = kernel->parameter_index("frame");
+  bound.time = kernel->parameter_index("time");
   for (const Channel& channel : kernel->program().inputs) {
     const auto extra = std::find(extras.begin(), extras.end(), channel.name);
     bound.extra.push_back(extra == extras.end() ? -1 : static_cast<int>(extra - extras.begin()));
@@ -125,6 +127,8 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
     bound.from_batch.back() = standard_channel(group, i, capabilities_.attributes);
     if (bound.from_batch.back() || i < 0) continue;
     const int primvar = find_primvar(primvar_name(group), i + 1);
+    // A slot named as the property says whether the mesh has it (nodes/geometric).
+    if (const auto slot = kernel->parameter_index(group)) bound.present.emplace_back(*slot, primvar);
     bound.from_batch.back() = [primvar, i = i](const ShadingBatch& b) -> const float* {
       const auto& lanes = b.primvars[primvar];
       return lanes.present ? lanes.component[i] : nullptr;
@@ -137,26 +141,16 @@ std::uint32_t KernelShader::stride(std::uint32_t count) {
 }
 
 std::size_t KernelShader::state_bytes(std::uint32_t capacity) const {
-  // One array of zeros stands for attributes that a mesh does not have.
-  return (kernels_->state.size() + 1) * stride(capacity) * sizeof(float);
+  return kernels_->state.size() * stride(capacity) * sizeof(float);
 }
 
 std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound,
-                                                    const ShadingBatch& batch) const {
+                                                    const ShadingBatch& batch) {
   std::vector<std::uint32_t> block = bound.kernel->parameters();
-  const auto set = [&](std::string_view name, float value) {
-    if (const auto index = bound.kernel->parameter_index(name)) {
-      block[*index] = std::bit_cast<std::uint32_t>(value);
-    }
-  };
-  set("frame", batch.frame);
-  set("time", batch.time);
-  // A slot named as a property says whether the mesh has it (nodes/geometric).
-  for (std::size_t i = 0; i < capabilities_.primvars.size(); ++i) {
-    const std::string& name = capabilities_.primvars[i].name;
-    if (const auto index = bound.kernel->parameter_index("geomprop." + name)) {
-      block[*index] = batch.primvars[i].present ? 1u : 0u;
-    }
+  if (bound.frame) block[*bound.frame] = std::bit_cast<std::uint32_t>(batch.frame);
+  if (bound.time) block[*bound.time] = std::bit_cast<std::uint32_t>(batch.time);
+  for (const auto& [slot, primvar] : bound.present) {
+    block[slot] = batch.primvars[primvar].present ? 1u : 0u;
   }
   return block;
 }
@@ -167,7 +161,7 @@ void KernelShader::run(const Bound& bound, const ShadingBatch& batch, const void
   static constexpr std::size_t most = 512;
   const std::size_t count = bound.extra.size();
   assert(count <= most);
-  const std::vector<float> zeros(batch.count, 0.0f);
+  std::vector<float> zeros;  // For attributes that the mesh does not have.
   std::array<const void*, most> inputs;
   for (std::size_t k = 0; k < count; ++k) {
     const float* lanes = nullptr;
@@ -179,6 +173,7 @@ void KernelShader::run(const Bound& bound, const ShadingBatch& batch, const void
     } else if (bound.from_batch[k]) {
       lanes = bound.from_batch[k](batch);
     }
+    if (lanes == nullptr && zeros.empty()) zeros.resize(batch.count, 0.0f);
     inputs[k] = lanes != nullptr ? lanes : zeros.data();
   }
   bound.kernel->run({inputs.data(), count}, outputs, batch.count, parameters(bound, batch));

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "examples/render/shader.h"
@@ -32,11 +34,9 @@ class KernelShader final : public host::Shader {
     std::vector<std::function<const float*(const host::ShadingBatch&)>> from_batch;
     std::vector<int> extra;  ///< By input: index into the call's own arrays, or -1.
     std::vector<int> state;  ///< By input: index of the state channel, or -1.
-  };
-  /// Arrays that a call brings besides batch and state: "wi.x", "u.x", ...
-  struct Extra {
-    std::string_view name;
-    const float* lanes;
+    std::optional<std::size_t> frame, time;  ///< Slots of the parameter block.
+    /// Slots that say whether the mesh has a geometric property, and its primvar.
+    std::vector<std::pair<std::size_t, int>> present;
   };
 
   void bind(std::optional<BoundKernel>& kernel, Bound& bound,
@@ -44,7 +44,7 @@ class KernelShader final : public host::Shader {
   int find_primvar(std::string_view name, int components);
   void run(const Bound& bound, const host::ShadingBatch& batch, const void* state,
            std::span<const float* const> extras, std::span<void* const> outputs) const;
-  std::vector<std::uint32_t> parameters(const Bound& bound, const host::ShadingBatch& batch) const;
+  static std::vector<std::uint32_t> parameters(const Bound& bound, const host::ShadingBatch& batch);
   static std::uint32_t stride(std::uint32_t count);
 
   std::unique_ptr<MaterialKernels> kernels_;

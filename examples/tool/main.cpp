@@ -1,5 +1,3 @@
-#include <csignal>
-
 #include "examples/tool/options.h"
 
 namespace {

@@ -19,9 +19,9 @@ namespace nacre {
 struct SystemOptions {
   /// The MaterialX data library first, then node packs: files or folders.
   std::vector<std::filesystem::path> libraries;
-  TextureOptions textures;
+  TextureOptions textures = {};
   /// Where compiled kernels are kept between runs; empty: nowhere.
-  std::filesystem::path cache;
+  std::filesystem::path cache = {};
   int compile_threads = 0;  ///< 0: one a core.
 };
 

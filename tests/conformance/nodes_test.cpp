@@ -55,7 +55,7 @@ std::vector<float> read_reference(const fs::path& file, int& channels) {
   std::vector<float> pixels(static_cast<std::size_t>(in->spec().width) *
                             static_cast<std::size_t>(in->spec().height) *
                             static_cast<std::size_t>(channels));
-  in->read_image(0, channels, OIIO::TypeDesc::FLOAT, pixels.data());
+  in->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, pixels.data());
   return pixels;
 }
 
@@ -131,6 +131,12 @@ TEST_P(Conformance, NodesMatchTheReferenceValues) {
     const std::string problem = compare(nodedef, outputs);
     if (problem.empty()) {
       ++matching;
+      // One engine may match where another does not; a list that no engine needs is wrong.
+      if (GetParam() != Backend::reference && exceptions().contains(nodedef) &&
+          nodedef != "ND_unifiednoise2d_float") {
+        differing += "  " + nodedef + " matches, but is listed as an exception\n";
+        ++unexpected;
+      }
       continue;
     }
     const auto known = exceptions().find(nodedef);

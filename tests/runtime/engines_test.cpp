@@ -124,10 +124,6 @@ TEST(Engines, LoopStopsEachLaneByItself) {
   // Collatz steps to 1: every lane needs its own number of iterations.
   Recorder recorder;
   const Int start = to_int(Float(recorder.input("x", Scalar::f32)));
-  struct Unused {};
-  struct State {
-    Int value, steps;
-  };
   Float2 state{to_float(start), Float(0.0f)};
   state = loop(recorder, start > Int(1), 1000, state, [](Int, Float2& s) {
     const Int v = to_int(s.x);

@@ -77,10 +77,6 @@ TEST(Varying, UniformLoopStaysUniformAndCarriesVary) {
   Recorder recorder;
   const Float x = input(recorder, "x");
   const Int n(recorder.parameter("n", Scalar::i32, 3));
-  struct State {
-    Float sum;
-    Float step;
-  };
   Float sum = loop(recorder, Bool(true), 8, Float(0.0f), [&](Int i, Float& s) {
     s += x;
     return i + Int(1) < n;
