@@ -5,7 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "jit/llvm/lanes.h"
 #include "runtime/program/fold.h"
 
 namespace nacre::codegen {
@@ -76,8 +75,8 @@ std::vector<int> range(int first, int count) {
   return indices;
 }
 
-Value* look_up_in_registers(FunctionEmitter& e, const std::vector<float>& values, Value* index,
-                            int lanes, Permute cpu) {
+Value* look_up_parts(FunctionEmitter& e, const std::vector<float>& values, Value* index, int lanes,
+                     Permute cpu) {
   Builder& b = e.builder();
   if (lanes == cpu.lanes) return look_up_native(e, values, index, cpu);
   if (lanes < cpu.lanes) {
@@ -89,7 +88,7 @@ Value* look_up_in_registers(FunctionEmitter& e, const std::vector<float>& values
   const int half = lanes / 2;
   const auto part = [&](int first) {
     Value* indices = b.CreateShuffleVector(index, range(first, half));
-    return look_up_in_registers(e, values, indices, half, cpu);
+    return look_up_parts(e, values, indices, half, cpu);
   };
   Value* low = part(0);
   return b.CreateShuffleVector(low, part(half), range(0, lanes));
@@ -97,18 +96,14 @@ Value* look_up_in_registers(FunctionEmitter& e, const std::vector<float>& values
 
 }  // namespace
 
-llvm::Value* look_up(FunctionEmitter& e, std::uint32_t table, Value* index, int lanes) {
-  Builder& b = e.builder();
-  const std::vector<float>& values = e.module().program().tables[table].values;
-  const Permute cpu = permute_of(e.module().features(), lanes);
-  if (cpu.lanes != 0 && values.size() <= most_pieces * static_cast<std::size_t>(cpu.entries)) {
-    return look_up_in_registers(e, values, index, lanes, cpu);
-  }
-  Value* data = e.module().table_data(table);
-  return each_lane(e, Scalar::f32, lanes, [&](int k) {
-    Value* wide = b.CreateZExt(lane(e, index, k), b.getInt64Ty());
-    return e.load_invariant(b.getFloatTy(), b.CreateInBoundsGEP(b.getFloatTy(), data, wide));
-  });
+bool fits_registers(const Features& features, std::size_t entries, int lanes) {
+  const Permute cpu = permute_of(features, lanes);
+  return cpu.lanes != 0 && entries <= most_pieces * static_cast<std::size_t>(cpu.entries);
+}
+
+llvm::Value* look_up_in_registers(FunctionEmitter& e, const std::vector<float>& values,
+                                  llvm::Value* index, int lanes) {
+  return look_up_parts(e, values, index, lanes, permute_of(e.module().features(), lanes));
 }
 
 }  // namespace nacre::codegen

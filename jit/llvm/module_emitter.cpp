@@ -87,6 +87,8 @@ llvm::GlobalVariable* ModuleEmitter::table_data(std::uint32_t index) {
   for (const float value : program_.tables[index].values) {
     bits.push_back(flush_denormal(std::bit_cast<std::uint32_t>(value)));
   }
+  bits.insert(bits.begin(), table_margin, bits.front());
+  bits.insert(bits.end(), table_margin, bits.back());
   llvm::Constant* data = llvm::ConstantDataArray::getFP(llvm::Type::getFloatTy(context()), bits);
   known = new llvm::GlobalVariable(module_, data->getType(), /*isConstant=*/true,
                                    llvm::GlobalValue::PrivateLinkage, data,

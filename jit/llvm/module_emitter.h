@@ -51,8 +51,10 @@ class ModuleEmitter {
   /// A function that only this module calls, by the fast convention; never inlined.
   llvm::Function* add_function(const std::string& name, llvm::FunctionType* type);
 
-  /// A read-only array that loads may index.
+  /// A read-only array that loads may index: table_margin copies of the table's
+  /// first entry, the table, as many copies of the last.
   llvm::GlobalVariable* table_data(std::uint32_t index);
+  static constexpr std::uint32_t table_margin = 3;
   /// 1.0, but LLVM must not know. See flush() in function_emitter.h.
   llvm::GlobalVariable* opaque_one();
 

@@ -1,22 +1,68 @@
 #include <array>
+#include <bit>
+#include <limits>
+#include <vector>
 
+#include "jit/llvm/gather.h"
 #include "jit/llvm/lookup.h"
 #include "jit/llvm/ops.h"
+#include "jit/llvm/word_run.h"
+#include "runtime/program/fold.h"
 
 namespace nacre::codegen {
 
 namespace {
 
-llvm::Value* table(FunctionEmitter& e, ValueId id) {
+using llvm::Value;
+
+constexpr std::uint32_t margin = ModuleEmitter::table_margin;
+
+Value* clamp(FunctionEmitter& e, Value* index, std::int32_t low, std::uint32_t high, int lanes) {
+  Value* least = e.i32(static_cast<std::uint32_t>(low), lanes);
+  index = e.builder().CreateBinaryIntrinsic(llvm::Intrinsic::smax, index, least);
+  return e.builder().CreateBinaryIntrinsic(llvm::Intrinsic::smin, index, e.i32(high, lanes));
+}
+
+/// The entries that follow each other from `index` on: one load a lane.
+void emit_run(FunctionEmitter& e, const std::vector<ValueId>& run, Value* index, int lanes) {
   Builder& b = e.builder();
+  const std::uint32_t number = e.at(run.front()).imm;
+  const auto& values = e.module().program().tables[number].values;
+  // The copies of the first and last entries around the table answer for indices
+  // outside, so that one clamp serves the whole run.
+  const auto last = static_cast<std::uint32_t>(values.size() - 1);
+  Value* first = clamp(e, index, -static_cast<std::int32_t>(margin), last, lanes);
+  first = b.CreateAdd(first, e.i32(margin, lanes));
+  Value* around = e.module().table_data(number);
+  const auto entries = gather_run(e, Scalar::f32, around, first, lanes, run.size());
+  Value* lowest = e.f32_bits(flush_denormal(std::bit_cast<std::uint32_t>(values.front())), lanes);
+  e.define(run[0], entries[0]);
+  for (std::size_t k = 1; k < run.size(); ++k) {
+    if (run[k] == no_value) continue;
+    // index + k may wrap around, to below the table.
+    const auto most = static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max() - k);
+    Value* wraps = b.CreateICmpSGT(index, e.i32(most, lanes));
+    e.define(run[k], b.CreateSelect(wraps, lowest, entries[k]));
+  }
+}
+
+Value* table(FunctionEmitter& e, ValueId id) {
+  if (e.defined(id) != nullptr) return nullptr;  // By a run.
   const Instruction& instruction = e.at(id);
   const int lanes = e.lanes_of(id);
-  const auto size = e.module().program().tables[instruction.imm].values.size();
-  const auto last = static_cast<std::uint32_t>(size - 1);
-  llvm::Value* index = e.operand(instruction, 0, lanes);
-  index = b.CreateBinaryIntrinsic(llvm::Intrinsic::smax, index, e.i32(0, lanes));
-  index = b.CreateBinaryIntrinsic(llvm::Intrinsic::umin, index, e.i32(last, lanes));
-  return look_up(e, instruction.imm, index, lanes);
+  const auto& values = e.module().program().tables[instruction.imm].values;
+  Value* index = e.operand(instruction, 0, lanes);
+  const auto last = static_cast<std::uint32_t>(values.size() - 1);
+  if (fits_registers(e.module().features(), values.size(), lanes)) {
+    return look_up_in_registers(e, values, clamp(e, index, 0, last, lanes), lanes);
+  }
+  const auto run = lanes > 1 ? word_run(e.function(), id) : std::vector<ValueId>{id};
+  if (run.size() > 1) {
+    emit_run(e, run, index, lanes);
+    return nullptr;
+  }
+  index = e.builder().CreateAdd(clamp(e, index, 0, last, lanes), e.i32(margin, lanes));
+  return gather(e, Scalar::f32, e.module().table_data(instruction.imm), index, lanes);
 }
 
 constexpr std::array<std::pair<Op, EmitOp>, 1> group{{{Op::table, table}}};

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <string>
 #include <vector>
 
+#include "jit/llvm/gather.h"
 #include "jit/llvm/lanes.h"
 #include "jit/llvm/ops.h"
-#include "jit/llvm/texel_run.h"
+#include "jit/llvm/word_run.h"
 
 namespace nacre::codegen {
 
@@ -41,67 +41,15 @@ Binding load_binding(FunctionEmitter& e, Value* slot) {
   return {words, b.CreateTrunc(last, b.getInt32Ty())};
 }
 
-/// The lanes of an index as 64-bit scalars. One by one: gathers take half as long
-/// again on Zen 4, and lanes in pairs, a tenth faster, LLVM 19.1 miscompiles at
-/// times (the mask of the lower one is lost).
-std::vector<Value*> indices_of(FunctionEmitter& e, Value* index, int lanes) {
-  std::vector<Value*> indices;
-  for (int k = 0; k < lanes; ++k) {
-    indices.push_back(e.builder().CreateZExt(lane(e, index, k), e.builder().getInt64Ty()));
-  }
-  return indices;
-}
-
 /// One word for each lane; beyond the end, word 0.
 Value* load_words(FunctionEmitter& e, Binding from, Value* word, int lanes) {
   Builder& b = e.builder();
   Value* inside = b.CreateICmpULE(word, e.spread(from.last, lanes));
-  const auto indices = indices_of(e, b.CreateSelect(inside, word, e.i32(0, lanes)), lanes);
-  return each_lane(e, Scalar::i32, lanes, [&](int k) {
-    Value* address =
-        b.CreateInBoundsGEP(b.getInt32Ty(), from.words, indices[static_cast<std::size_t>(k)]);
-    return e.load_invariant(b.getInt32Ty(), address);
-  });
+  return gather(e, Scalar::i32, from.words, b.CreateSelect(inside, word, e.i32(0, lanes)), lanes);
 }
 
-/// Vectors of equal type, one after the other.
-Value* concatenate(Builder& b, std::vector<Value*> parts) {
-  while (parts.size() > 1) {
-    const auto* type = llvm::cast<llvm::FixedVectorType>(parts.front()->getType());
-    std::vector<int> both(2 * type->getNumElements());
-    std::iota(both.begin(), both.end(), 0);
-    std::vector<Value*> longer;
-    for (std::size_t k = 0; k < parts.size(); k += 2) {
-      longer.push_back(b.CreateShuffleVector(parts[k], parts[k + 1], both));
-    }
-    parts = std::move(longer);
-  }
-  return parts.front();
-}
-
-/// `count` neighbouring words for each lane, all inside: one load a lane.
-std::vector<Value*> load_runs(FunctionEmitter& e, Value* words, Value* first, int lanes,
-                              std::size_t count) {
-  Builder& b = e.builder();
-  llvm::Type* run = llvm::FixedVectorType::get(b.getInt32Ty(), static_cast<unsigned>(count));
-  std::vector<Value*> runs;
-  for (Value* index : indices_of(e, first, lanes)) {
-    Value* address = b.CreateInBoundsGEP(b.getInt32Ty(), words, index);
-    runs.push_back(e.load_invariant(run, address));
-  }
-  Value* all = concatenate(b, runs);
-  std::vector<Value*> results;
-  for (std::size_t w = 0; w < count; ++w) {
-    std::vector<int> strided;
-    for (int k = 0; k < lanes; ++k)
-      strided.push_back(static_cast<int>(w + count * static_cast<std::size_t>(k)));
-    results.push_back(b.CreateShuffleVector(all, strided));
-  }
-  return results;
-}
-
-/// The same where some lane reaches beyond the end, word by word: a function of
-/// its own, because that happens hardly ever.
+/// `count` neighbouring words for each lane where some lane reaches beyond the end, word
+/// by word: a function of its own, because that happens hardly ever.
 llvm::Function* slow_runs(FunctionEmitter& e, int lanes, std::size_t count) {
   ModuleEmitter& module = e.module();
   const std::string name = "texel.run" + std::to_string(count) + ".w" + std::to_string(lanes);
@@ -170,7 +118,8 @@ void emit_run(FunctionEmitter& e, const std::vector<ValueId>& run, Binding from,
   llvm::BasicBlock* done = block("texel.done");
   b.CreateCondBr(safe, fast, slow, llvm::MDBuilder(here->getContext()).createLikelyBranchWeights());
   b.SetInsertPoint(fast);
-  const std::vector<Value*> loaded = load_runs(e, from.words, first, lanes, run.size());
+  const std::vector<Value*> loaded =
+      gather_run(e, Scalar::i32, from.words, first, lanes, run.size());
   b.CreateBr(done);
   b.SetInsertPoint(slow);
   llvm::CallInst* call =
@@ -181,6 +130,7 @@ void emit_run(FunctionEmitter& e, const std::vector<ValueId>& run, Binding from,
   b.CreateBr(done);
   b.SetInsertPoint(done);
   for (std::size_t w = 0; w < run.size(); ++w) {
+    if (run[w] == no_value) continue;
     llvm::PHINode* phi = b.CreatePHI(loaded[w]->getType(), 2);
     phi->addIncoming(loaded[w], fast);
     phi->addIncoming(computed[w], slow);
@@ -196,7 +146,7 @@ Value* texel(FunctionEmitter& e, ValueId id) {
   Value* word = e.operand(instruction, 1, lanes);
   if (!e.is_wide(slot_id) || e.at(slot_id).op == Op::constant) {
     const Binding binding = load_binding(e, e.use(slot_id, 1));
-    const std::vector<ValueId> run = texel_run(e.function(), id);
+    const std::vector<ValueId> run = word_run(e.function(), id);
     if (lanes == 1 || run.size() == 1) return load_words(e, binding, word, lanes);
     emit_run(e, run, binding, word, lanes);
     return nullptr;

@@ -45,40 +45,42 @@ std::vector<float> fold_axis(std::span<const float> values, const std::vector<Ax
   return out;
 }
 
-class Interpolation {
- public:
-  Interpolation(Recorder& recorder, std::uint32_t table, const std::vector<Axis>& axes,
-                int quantities)
-      : recorder_(recorder), table_(table), quantities_(quantities) {
-    int stride = quantities;
-    for (const Axis& axis : axes) {
-      cells_.push_back(cell_of(axis));
-      strides_.push_back(stride);
-      stride *= axis.nodes;
-    }
+/// The quantities at a place between nodes, linear along each axis.
+std::vector<Float> interpolate(Recorder& recorder, std::uint32_t table,
+                               const std::vector<Axis>& axes, int quantities) {
+  std::vector<Float> fractions;
+  std::vector<int> offsets{0};  // Of the corners, first axis fastest.
+  Int base(0);
+  int stride = quantities;
+  for (const Axis& axis : axes) {
+    const Cell cell = cell_of(axis);
+    base = base + cell.first * Int(stride);
+    fractions.push_back(cell.fraction);
+    const std::size_t corners = offsets.size();
+    for (std::size_t k = 0; k < corners; ++k) offsets.push_back(offsets[k] + stride);
+    stride *= axis.nodes;
   }
 
-  Float at(int quantity) { return along(cells_.size(), Int(quantity)); }
-
- private:
-  /// Interpolates the first `axes` axes from `offset`.
-  Float along(std::size_t axes, Int offset) {
-    if (axes == 0) {
-      const Ref index = offset.ref();
-      return Float(recorder_.emit(Op::table, std::span(&index, 1), table_));
+  // Words side by side, one after the other, are what engines read together; so
+  // the two nodes along the first axis come with all their quantities.
+  const auto per_node = static_cast<std::size_t>(quantities);
+  std::vector<Float> corners(offsets.size() * per_node);
+  for (std::size_t corner = 0; corner < offsets.size(); ++corner) {
+    for (std::size_t quantity = 0; quantity < per_node; ++quantity) {
+      const Ref index = (base + Int(offsets[corner] + static_cast<int>(quantity))).ref();
+      corners[corner * per_node + quantity] =
+          Float(recorder.emit(Op::table, std::span(&index, 1), table));
     }
-    const Cell& cell = cells_[axes - 1];
-    const Int stride(strides_[axes - 1]);
-    const Int low = offset + cell.first * stride;
-    return lerp(along(axes - 1, low), along(axes - 1, low + stride), cell.fraction);
   }
-
-  Recorder& recorder_;
-  std::uint32_t table_;
-  int quantities_;
-  std::vector<Cell> cells_;
-  std::vector<int> strides_;
-};
+  for (const Float& fraction : fractions) {
+    for (std::size_t k = 0; k < corners.size() / 2; ++k) {
+      const std::size_t low = 2 * (k / per_node) * per_node + k % per_node;
+      corners[k] = lerp(corners[low], corners[low + per_node], fraction);
+    }
+    corners.resize(corners.size() / 2);
+  }
+  return corners;
+}
 
 }  // namespace
 
@@ -99,11 +101,7 @@ std::vector<Float> look_up(Recorder& recorder, std::string_view name, const GgxT
     for (const float value : values) out.push_back(value);
     return out;
   }
-  Interpolation interpolation(recorder, recorder.table(key, values), axes, table.quantities);
-  for (int quantity = 0; quantity < table.quantities; ++quantity) {
-    out.push_back(interpolation.at(quantity));
-  }
-  return out;
+  return interpolate(recorder, recorder.table(key, values), axes, table.quantities);
 }
 
 }  // namespace nacre
