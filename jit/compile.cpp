@@ -71,26 +71,47 @@ Program lower(Program program, const CompileOptions& options, std::vector<StageR
   return program;
 }
 
+std::vector<std::shared_ptr<const Kernel>> compile_all(
+    std::vector<Program> programs, const CompileOptions& options, CompileService* service,
+    Diagnostics& diagnostics, std::vector<std::vector<StageReport>>* stages) {
+  if (stages != nullptr) stages->resize(programs.size());
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    std::vector<StageReport>* reports = stages != nullptr ? &(*stages)[i] : nullptr;
+    programs[i] = lower(std::move(programs[i]), options, reports);
+    if (options.backend != Backend::jit || reports == nullptr) continue;
+    const auto dump = [&](const char* name, auto&& text_of) {
+      StageReport report;
+      report.name = name;
+      report.text = text_of(programs[i], codegen_options(options), diagnostics);
+      reports->push_back(std::move(report));
+    };
+    if (options.dump_ir) dump("llvm", dump_ir);
+    if (options.dump_assembly) dump("assembly", dump_assembly);
+  }
+  if (options.backend == Backend::jit) {
+    assert(service != nullptr);
+    return service->compile(std::move(programs), options, diagnostics);
+  }
+  std::vector<std::shared_ptr<const Kernel>> kernels;
+  for (Program& program : programs) {
+    kernels.push_back(options.backend == Backend::reference
+                          ? make_reference(std::move(program))
+                          : make_interpreter(std::move(program)));
+  }
+  return kernels;
+}
+
 std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,
                                       CompileService* service, Diagnostics& diagnostics,
                                       std::vector<StageReport>* stages) {
-  program = lower(std::move(program), options, stages);
-  switch (options.backend) {
-    case Backend::reference: return make_reference(std::move(program));
-    case Backend::interpreter: return make_interpreter(std::move(program));
-    case Backend::jit: break;
+  std::vector<Program> programs;
+  programs.push_back(std::move(program));
+  std::vector<std::vector<StageReport>> reports;
+  auto kernel = compile_all(std::move(programs), options, service, diagnostics, &reports).front();
+  if (stages != nullptr) {
+    for (StageReport& report : reports.front()) stages->push_back(std::move(report));
   }
-  assert(service != nullptr);
-  const auto dump = [&](bool wanted, const char* name, auto&& text_of) {
-    if (!wanted || stages == nullptr) return;
-    StageReport report;
-    report.name = name;
-    report.text = text_of(program, codegen_options(options), diagnostics);
-    stages->push_back(std::move(report));
-  };
-  dump(options.dump_ir, "llvm", [](auto&&... x) { return nacre::dump_ir(x...); });
-  dump(options.dump_assembly, "assembly", [](auto&&... x) { return nacre::dump_assembly(x...); });
-  return service->compile(std::move(program), options, diagnostics);
+  return kernel;
 }
 
 }  // namespace nacre

@@ -45,6 +45,12 @@ std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& opt
                                       CompileService* service, Diagnostics& diagnostics,
                                       std::vector<StageReport>* stages = nullptr);
 
+/// Several, side by side on the service's threads; each as above. `stages`, if not
+/// null, gets a list for each.
+std::vector<std::shared_ptr<const Kernel>> compile_all(
+    std::vector<Program> programs, const CompileOptions& options, CompileService* service,
+    Diagnostics& diagnostics, std::vector<std::vector<StageReport>>* stages = nullptr);
+
 /// The passes alone: what the engines get.
 Program lower(Program program, const CompileOptions& options,
               std::vector<StageReport>* stages = nullptr);

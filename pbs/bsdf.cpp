@@ -25,9 +25,11 @@ Color3 throughput_of(const BsdfPtr& child, const View& view) {
 
 }  // namespace
 
-void LobeBsdf::flatten(const View&, Color3 weight, std::vector<WeightedLobe>& lobes) const {
+void LobeBsdf::flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const {
   const Color3 total = product(weight, Color3(weight_));
-  if (!is_zero(total)) lobes.push_back({lobe_, total});
+  if (is_zero(total)) return;
+  lobe_->prepare(view, max_component(total) > 0.0f);
+  lobes.push_back({lobe_, total});
 }
 
 Color3 LobeBsdf::throughput(const View& view) const {

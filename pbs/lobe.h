@@ -57,6 +57,10 @@ class Lobe {
   /// One or more LobeKind bits.
   virtual std::int32_t kinds() const = 0;
 
+  /// Records what depends on the view alone, for the lanes where `mask` holds;
+  /// the lobe counts in no others. Called at top level before the functions below.
+  virtual void prepare(const View& view, Bool mask) const { (void)view, (void)mask; }
+
   virtual LobeValue evaluate(const View& view, Float3 wi) const = 0;
   /// u: three independent numbers in [0, 1).
   virtual LobeSample sample(const View& view, Float3 u) const = 0;

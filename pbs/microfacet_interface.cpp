@@ -58,6 +58,12 @@ MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {
   return terms_.get(view, [&] { return compute(view); });
 }
 
+void MicrofacetInterface::prepare(const View& view, Bool mask) const {
+  reflection_.prepare(view, mask);
+  transmission_.prepare(view, mask);
+  terms_.prepare(view, mask, [&] { return compute(view); });
+}
+
 Float3 MicrofacetInterface::turned(Float3 wi) const {
   const Bool back = options_.retroreflective & (wi.z > 0.0f);
   return {select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};

@@ -21,6 +21,7 @@ class MicrofacetInterface final : public Lobe {
 
   std::string_view name() const override { return options_.name; }
   std::int32_t kinds() const override { return lobe_glossy_reflection | lobe_glossy_transmission; }
+  void prepare(const View& view, Bool mask) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;

@@ -14,6 +14,11 @@ MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) cons
   return {factor, select(facets_.delta, fresnel_->at(local.wo.z, inside), rough)};
 }
 
+void MicrofacetReflection::prepare(const View& view, Bool mask) const {
+  facets_.look(view);  // At top level, so that lobes of one frame share it.
+  terms_.prepare(view, mask, [&] { return compute(view); });
+}
+
 /// A lobe that is turned half round the normal sends light back.
 Float3 MicrofacetReflection::turned(Float3 wi) const {
   const Bool back = options_.retroreflective;

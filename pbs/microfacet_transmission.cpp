@@ -89,6 +89,11 @@ MicrofacetTransmission::Terms MicrofacetTransmission::compute(const View& view) 
       view.thin_walled, [&] { return thin(view, local); }, [&] { return refracted(view, local); });
 }
 
+void MicrofacetTransmission::prepare(const View& view, Bool mask) const {
+  facets_.look(view);
+  terms_.prepare(view, mask, [&] { return compute(view); });
+}
+
 Bool MicrofacetTransmission::delta(const View&) const { return facets_.delta | straight_; }
 
 LobeValue MicrofacetTransmission::evaluate(const View& view, Float3 wi_world) const {

@@ -50,6 +50,7 @@ class MicrofacetTransmission final : public Lobe {
 
   std::string_view name() const override { return name_; }
   std::int32_t kinds() const override { return lobe_glossy_transmission; }
+  void prepare(const View& view, Bool mask) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "pbs/per_view.h"
@@ -194,20 +195,23 @@ Color3 ThinFilm::reflectance(Float cosine, Float before, Color3 n, Color3 k, Col
     return film_reflectance(terms_, cosine, before, thickness_, index_, n, k, bare);
   }
   // Several hundred operations, and a surface asks for several angles.
-  if (is_grey(n) && is_grey(k) && is_grey(bare)) {
-    const auto body = [terms = terms_](Float c, Float v, Float d, Float i, Float real,
-                                       Float imaginary, Float without) {
-      return film_reflectance(terms, c, v, d, i, real, imaginary, without);
-    };
-    return outline<Color3>(*recorder, fmt::format("grey_film_{}", terms_), body, cosine, before,
-                           thickness_, index_, n.x, k.x, bare.x);
-  }
-  const auto body = [terms = terms_](Float c, Float v, Float d, Float i, Color3 real,
-                                     Color3 imaginary, Color3 without) {
+  const std::string name = fmt::format("film_{}", terms_);
+  const auto grey = [terms = terms_](Float c, Float v, Float d, Float i, Float real,
+                                     Float imaginary, Float without) {
     return film_reflectance(terms, c, v, d, i, real, imaginary, without);
   };
-  return outline<Color3>(*recorder, fmt::format("film_{}", terms_), body, cosine, before,
-                         thickness_, index_, n, k, bare);
+  const auto coloured = [terms = terms_](Float c, Float v, Float d, Float i, Color3 real,
+                                         Color3 imaginary, Color3 without) {
+    return film_reflectance(terms, c, v, d, i, real, imaginary, without);
+  };
+  return if_any(thickness_ > 0.0f, bare, [&] {
+    if (is_grey(n) && is_grey(k) && is_grey(bare)) {
+      return outline<Color3>(*recorder, "grey_" + name, grey, cosine, before, thickness_, index_,
+                             n.x, k.x, bare.x);
+    }
+    return outline<Color3>(*recorder, name, coloured, cosine, before, thickness_, index_, n, k,
+                           bare);
+  });
 }
 
 }  // namespace nacre

@@ -29,16 +29,27 @@ class Service final : public CompileService {
     }
   }
 
-  std::shared_ptr<CompiledKernel> request(Program program, const CodegenOptions& options,
-                                          Diagnostics& diagnostics) override {
-    if (session_ == nullptr) return interpreting_kernel(std::move(program), no_session_);
-    auto shared = std::make_shared<const Program>(std::move(program));
-    const std::shared_ptr<CompileJob> job = joined_job(shared, options, true);
-    auto kernel = std::make_shared<ServiceKernel>(shared, options.lanes, job, nullptr);
-    const bool ready = kernel->wait();
-    const Diagnostics said = kernel->diagnostics();
-    for (const Diagnostic& one : said.all()) diagnostics.add(one);
-    return ready ? kernel : nullptr;
+  std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
+                                                           const CodegenOptions& options,
+                                                           Diagnostics& diagnostics) override {
+    std::vector<std::shared_ptr<CompiledKernel>> kernels;
+    for (Program& program : programs) {
+      if (session_ == nullptr) {
+        kernels.push_back(interpreting_kernel(std::move(program), no_session_));
+        continue;
+      }
+      auto shared = std::make_shared<const Program>(std::move(program));
+      const std::shared_ptr<CompileJob> job = joined_job(shared, options, true);
+      kernels.push_back(std::make_shared<ServiceKernel>(shared, options.lanes, job, nullptr));
+    }
+    if (session_ == nullptr) return kernels;
+    for (std::shared_ptr<CompiledKernel>& kernel : kernels) {
+      const bool ready = kernel->wait();
+      const Diagnostics said = kernel->diagnostics();
+      for (const Diagnostic& one : said.all()) diagnostics.add(one);
+      if (!ready) kernel = nullptr;
+    }
+    return kernels;
   }
 
   std::shared_ptr<CompiledKernel> request_async(Program program,
@@ -101,11 +112,25 @@ std::unique_ptr<CompileService> CompileService::create(const ServiceOptions& opt
                                    std::move(refused));
 }
 
-std::shared_ptr<const Kernel> CompileService::compile(Program program,
-                                                      const CompileOptions& options,
-                                                      Diagnostics& diagnostics) {
-  if (options.asynchronous) return request_async(std::move(program), codegen_options(options));
-  return request(std::move(program), codegen_options(options), diagnostics);
+std::shared_ptr<CompiledKernel> CompileService::request(Program program,
+                                                        const CodegenOptions& options,
+                                                        Diagnostics& diagnostics) {
+  std::vector<Program> programs;
+  programs.push_back(std::move(program));
+  return request_all(std::move(programs), options, diagnostics).front();
+}
+
+std::vector<std::shared_ptr<const Kernel>> CompileService::compile(std::vector<Program> programs,
+                                                                   const CompileOptions& options,
+                                                                   Diagnostics& diagnostics) {
+  const CodegenOptions codegen = codegen_options(options);
+  if (!options.asynchronous) {
+    auto kernels = request_all(std::move(programs), codegen, diagnostics);
+    return {kernels.begin(), kernels.end()};
+  }
+  std::vector<std::shared_ptr<const Kernel>> kernels;
+  for (Program& program : programs) kernels.push_back(request_async(std::move(program), codegen));
+  return kernels;
 }
 
 CodegenOptions codegen_options(const CompileOptions& options) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "jit/compile.h"
 #include "jit/llvm/codegen.h"
@@ -48,17 +49,21 @@ class CompileService {
   /// Cancels what is not finished.
   virtual ~CompileService() = default;
 
-  /// Returns when the code is ready. Null, with a diagnostic, if LLVM refuses; an
-  /// interpreting kernel where there is no JIT at all.
-  virtual std::shared_ptr<CompiledKernel> request(Program program, const CodegenOptions& options,
-                                                  Diagnostics& diagnostics) = 0;
+  /// Compiles them side by side and returns when all are ready. Null, with a
+  /// diagnostic, for those that LLVM refuses; interpreting kernels where there is
+  /// no JIT at all.
+  virtual std::vector<std::shared_ptr<CompiledKernel>> request_all(
+      std::vector<Program> programs, const CodegenOptions& options, Diagnostics& diagnostics) = 0;
+  std::shared_ptr<CompiledKernel> request(Program program, const CodegenOptions& options,
+                                          Diagnostics& diagnostics);
   /// Returns at once.
   virtual std::shared_ptr<CompiledKernel> request_async(Program program,
                                                         const CodegenOptions& options) = 0;
 
   /// One of the two, as `options` of the whole pipeline say.
-  std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,
-                                        Diagnostics& diagnostics);
+  std::vector<std::shared_ptr<const Kernel>> compile(std::vector<Program> programs,
+                                                     const CompileOptions& options,
+                                                     Diagnostics& diagnostics);
 };
 
 /// What the options of the pipeline mean for LLVM; lanes 0 becomes the widest

@@ -63,24 +63,28 @@ class Compilation {
     return record_graph(graph, bodies_, record, recorder_, diagnostics_);
   }
 
-  /// One entry point; nothing where it has no outputs or the compiler refuses.
-  std::optional<BoundKernel> kernel(const char* name, const std::vector<SliceOutput>& outputs,
-                                    Keeps keeps, std::vector<StageReport>& stages) {
-    if (outputs.empty()) return std::nullopt;
-    return finish(name, slice(recorder_.program(), name, outputs, keeps), stages);
+  /// What depends on `outputs`.
+  Program entry(const char* name, const std::vector<SliceOutput>& outputs, Keeps keeps) const {
+    return slice(recorder_.program(), name, outputs, keeps);
   }
 
-  std::optional<BoundKernel> finish(const char* name, Program program,
-                                    std::vector<StageReport>& stages) {
-    std::vector<StageReport> reports;
-    std::shared_ptr<const Kernel> compiled =
-        compile(std::move(program), options_.compile, service_, diagnostics_, &reports);
-    for (StageReport& report : reports) {
-      report.name = std::string(name) + ": " + report.name;
-      stages.push_back(std::move(report));
+  /// All entry points side by side; nothing where the compiler refuses.
+  std::vector<std::optional<BoundKernel>> compile(std::vector<Program> programs,
+                                                  std::vector<StageReport>& stages) {
+    std::vector<std::string> names;
+    for (const Program& program : programs) names.push_back(program.name);
+    std::vector<std::vector<StageReport>> reports;
+    auto compiled =
+        compile_all(std::move(programs), options_.compile, service_, diagnostics_, &reports);
+    std::vector<std::optional<BoundKernel>> kernels(compiled.size());
+    for (std::size_t i = 0; i < compiled.size(); ++i) {
+      for (StageReport& report : reports[i]) {
+        report.name = names[i] + ": " + report.name;
+        stages.push_back(std::move(report));
+      }
+      if (compiled[i] != nullptr) kernels[i].emplace(std::move(compiled[i]), textures_);
     }
-    if (compiled == nullptr) return std::nullopt;
-    return BoundKernel(std::move(compiled), textures_);
+    return kernels;
   }
 
   Recorder& recorder() { return recorder_; }
@@ -103,11 +107,6 @@ std::vector<SliceOutput> channels(const std::string& name, const Recorded& value
   return list;
 }
 
-void keep_union(const std::optional<BoundKernel>& kernel, std::set<std::uint32_t>& state) {
-  if (!kernel.has_value()) return;
-  for (const std::uint32_t k : state_channels(kernel->program())) state.insert(k);
-}
-
 }  // namespace
 
 ShadingSystem::~ShadingSystem() = default;
@@ -120,7 +119,7 @@ std::unique_ptr<ShadingSystem> ShadingSystem::create(const SystemOptions& option
   system->bodies_ = std::make_unique<Bodies>(system->library_->definitions());
   system->textures_ = std::make_unique<TextureStore>(options.textures);
   system->service_ = CompileService::create(
-      {.threads = options.compile_threads, .cache = options.cache}, diagnostics);
+      {.threads = options.compile_threads, .cache = options.cache, .session = {}}, diagnostics);
   return system;
 }
 
@@ -182,7 +181,8 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
     }
   }
   std::vector<StageReport> stages;
-  auto kernel = compilation.kernel("outputs", slices, Keeps::pass, stages);
+  auto kernel =
+      std::move(compilation.compile({compilation.entry("outputs", slices, Keeps::pass)}, stages)[0]);
   if (!kernel) return nullptr;
   return std::make_unique<OutputKernel>(
       OutputKernel{std::move(*kernel), std::move(outputs), std::move(stages)});
@@ -218,26 +218,33 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
   const SurfaceKernels recorded = record_kernels(compilation.recorder(), *surface,
                                                  options.compile.accuracy, options.kernels);
   auto kernels = std::make_unique<MaterialKernels>();
-  auto& stages = kernels->stages;
-  kernels->sample = compilation.kernel("sample", recorded.sample, Keeps::load, stages);
-  kernels->evaluate = compilation.kernel("evaluate", recorded.evaluate, Keeps::load, stages);
-  if (options.kernels.evaluate_at && !recorded.evaluate.empty()) {
-    const Program evaluate =
-        slice(compilation.recorder().program(), "evaluate_at", recorded.evaluate, Keeps::load);
-    kernels->evaluate_at = compilation.finish(
-        "evaluate_at",
-        fix_inputs(evaluate, [](std::string_view channel) { return !channel.starts_with("wi."); }),
-        stages);
-  }
-  kernels->albedo = compilation.kernel("albedo", recorded.albedo, Keeps::pass, stages);
-  kernels->emission = compilation.kernel("emission", recorded.emission, Keeps::pass, stages);
-  kernels->opacity = compilation.kernel("opacity", recorded.opacity, Keeps::pass, stages);
+  std::vector<Program> programs;
+  std::vector<std::optional<BoundKernel>*> places;
   std::set<std::uint32_t> state;
-  keep_union(kernels->sample, state);
-  keep_union(kernels->evaluate, state);
+  const auto add = [&](std::optional<BoundKernel>& place, Program program) {
+    for (const std::uint32_t k : state_channels(program)) state.insert(k);
+    programs.push_back(std::move(program));
+    places.push_back(&place);
+  };
+  const auto add_entry = [&](std::optional<BoundKernel>& place, const char* name,
+                             const std::vector<SliceOutput>& outputs, Keeps keeps) {
+    if (!outputs.empty()) add(place, compilation.entry(name, outputs, keeps));
+  };
+  add_entry(kernels->sample, "sample", recorded.sample, Keeps::load);
+  add_entry(kernels->evaluate, "evaluate", recorded.evaluate, Keeps::load);
   kernels->state.assign(state.begin(), state.end());
-  kernels->begin = compilation.kernel("begin", state_outputs(compilation.recorder(), kernels->state),
-                                      Keeps::pass, stages);
+  if (options.kernels.evaluate_at && !recorded.evaluate.empty()) {
+    const auto is_of_point = [](std::string_view channel) { return !channel.starts_with("wi."); };
+    add(kernels->evaluate_at,
+        fix_inputs(compilation.entry("evaluate_at", recorded.evaluate, Keeps::load), is_of_point));
+  }
+  add_entry(kernels->albedo, "albedo", recorded.albedo, Keeps::pass);
+  add_entry(kernels->emission, "emission", recorded.emission, Keeps::pass);
+  add_entry(kernels->opacity, "opacity", recorded.opacity, Keeps::pass);
+  add_entry(kernels->begin, "begin", state_outputs(compilation.recorder(), kernels->state),
+            Keeps::pass);
+  auto compiled = compilation.compile(std::move(programs), kernels->stages);
+  for (std::size_t i = 0; i < compiled.size(); ++i) *places[i] = std::move(compiled[i]);
   kernels->lobes = recorded.lobes;
   kernels->manifest = recorded.manifest;
   if (diagnostics.has_errors()) return nullptr;

@@ -58,6 +58,10 @@ class ContyKullaSheen final : public Lobe {
   std::string_view name() const override { return "sheen_bsdf"; }
   std::int32_t kinds() const override { return lobe_diffuse_reflection; }
 
+  void prepare(const View& view, Bool mask) const override {
+    terms_.prepare(view, mask, [&] { return compute(view); });
+  }
+
   LobeValue evaluate(const View& view, Float3 wi) const override {
     const Terms terms = terms_.get(view, [&] { return compute(view); });
     const Float3 n = facing(normal_, view.wo);
@@ -128,6 +132,10 @@ class ZeltnerSheen final : public Lobe {
 
   std::string_view name() const override { return "sheen_bsdf"; }
   std::int32_t kinds() const override { return lobe_diffuse_reflection; }
+
+  void prepare(const View& view, Bool mask) const override {
+    terms_.prepare(view, mask, [&] { return compute(view); });
+  }
 
   LobeValue evaluate(const View& view, Float3 wi_world) const override {
     const Terms terms = terms_.get(view, [&] { return compute(view); });

@@ -39,7 +39,9 @@ class ExampleDocuments : public ::testing::Test {
   void check(const fs::path& file) {
     SCOPED_TRACE(file.string());
     Diagnostics diagnostics;
-    const auto document = read_document(file, {.includes_anywhere = true}, diagnostics);
+    ReadOptions read;
+    read.includes_anywhere = true;
+    const auto document = read_document(file, read, diagnostics);
     ASSERT_NE(document, nullptr) << diagnostics.to_string();
     ShaderOptions options;
     for (const FoundOutput& output : find_outputs(*document)) {
