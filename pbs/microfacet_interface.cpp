@@ -44,14 +44,13 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
 
 MicrofacetInterface::Terms MicrofacetInterface::compute(const View& view) const {
   const Color3 reflected = reflection_.reflected(view);
-  const Float transmitted = transmission_.transmitted(view);
   const Color3 passing = Color3(1.0f) - reflected;
   const Float back = grey(reflected);
-  const Float forth = grey(passing) * transmitted;
+  const Float forth = grey(passing);
   const Float probability = select(back + forth > 0.0f, back / (back + forth), 1.0f);
   const Color3 factor =
       choose(separate(view), [] { return Color3(1.0f); }, [&] { return joint_factor(view); });
-  return {factor, passing, transmitted, probability};
+  return {factor, passing, probability};
 }
 
 MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {
@@ -137,11 +136,7 @@ LobeSample MicrofacetInterface::sample_joint(const View& view, Float3 u) const {
   return {.wi = world, .valid = (local.wo.z > 0.0f) & possible & is_unit(world)};
 }
 
-Color3 MicrofacetInterface::albedo(const View& view) const {
-  const Terms seen = terms(view);
-  const Color3 apart = fma(seen.passing, Color3(seen.transmitted), reflection_.reflected(view));
-  return options_.tint * select(separate(view), saturate(apart), Color3(1.0f));
-}
+Color3 MicrofacetInterface::albedo(const View&) const { return options_.tint; }
 
 LobePtr microfacet_lobe(Recorder& recorder, std::string_view scatter_mode, const Facets& facets,
                         const FacetFresnelPtr& fresnel, MicrofacetReflection::Options options) {

@@ -31,12 +31,11 @@ class MicrofacetInterface final : public Lobe {
   struct Terms {
     Color3 factor;      ///< Of both, where facets divide the light.
     Color3 passing;     ///< Not reflected.
-    Float transmitted;  ///< Albedo of the transmission lobe by itself.
     Float probability;  ///< Of reflection, where lobes do.
     template <class F>
     friend void visit(Terms& terms, F&& f) {
       nacre::visit(terms.factor, f), nacre::visit(terms.passing, f);
-      f(terms.transmitted), f(terms.probability);
+      f(terms.probability);
     }
   };
   Terms terms(const View& view) const;

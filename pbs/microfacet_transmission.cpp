@@ -4,8 +4,9 @@ namespace nacre {
 
 namespace {
 
-/// Seen from where next to nothing is refracted, what is is not scaled beyond this.
-constexpr float least_transmission = 2e-3f;
+/// Where less than this part of the light passes, facets that reflect all come in;
+/// times 1 - alpha, because some light always passes the roughest surfaces.
+constexpr float little = 0.2f;
 
 Facets scaled(const Facets& facets, Float scale) {
   Facets thin = facets;
@@ -64,23 +65,28 @@ MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view
   const GgxView seen = facets_.table_view(local);
   const Float dense = max(index_, 1.0f / index_);
   const Float rare = min(index_, 1.0f / index_);
-  const Bool leaving = local.below ^ (index_ < 1.0f);
-  const Float passed = choose(
-      leaving, [&] { return ggx_leaving(recorder, seen, rare, 1.0f).transmission; },
-      [&] { return ggx_entering(recorder, seen, dense).transmission; });
-  const Terms rough{1.0f / max(passed, least_transmission),
-                    min(passed * Float(1.0f / least_transmission), 1.0f)};
-  const Bool smooth = facets_.delta & !straight_;
-  const Float cosine = local.wo.z;
-  const Bool total = totally_reflected(cosine, relative_index(index_, local.below));
-  return {rough.factor,
-          select(straight_, 1.0f, select(smooth, to_float(!total), rough.transmitted))};
+  return choose(
+      local.below ^ (index_ < 1.0f),
+      [&] {
+        const Float perfect = ggx_reflection(recorder, seen).albedo;
+        const GgxInterface all = ggx_leaving(recorder, seen, rare, perfect);
+        const Float passed = saturate(all.transmission);
+        const Float part = passed / max(all.total, 0.05f);
+        const Float x = saturate(part / max(little * (1.0f - seen.alpha), 1e-3f));
+        const Float turned = fma(square(x), fma(2.0f, x, -3.0f), 1.0f);
+        // What comes back of all light hardly depends on the Fresnel factor.
+        const Float rest = max(all.total - passed, 0.0f);
+        return Terms{1.0f / max(fma(turned, rest, passed), 0.02f), turned};
+      },
+      [&] {
+        return Terms{1.0f / ggx_entering(recorder, seen, dense).transmission, Float(0.0f)};
+      });
 }
 
 MicrofacetTransmission::Terms MicrofacetTransmission::thin(const View& view,
                                                            const LocalView& local) const {
   const GgxView seen = thin_facets_.table_view(local);
-  return {1.0f / ggx_reflection(*view.recorder, seen).albedo, 1.0f};
+  return {1.0f / ggx_reflection(*view.recorder, seen).albedo, 0.0f};
 }
 
 MicrofacetTransmission::Terms MicrofacetTransmission::compute(const View& view) const {
@@ -101,18 +107,20 @@ LobeValue MicrofacetTransmission::evaluate(const View& view, Float3 wi_world) co
   const LocalView local = facets_.look(view);
   const Float3 wi = local.frame.to_local(wi_world);
   const Bool crosses = wi.z < 0.0f;
+  const Float eta = relative_index(index_, local.below);
   const FacetEvent event = choose(
       view.thin_walled,
       [&] { return facet_between(local.wo, {wi.x, wi.y, -wi.z}, 1.0f, thin_facets_.alpha); },
-      [&] {
-        return facet_between(local.wo, wi, relative_index(index_, local.below), facets_.alpha);
-      });
-  const Bool seen = crosses & event.possible & !delta(view);
-  const Float f = finite(event.pdf * event.shadowing * terms.factor);
-  return {.f = tint_ * Color3(select(seen, f, 0.0f)), .pdf = select(seen, event.pdf, 0.0f)};
+      [&] { return facet_between(local.wo, wi, eta, facets_.alpha); });
+  const Bool turns = (!view.thin_walled) & totally_reflected(event.cosine, eta);
+  const Float share = select(crosses, 1.0f, select(turns, terms.turned, 0.0f));
+  const Bool seen = event.possible & !delta(view);
+  const Float pdf = select(seen, event.pdf * share, 0.0f);
+  return {.f = tint_ * Color3(finite(pdf * event.shadowing * terms.factor)), .pdf = pdf};
 }
 
 LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
+  const Terms terms = terms_.get(view, [&] { return compute(view); });
   const LocalView local = facets_.look(view);
   const Float3 wo = local.wo;
   const Refraction chosen = choose(
@@ -127,8 +135,13 @@ LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
         const Float3 rough = sample_visible_normal(wo, facets_.alpha, u.x, u.y);
         const Float3 h = select(facets_.delta, Float3(0.0f, 0.0f, 1.0f), rough);
         const Float eta = relative_index(index_, local.below);
-        const Refraction bent = refract(wo, h, saturate(dot(wo, h)), eta);
-        return Refraction{select(straight_, -wo, bent.wi), straight_ | bent.possible};
+        const Float cosine = saturate(dot(wo, h));
+        const Refraction bent = refract(wo, h, cosine, eta);
+        const Float3 back = reflect(wo, h);
+        const Bool turns = totally_reflected(cosine, eta) & (back.z > 0.0f) &
+                           (facets_.delta | (u.z < terms.turned));
+        return Refraction{select(straight_, -wo, select(turns, back, bent.wi)),
+                          straight_ | turns | bent.possible};
       });
   const Float3 world = local.frame.to_world(chosen.wi);
   LobeSample sample{
@@ -140,12 +153,6 @@ LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
   return sample;
 }
 
-Float MicrofacetTransmission::transmitted(const View& view) const {
-  return terms_.get(view, [&] { return compute(view); }).transmitted;
-}
-
-Color3 MicrofacetTransmission::albedo(const View& view) const {
-  return tint_ * Color3(transmitted(view));
-}
+Color3 MicrofacetTransmission::albedo(const View&) const { return tint_; }
 
 }  // namespace nacre

@@ -36,9 +36,11 @@ void visit(Refraction& refraction, F&& f) {
 Refraction refract(Float3 wo, Float3 h, Float cosine, Float eta);
 
 /// Light refracted once by GGX facets, without a Fresnel factor: the layer above
-/// has taken what is reflected. Scaled so that all light passes but for total
-/// reflection. Smooth surfaces refract like glass. An index within 1e-3 of 1
-/// passes light straight on, whatever the roughness.
+/// has taken what is reflected. Scaled so that all light passes. Where hardly any
+/// can, facets reflect what they cannot refract, because the layer above need not
+/// know of total reflection: Schlick's factor does not. A dielectric one does, and
+/// leaves nothing to this lobe there. Smooth surfaces do so from the critical angle
+/// on. An index within 1e-3 of 1 passes light straight on, whatever the roughness.
 ///
 /// A thin wall does not bend light. It spreads it as far as it would reflect it
 /// at alpha (0.65 n - 0.35), mirrored to the other side. Burley, "Extending the
@@ -54,17 +56,16 @@ class MicrofacetTransmission final : public Lobe {
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;
-  /// Takes all light to the other side.
+  /// All light is taken.
   Color3 throughput(const View&) const override { return Color3(0.0f); }
-  /// The albedo before the tint.
-  Float transmitted(const View& view) const;
 
  private:
   struct Terms {
-    Float factor, transmitted;
+    Float factor;  ///< One over what the facets return.
+    Float turned;  ///< Share of the totally reflecting facets that is reflected.
     template <class F>
     friend void visit(Terms& terms, F&& f) {
-      f(terms.factor), f(terms.transmitted);
+      f(terms.factor), f(terms.turned);
     }
   };
   Terms compute(const View& view) const;
