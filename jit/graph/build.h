@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,12 +16,20 @@
 
 namespace nacre {
 
+/// Which implementation of a nodedef is taken where it has several.
+enum class Preference : std::uint8_t {
+  body,    ///< Our body or the host's, else the node graph, else the text.
+  graph,   ///< The node graph, else as above.
+  source,  ///< The text of an <implementation>, else as above.
+};
+
 struct GraphOptions {
   /// True for nodedefs that have a body of ours: they become nodes even where
   /// the library has a graph for them. Empty: those without a graph are taken to
-  /// have one. A nodedef with neither passes its `defaultinput` or `default`
-  /// through, with a warning.
+  /// have one. A nodedef with neither, and no implementation by text, passes its
+  /// `defaultinput` or `default` through, with a warning.
   std::function<bool(std::string_view nodedef)> is_native;
+  Preference prefer = Preference::body;
   /// Colour space that the graph computes in. The library's transforms all lead
   /// to the default.
   std::string working_space = "lin_rec709";

@@ -1,8 +1,11 @@
 // Instances of nodes and the contexts they stand in.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
+#include "jit/graph/node_source.h"
 #include "jit/graph/resolver.h"
 
 namespace nacre {
@@ -39,8 +42,26 @@ std::string join(const Context* context, std::string_view name) {
 bool Resolver::is_native(const NodeDef& def) const {
   // What a material consists of is asked of the node itself, never of a graph.
   if (def.category == "surfacematerial" || def.category == "volumematerial") return true;
-  if (options_.is_native) return options_.is_native(def.name);
-  return definitions_.graph_of(def) == nullptr;
+  return has_body(def) || runs_source(def);
+}
+
+bool Resolver::has_body(const NodeDef& def) const {
+  const bool has_graph = definitions_.graph_of(def) != nullptr;
+  if (options_.prefer == Preference::graph && has_graph) return false;
+  return options_.is_native ? options_.is_native(def.name) : !has_graph;
+}
+
+/// Whether the text of an <implementation> stands for the nodedef.
+bool Resolver::runs_source(const NodeDef& def) const {
+  if (definitions_.source_of(def) == nullptr) return false;
+  if (options_.prefer == Preference::source) return true;
+  return !has_body(def) && definitions_.graph_of(def) == nullptr;
+}
+
+void Resolver::add_source(const NodeDef& def) {
+  const auto same = [&](const NodeSource& known) { return known.nodedef == def.name; };
+  if (std::any_of(graph_.sources.begin(), graph_.sources.end(), same)) return;
+  graph_.sources.push_back(node_source(def, *definitions_.source_of(def)));
 }
 
 const NodeDef* Resolver::nodedef_of(const Element& node) {

@@ -125,6 +125,9 @@ class Resolver {
   std::optional<std::uint32_t> output_index(const NodeDef& def, std::string_view name,
                                             const Element& user);
   bool is_native(const NodeDef& def) const;
+  bool has_body(const NodeDef& def) const;
+  bool runs_source(const NodeDef& def) const;
+  void add_source(const NodeDef& def);
 
   // Literals (literals.cpp).
   std::optional<Key> take_literal(Frame& frame, const Element& carrier, Type type,

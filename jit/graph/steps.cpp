@@ -47,6 +47,7 @@ std::optional<Resolver::Key> Resolver::step_node(Frame& frame) {
   frame.result.source.kind = Source::Kind::link;
   frame.result.source.node = static_cast<std::uint32_t>(graph_.nodes.size());
   graph_.nodes.push_back(std::move(node));
+  if (runs_source(def)) add_source(def);
   return std::nullopt;
 }
 

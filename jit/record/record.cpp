@@ -1,5 +1,6 @@
 #include "jit/record/record.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -33,14 +34,7 @@ class GraphRecorder {
 
   std::optional<std::vector<Recorded>> run() {
     for (const GraphNode& node : graph_.nodes) {
-      const NodeBody* body = bodies_.find(node.nodedef);
-      if (body == nullptr) {
-        diagnostics_.error("no-implementation", node.where,
-                           "nothing implements node '" + node.category + "'",
-                           "a nodedef with a native body or a node graph", node.nodedef);
-        return std::nullopt;
-      }
-      outputs_.push_back(record(node, *body));
+      if (!record(node)) return std::nullopt;
     }
     std::vector<Recorded> results;
     for (const GraphOutput& output : graph_.outputs) {
@@ -52,7 +46,22 @@ class GraphRecorder {
  private:
   using Ports = std::vector<NodeCall::Port>;
 
-  Ports record(const GraphNode& node, const NodeBody& body) {
+  const NodeSource* source_of(const GraphNode& node) const {
+    const auto found =
+        std::find_if(graph_.sources.begin(), graph_.sources.end(),
+                     [&](const NodeSource& source) { return source.nodedef == node.nodedef; });
+    return found == graph_.sources.end() || options_.sources == nullptr ? nullptr : &*found;
+  }
+
+  bool record(const GraphNode& node) {
+    const NodeSource* source = source_of(node);
+    const NodeBody* body = source == nullptr ? bodies_.find(node.nodedef) : nullptr;
+    if (source == nullptr && body == nullptr) {
+      diagnostics_.error("no-implementation", node.where,
+                         "nothing implements node '" + node.category + "'",
+                         "a nodedef with a body, a node graph or a text", node.nodedef);
+      return false;
+    }
     Ports inputs;
     for (const GraphInput& input : node.inputs) {
       inputs.push_back({input.name, value_of(input.source, input.type)});
@@ -65,8 +74,13 @@ class GraphRecorder {
     }
     NodeCall call(recorder_, node.category, node.nodedef, std::move(inputs), std::move(outputs),
                   options_.accuracy, options_.textures, diagnostics_, node.where);
-    body.record(call);
-    return call.outputs();
+    if (source != nullptr) {
+      if (!options_.sources->record(*source, call)) return false;
+    } else {
+      body->record(call);
+    }
+    outputs_.push_back(call.outputs());
+    return true;
   }
 
   Recorded value_of(const Source& source, Type type) {

@@ -7,6 +7,7 @@
 
 #include "jit/graph/graph.h"
 #include "jit/record/bodies.h"
+#include "jit/record/source_bodies.h"
 #include "runtime/node/recorded.h"
 #include "runtime/node/texture_source.h"
 #include "runtime/program/recorder.h"
@@ -24,6 +25,8 @@ struct RecordOptions {
   Accuracy accuracy = Accuracy::standard;
   ParameterMode parameters = ParameterMode::frozen;
   TextureProvider* textures = nullptr;
+  /// Runs the graph's `sources`; null: nodes that need one are errors.
+  SourceBodies* sources = nullptr;
   /// The file that a name written in `document` stands for; the name itself if null.
   std::function<std::string(const std::string& name, const std::string& document)> resolve_file;
 };
