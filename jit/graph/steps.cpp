@@ -73,7 +73,7 @@ std::optional<Resolver::Key> Resolver::step_output(Frame& frame) {
 std::optional<Resolver::Key> Resolver::start_output(Frame& frame, const Instance& instance) {
   const NodeDef& def = *instance.def;
   const NodeDefOutput& output = def.outputs[frame.key.index];
-  const Element* graph = definitions_.graph_of(def);
+  const Element* graph = graph_of(def);
   if (is_native(def)) {
     frame.stage = received;
     return Key{Kind::node, 0, &instance, nullptr};
@@ -94,8 +94,11 @@ std::optional<Resolver::Key> Resolver::start_output(Frame& frame, const Instance
     frame.result.failed = true;
     return std::nullopt;
   }
-  warning("no-implementation", *instance.origin,
-          fmt::format("nothing implements '{}': its default is used", def.name));
+  // Passing its input through is all that `dot` does.
+  if (def.category != "dot") {
+    warning("no-implementation", *instance.origin,
+            fmt::format("nothing implements '{}': its default is used", def.name));
+  }
   for (std::uint32_t i = 0; i < def.inputs.size(); ++i) {
     if (!output.defaultinput.empty() && def.inputs[i].name == output.defaultinput) {
       return Key{Kind::input, i, &instance, nullptr};
