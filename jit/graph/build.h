@@ -21,8 +21,9 @@ struct GraphOptions {
   /// have one. A nodedef with neither passes its `defaultinput` or `default`
   /// through, with a warning.
   std::function<bool(std::string_view nodedef)> is_native;
-  /// Colour space that the graph computes in. The library's transforms all lead
-  /// to the default.
+  /// Colour space that the graph computes in, by any name that
+  /// `canonical_colorspace` knows; "": what the document's root says, or lin_rec709.
+  /// "none": nothing is converted.
   std::string working_space = "lin_rec709";
   /// What one unit of scene length is; lengths are converted to it.
   std::string distance_unit = "meter";

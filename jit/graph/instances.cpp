@@ -40,13 +40,25 @@ bool Resolver::is_native(const NodeDef& def) const {
   // What a material consists of is asked of the node itself, never of a graph.
   if (def.category == "surfacematerial" || def.category == "volumematerial") return true;
   if (options_.is_native) return options_.is_native(def.name);
-  return definitions_.graph_of(def) == nullptr;
+  return graph_of(def) == nullptr;
+}
+
+// Colour transforms made here have definitions of their own.
+const Definitions& Resolver::definitions_of(const Element& element) const {
+  for (const auto& [name, transform] : transforms_) {
+    if (transform.document.get() == &element.document()) return *transform.definitions;
+  }
+  return definitions_;
+}
+
+const Element* Resolver::graph_of(const NodeDef& def) const {
+  return definitions_of(*def.element).graph_of(def);
 }
 
 const NodeDef* Resolver::nodedef_of(const Element& node) {
   const auto known = nodedefs_.find(&node);
   if (known != nodedefs_.end()) return known->second;
-  const NodeDef* def = find_nodedef(node, definitions_, diagnostics_);
+  const NodeDef* def = find_nodedef(node, definitions_of(node), diagnostics_);
   nodedefs_.emplace(&node, def);
   return def;
 }

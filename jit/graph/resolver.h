@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -125,6 +126,8 @@ class Resolver {
   std::optional<std::uint32_t> output_index(const NodeDef& def, std::string_view name,
                                             const Element& user);
   bool is_native(const NodeDef& def) const;
+  const Definitions& definitions_of(const Element& element) const;
+  const Element* graph_of(const NodeDef& def) const;
 
   // Literals (literals.cpp).
   std::optional<Key> take_literal(Frame& frame, const Element& carrier, Type type,
@@ -140,6 +143,8 @@ class Resolver {
   // when there is nothing to convert.
   std::optional<Key> convert_colour(const Source& source, Type type, std::string_view space,
                                     const std::string& path, const Element& user);
+  std::string_view working_space() const;
+  const NodeDef* find_transform(std::string_view from, std::string_view to, Type type);
   std::optional<Key> convert_unit(Result& result, const NodeDefInput& input,
                                   const std::string& path, const Element& user);
   std::optional<double> unit_factor(std::string_view from, const NodeDefInput* input,
@@ -167,6 +172,12 @@ class Resolver {
   std::unordered_map<const Element*, const NodeDef*> nodedefs_;
   std::map<std::string_view, const Instance*> geomprops_;
   std::unordered_map<const Element*, std::uint32_t> parameters_;
+  /// Colour transforms that the library lacks, by "from_to_to"; null: not known.
+  struct Transform {
+    std::unique_ptr<Document> document;
+    std::unique_ptr<Definitions> definitions;
+  };
+  std::map<std::string, Transform, std::less<>> transforms_;
   std::unordered_map<std::string, bool> reported_;  // warnings given once
   bool too_large_ = false;
 };
