@@ -1,5 +1,8 @@
+#include "examples/render/render.h"
+
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -7,7 +10,6 @@
 #include "examples/render/camera.h"
 #include "examples/render/image_io.h"
 #include "examples/render/load_scene.h"
-#include "examples/render/render.h"
 #include "examples/tool/assignment.h"
 #include "examples/tool/kernel_shader.h"
 #include "examples/tool/neutral.h"
@@ -71,10 +73,11 @@ using Shaders = std::map<std::string, std::unique_ptr<KernelShader>>;
 bool compile_shaders(const RenderOptions& options, const Opened& opened,
                      const std::vector<std::string>& materials, Shaders& shaders,
                      Diagnostics& diagnostics) {
+  ShaderOptions shader = options.common.shader_options();
+  shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
   for (const std::string& material : materials) {
     if (material.empty() || shaders.contains(material)) continue;
-    auto kernels = opened.system->compile_material(*opened.document, material,
-                                                   options.common.shader_options(), diagnostics);
+    auto kernels = opened.system->compile_material(*opened.document, material, shader, diagnostics);
     if (kernels == nullptr) return false;
     shaders.emplace(material, std::make_unique<KernelShader>(std::move(kernels)));
   }
@@ -137,7 +140,8 @@ int run(RenderOptions& options) {
 
 void add_render(CLI::App& app, int& status) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App& command = *app.add_subcommand("render", "Path trace a scene with the document's materials");
+  CLI::App& command =
+      *app.add_subcommand("render", "Path trace a scene with the document's materials");
   options->common.add_document(command);
   options->assignment.add(command);
   host::RenderSettings& settings = options->settings;
@@ -157,20 +161,23 @@ void add_render(CLI::App& app, int& status) {
   command.add_option("--seed", settings.seed, "Of the random numbers")->capture_default_str();
   command.add_option("--frame", settings.frame, "Frame number")->capture_default_str();
   command.add_option("--time", settings.time, "Seconds")->capture_default_str();
-  command.add_option("--environment", options->environment,
-                     "Latitude-longitude image (default: a built-in studio)")
+  command
+      .add_option("--environment", options->environment,
+                  "Latitude-longitude image (default: a built-in studio)")
       ->type_name("FILE");
   command.add_option("--environment-scale", options->environment_scale)->capture_default_str();
   command.add_option("--environment-rotation", options->environment_rotation, "Degrees about +y")
       ->capture_default_str();
   command.add_option("--exposure", options->write.exposure, "Stops; png only")
       ->capture_default_str();
-  command.add_option("--white", options->write.white, "Luminance shown as white; 0: clip; png only")
+  command
+      .add_option("--white", options->write.white, "Luminance shown as white; 0: clip; png only")
       ->capture_default_str();
   command.add_flag("--half", options->write.half, "16-bit floats in .exr");
   command.add_option("--lens-radius", options->lens_radius, "Scene units; 0: all in focus")
       ->capture_default_str();
-  command.add_option("--focus-distance", options->focus_distance, "Scene units (default: the middle)");
+  command.add_option("--focus-distance", options->focus_distance,
+                     "Scene units (default: the middle)");
   options->common.add_compile(command);
   command.callback([options, &status] { status = run(*options); });
 }

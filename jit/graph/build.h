@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,8 +28,15 @@ struct GraphOptions {
   std::string working_space = "lin_rec709";
   /// What one unit of scene length is; lengths are converted to it.
   std::string distance_unit = "meter";
-  /// Replaces "{frame}" and "{0Nframe}" in file names. Kept as they are without.
+  /// Chooses the file of a sequence: replaces "{frame}" and "{0Nframe}" in file names
+  /// as the texture node's framerange, frameoffset and frameendaction say. Without,
+  /// they are kept.
   std::optional<int> frame;
+  /// Replace "{NAME}" in file names; names that are not here are kept.
+  std::map<std::string, std::string, std::less<>> host_attributes;
+  /// Replace "<NAME>" in file names: the tokens of the geometry that the graph is
+  /// for (Geometry Extensions, "Additional Filename Substitutions").
+  std::map<std::string, std::string, std::less<>> geometry_tokens;
   /// A graph with more nodes is refused.
   std::size_t max_nodes = 1'000'000;
 };

@@ -107,6 +107,8 @@ class Resolver {
   std::optional<Key> step_node(Frame& frame);
   std::optional<Key> step_output(Frame& frame);
   std::optional<Key> start_output(Frame& frame, const Instance& instance);
+  std::optional<Key> start_enabled_output(Frame& frame, const Instance& instance);
+  std::optional<Key> pass_through(Frame& frame, const Instance& instance);
   std::optional<Key> finish_native_output(Frame& frame, const Instance& instance);
   std::optional<Key> step_input(Frame& frame);
   std::optional<Key> start_input(Frame& frame, const Instance& instance, const NodeDefInput& input);
@@ -134,6 +136,7 @@ class Resolver {
                                   const Context* context);
   Source literal_or_parameter(const Element& carrier, Value value, std::string_view unit);
   Source filename_source(const Element& carrier, const Value& value, const Context* context);
+  void choose_frame(GraphNode& node, const Element& user);
   std::optional<std::string> find_token(std::string_view name, const Element& user,
                                         const Context* context) const;
   bool check_enum(const NodeDefInput& input, const Result& result);
