@@ -12,6 +12,7 @@
 #include "jit/document/document.h"
 #include "jit/document/library.h"
 #include "jit/graph/graph.h"
+#include "jit/graph/look.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre {
@@ -37,6 +38,11 @@ struct GraphOptions {
   /// Replace "<NAME>" in file names: the tokens of the geometry that the graph is
   /// for (Geometry Extensions, "Additional Filename Substitutions").
   std::map<std::string, std::string, std::less<>> geometry_tokens;
+  /// Variants to apply, the last one first where two name the same input. A variant's
+  /// inputs replace those of the document's shader nodes, and of other nodes that write
+  /// an input of that name; its tokens replace all of that name (Specification,
+  /// "Material Variants").
+  std::vector<VariantChoice> variants;
   /// A graph with more nodes is refused.
   std::size_t max_nodes = 1'000'000;
 };

@@ -127,7 +127,37 @@ const Context* Resolver::functional_context(const Instance& instance, const Elem
   return &context;
 }
 
+// What the chosen variants say of an input or token of that name; null if nothing. Of
+// those that do, the last one chosen counts.
+const Element* Resolver::variant_child(std::string_view category, std::string_view name,
+                                       const Instance* instance) const {
+  const auto fits = [&](std::string_view wanted, std::string_view own, std::string_view other) {
+    return wanted.empty() || wanted == own || wanted == other;
+  };
+  for (auto choice = options_.variants.rbegin(); choice != options_.variants.rend(); ++choice) {
+    const Element* set = document_.root().child(choice->variantset);
+    const Element* variant = set == nullptr ? nullptr : set->child(choice->variant);
+    const Element* child = variant == nullptr ? nullptr : variant->child(name);
+    if (child == nullptr || child->category() != category) continue;
+    if (instance == nullptr) return child;
+    const Element& node = *instance->element;
+    if (fits(set->attribute("node"), node.name(), node.category()) &&
+        fits(set->attribute("nodedef"), instance->def->name, {})) {
+      return child;
+    }
+  }
+  return nullptr;
+}
+
 const Element* Resolver::input_element(const Instance& instance, std::string_view name) const {
+  if (!options_.variants.empty() && instance.element != nullptr &&
+      &instance.element->document() == &document_) {
+    const Type type = instance.def->outputs.empty() ? Type::none : instance.def->outputs[0].type;
+    const bool is_shader = type >= Type::surfaceshader && type <= Type::lightshader;
+    if (is_shader || instance.element->child(name) != nullptr) {
+      if (const Element* input = variant_child("input", name, &instance)) return input;
+    }
+  }
   // An instance may inherit inputs from another of its class (Specification,
   // "Shader Nodes"); the chain is bounded in case it is a circle.
   const Element* element = instance.element;

@@ -163,6 +163,9 @@ std::optional<std::string> Resolver::find_token(std::string_view name, const Ele
     const Element* token = scope.child(name);
     return token != nullptr && token->category() == "token" ? token : nullptr;
   };
+  if (const Element* token = variant_child("token", name, nullptr)) {
+    return std::string(token->attribute("value"));
+  }
   const Element* at = &user;
   while (at != nullptr) {
     if (const Element* token = token_of(*at)) {

@@ -125,6 +125,8 @@ class Resolver {
   Instance& add_instance(const NodeDef& def, std::string path, const Element* origin);
   const Instance* geomprop_instance(std::string_view name, const Element& user);
   const Element* input_element(const Instance& instance, std::string_view name) const;
+  const Element* variant_child(std::string_view category, std::string_view name,
+                               const Instance* instance) const;
   std::optional<std::uint32_t> output_index(const NodeDef& def, std::string_view name,
                                             const Element& user);
   bool is_native(const NodeDef& def) const;
