@@ -67,19 +67,22 @@ host::Camera camera(const RenderOptions& options, const host::Scene& scene) {
   return result;
 }
 
-/// One shader a material that some mesh uses.
+/// By MeshAssignment::key.
 using Shaders = std::map<std::string, std::unique_ptr<KernelShader>>;
 
 bool compile_shaders(const RenderOptions& options, const Opened& opened,
-                     const std::vector<std::string>& materials, Shaders& shaders,
+                     const std::vector<MeshAssignment>& assignments, Shaders& shaders,
                      Diagnostics& diagnostics) {
-  ShaderOptions shader = options.common.shader_options();
-  shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
-  for (const std::string& material : materials) {
-    if (material.empty() || shaders.contains(material)) continue;
-    auto kernels = opened.system->compile_material(*opened.document, material, shader, diagnostics);
+  for (const MeshAssignment& assignment : assignments) {
+    if (assignment.material.empty() || shaders.contains(assignment.key())) continue;
+    ShaderOptions shader = options.common.shader_options();
+    shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
+    shader.graph.variants = assignment.variants;
+    shader.graph.geometry_tokens = assignment.tokens;
+    auto kernels =
+        opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
-    shaders.emplace(material, std::make_unique<KernelShader>(std::move(kernels)));
+    shaders.emplace(assignment.key(), std::make_unique<KernelShader>(std::move(kernels)));
   }
   return true;
 }
@@ -101,15 +104,15 @@ int run(RenderOptions& options) {
   options.settings.threads = options.common.threads;
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
-  const host::Scene world = scene(options, diagnostics);
+  host::Scene world = scene(options, diagnostics);
   const auto sky = environment(options, diagnostics);
   if (diagnostics.has_errors() || !sky) return report(diagnostics);
 
-  const std::vector<std::string> materials =
+  const std::vector<MeshAssignment> assignments =
       assign_materials(*opened.document, world, options.assignment, diagnostics);
   Shaders shaders;
   if (diagnostics.has_errors() ||
-      !compile_shaders(options, opened, materials, shaders, diagnostics)) {
+      !compile_shaders(options, opened, assignments, shaders, diagnostics)) {
     return report(diagnostics);
   }
   host::RenderInput input;
@@ -119,8 +122,10 @@ int run(RenderOptions& options) {
   auto grey = neutral_material(*opened.system, options.common.shader_options(), diagnostics);
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey));
-  for (const std::string& material : materials) {
-    input.shaders.push_back(material.empty() ? &neutral : shaders.at(material).get());
+  for (std::size_t i = 0; i < assignments.size(); ++i) {
+    const MeshAssignment& each = assignments[i];
+    world.meshes[i].visible_to = each.visible_to;
+    input.shaders.push_back(each.material.empty() ? &neutral : shaders.at(each.key()).get());
   }
 
   const StopOnSignal stop;
