@@ -41,7 +41,7 @@ class Corpus : public ::testing::Test {
     system_ = ShadingSystem::create({.libraries = {find_materialx_libraries()}}, diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
     // The documents name images as "resources/Images/..." from MaterialX's own root.
-    images_ = fs::temp_directory_path() / ("nacre_corpus_" + std::to_string(getpid()));
+    images_ = fs::temp_directory_path() / std::to_string(getpid()).append("_nacre_corpus");
     fs::create_directories(images_);
     fs::create_directory_symlink(fs::absolute(folder_.parent_path()), images_ / "resources");
   }
@@ -75,9 +75,9 @@ class Corpus : public ::testing::Test {
   }
 
   /// The texels of one output; empty if it does not compile.
-  std::vector<float> bake(const Document& document, const std::string& output, Backend backend,
-                          Diagnostics& diagnostics) {
-    const auto kernel = system_->compile_outputs(document, {output}, options(backend), diagnostics);
+  std::vector<float> bake(const Document& document, const std::string& output,
+                          const ShaderOptions& options, Diagnostics& diagnostics) {
+    const auto kernel = system_->compile_outputs(document, {output}, options, diagnostics);
     if (kernel == nullptr) return {};
     return host::bake_image(*kernel, 0, {.width = 7, .height = 5, .threads = 1});
   }
@@ -117,8 +117,9 @@ TEST_F(Corpus, EveryNumericOutputIsFiniteAndTheSameOnBothEngines) {
       ++numeric;
       const std::string place = name_of(file) + ' ' + output.name;
       Diagnostics problems;
-      const auto compiled = bake(*document, output.name, Backend::jit, problems);
-      const auto interpreted = bake(*document, output.name, Backend::interpreter, problems);
+      const auto compiled = bake(*document, output.name, options(Backend::jit), problems);
+      const auto interpreted =
+          bake(*document, output.name, options(Backend::interpreter), problems);
       ASSERT_FALSE(compiled.empty()) << place << problems.to_string();
       EXPECT_EQ(bits(interpreted), bits(compiled)) << place;
       EXPECT_TRUE(std::ranges::all_of(compiled, [](float x) { return std::isfinite(x); })) << place;
@@ -136,6 +137,23 @@ TEST_F(Corpus, EveryNumericOutputIsFiniteAndTheSameOnBothEngines) {
   EXPECT_EQ(documents().size(), 193u);
   EXPECT_GE(documents_read, 188);
   EXPECT_GE(numeric, 702);
+}
+
+/// What a conditional node does not take is not computed; nothing shows of it.
+TEST_F(Corpus, RecordingBranchesApartChangesNoBit) {
+  for (const fs::path& file : documents()) {
+    Diagnostics diagnostics;
+    const auto document = read(file, diagnostics);
+    if (document == nullptr) continue;
+    for (const FoundOutput& output : find_outputs(*document)) {
+      if (!is_numeric(output.type)) continue;
+      ShaderOptions eager = options(Backend::interpreter);
+      eager.lazy = false;
+      EXPECT_EQ(bits(bake(*document, output.name, options(Backend::interpreter), diagnostics)),
+                bits(bake(*document, output.name, eager, diagnostics)))
+          << name_of(file) << ' ' << output.name;
+    }
+  }
 }
 
 TEST_F(Corpus, EveryMaterialCompiles) {
