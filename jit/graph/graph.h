@@ -112,6 +112,10 @@ struct Graph {
   std::vector<NodeSource> sources;
 };
 
+/// The parameter of that path, to be read or given another value, or null. Graphs that
+/// differ in values only have the same topology_hash, and live kernels in common.
+Parameter* find_parameter(Graph& graph, std::string_view path);
+
 /// Canonical text, one line per parameter, node and output:
 ///
 ///   parameter 0 float "NG/mix1/mix" = 0.5

@@ -32,9 +32,9 @@ std::string find_file(const std::string& name, const std::string& document,
   std::error_code ignored;
   for (const fs::path& folder : folders) {
     const fs::path candidate = (folder / path).lexically_normal();
-    if (is_pattern ? fs::is_directory(candidate.parent_path().empty() ? fs::path(".")
-                                                                      : candidate.parent_path(),
-                                      ignored)
+    if (is_pattern ? fs::is_directory(
+                         candidate.parent_path().empty() ? fs::path(".") : candidate.parent_path(),
+                         ignored)
                    : fs::exists(candidate, ignored)) {
       return candidate.string();
     }
@@ -60,6 +60,7 @@ class Compilation {
         .parameters = options_.parameters,
         .textures = textures_.get(),
         .sources = &sources_,
+        .lazy = options_.lazy,
         .resolve_file = [this](const std::string& name, const std::string& document) {
           return find_file(name, document, options_.search_paths);
         }};
@@ -182,8 +183,8 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
 }
 
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(
-    const Document& document, const std::vector<std::string>& outputs,
-    const ShaderOptions& options, Diagnostics& diagnostics) {
+    const Document& document, const std::vector<std::string>& outputs, const ShaderOptions& options,
+    Diagnostics& diagnostics) {
   const auto graph = build(document, {.outputs = outputs, .material = {}}, options, diagnostics);
   return graph ? compile_outputs(*graph, options, diagnostics) : nullptr;
 }
@@ -209,8 +210,8 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
     }
   }
   std::vector<StageReport> stages;
-  auto kernel =
-      std::move(compilation.compile({compilation.entry("outputs", slices, Keeps::pass)}, stages)[0]);
+  auto kernel = std::move(
+      compilation.compile({compilation.entry("outputs", slices, Keeps::pass)}, stages)[0]);
   if (!kernel) return nullptr;
   return std::make_unique<OutputKernel>(
       OutputKernel{std::move(*kernel), std::move(outputs), std::move(stages)});
@@ -227,9 +228,9 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& graph,
                                                                  const ShaderOptions& options,
                                                                  Diagnostics& diagnostics) {
-  const auto found = std::find_if(
-      graph.outputs.begin(), graph.outputs.end(),
-      [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
+  const auto found =
+      std::find_if(graph.outputs.begin(), graph.outputs.end(),
+                   [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
   if (found == graph.outputs.end()) {
     diagnostics.error("no-surface", {}, "the material has no surface shader");
     return nullptr;
@@ -243,8 +244,8 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
     diagnostics.error("no-surface", {}, "the material's surface shader is not connected");
     return nullptr;
   }
-  const SurfaceKernels recorded = record_kernels(compilation.recorder(), *surface,
-                                                 options.compile.accuracy, options.kernels);
+  const SurfaceKernels recorded =
+      record_kernels(compilation.recorder(), *surface, options.compile.accuracy, options.kernels);
   auto kernels = std::make_unique<MaterialKernels>();
   std::vector<Program> programs;
   std::vector<std::optional<BoundKernel>*> places;

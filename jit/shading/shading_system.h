@@ -40,6 +40,7 @@ struct ShaderOptions {
   ParameterMode parameters = ParameterMode::frozen;
   KernelRequest kernels;
   GraphOptions graph;  ///< `is_native` is filled in.
+  bool lazy = true;    ///< See RecordOptions.
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;
 };
