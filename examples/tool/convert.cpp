@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -29,8 +30,21 @@ std::string write_text(const std::string& path, const std::string& text) {
   return stream ? "" : "the data cannot be written";
 }
 
+bool is_relative(std::string_view name) { return !name.empty() && fs::path(name).is_relative(); }
+
+bool names_relative_files(const Element& element) {
+  if (element.attribute("type") == "filename" && is_relative(element.attribute("value"))) {
+    return true;
+  }
+  const ElementRange children = element.children();
+  return std::any_of(children.begin(), children.end(), names_relative_files);
+}
+
 /// Relative names of images and includes count from the document's folder.
-void warn_of_other_folder(const ConvertOptions& options, Diagnostics& diagnostics) {
+void warn_of_other_folder(const ConvertOptions& options, const Document& document,
+                          Diagnostics& diagnostics) {
+  const bool includes = !options.flatten && document.files().size() > 1;
+  if (!includes && !names_relative_files(document.root())) return;
   std::error_code error;
   const fs::path from = fs::weakly_canonical(fs::absolute(options.file, error), error);
   const fs::path to = fs::weakly_canonical(fs::absolute(options.out, error), error);
@@ -50,6 +64,7 @@ int run(const ConvertOptions& options) {
   const std::string text = write_document(*document, {.flatten = options.flatten});
   host::write_atomically(
       options.out, [&](const std::string& path) { return write_text(path, text); }, diagnostics);
+  warn_of_other_folder(options, *document, diagnostics);
   if (!options.quiet && !diagnostics.has_errors()) fmt::print("{}\n", options.out);
   return report(diagnostics);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace nacre {
 
@@ -76,17 +77,47 @@ class Writer {
     }
   }
 
+  void write_attribute(std::string_view name, std::string_view value) {
+    text_ += fmt::format(" {}=\"", name);
+    append_escaped(text_, value, true);
+    text_ += '"';
+  }
+
   void write_start(const Element& element) {
     text_ += '<';
     text_ += element.category();
     for (const Attribute& attribute : element.attributes()) {
-      text_ += ' ';
-      text_ += attribute.name;
-      text_ += "=\"";
       // What came through an include may be called otherwise than it was written.
-      append_escaped(text_, attribute.name == "name" ? element.name() : attribute.value, true);
-      text_ += '"';
+      if (attribute.name == "name") {
+        write_attribute("name", element.name());
+      } else if (attribute.name == "fileprefix") {
+        write_attribute("fileprefix", rebase_ + std::string(attribute.value));
+      } else {
+        write_attribute(attribute.name, attribute.value);
+      }
     }
+    const bool is_top = element.parent() == &document_.root();
+    if (is_top && !rebase_.empty() && !element.has_attribute("fileprefix")) {
+      write_attribute("fileprefix",
+                      rebase_ + std::string(element.inherited_attribute("fileprefix")));
+    }
+  }
+
+  /// What leads from the folder of the document to that of an element's file, if
+  /// the element names files: relative names counted from there.
+  std::string rebase_of(const Element& child) const {
+    if (!names_files(child)) return {};
+    const std::filesystem::path main(document_.file_of(document_.root()));
+    const std::filesystem::path own(document_.file_of(child));
+    const std::string folder =
+        own.parent_path().lexically_relative(main.parent_path()).generic_string();
+    return folder.empty() || folder == "." ? std::string() : folder + "/";
+  }
+
+  static bool names_files(const Element& element) {
+    if (element.attribute("type") == "filename") return true;
+    const ElementRange children = element.children();
+    return std::any_of(children.begin(), children.end(), names_files);
   }
 
   bool is_written(const Element& child) const {
@@ -124,8 +155,10 @@ class Writer {
       for (const Element& child : element.children()) {
         if (!is_written(child)) continue;
         write_notes(document_.notes_before(child), level + 1);
+        if (level == 0) rebase_ = rebase_of(child);
         write_element(child, level + 1);
       }
+      if (level == 0) rebase_.clear();
       write_notes(document_.notes_at_end(element), level + 1);
       indent(level);
     }
@@ -144,6 +177,7 @@ class Writer {
   const Document& document_;
   const WriteOptions& options_;
   std::string text_;
+  std::string rebase_;  ///< Goes before `fileprefix` within the current child of the root.
 };
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace nacre {
 
 struct WriteOptions {
   /// Write what other files gave as the document's own; otherwise their elements
-  /// are left out and the <xi:include>s stay.
+  /// are left out and the <xi:include>s stay. Where such an element names files,
+  /// its `fileprefix` leads from the first file's folder to its own.
   bool flatten = false;
 };
 
