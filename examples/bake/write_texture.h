@@ -1,21 +1,49 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "examples/bake/bake.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::host {
 
+/// How texels become numbers of a file.
+struct TextureEncoding {
+  /// 8, 16 or 32; 0: what the extension is for, see `bake_to_file`.
+  int bits = 0;
+  /// Of colours: "srgb_texture", or "lin_rec709" or "none" for as computed. "":
+  /// srgb_texture in files of integers, as computed in others.
+  std::string colorspace = {};
+  /// Unit vectors, stored as (v + 1) / 2 as normal maps are.
+  bool is_direction = false;
+};
+
+/// The smallest and largest value of each channel, as computed; NaN does not count.
+struct TexelRange {
+  std::vector<float> least, most;
+  bool is_uniform() const { return least == most; }
+};
+
+/// The colour space that the texels of an output are in when they are written so;
+/// "" for what is not a colour.
+std::string texture_colorspace(Type type, const std::string& extension,
+                               const TextureEncoding& encoding);
+
+/// True if the numbers of such a file are from 0 to 1.
+bool holds_unit_range_only(const std::string& extension);
+
 /// Bakes one output into a file, atomically. The extension says what is written:
 ///
-///   .exr  32-bit float, as computed
-///   .png  8 bits, clamped to [0, 1]; colours with the sRGB transfer function
-///   .tx   a tiled, mip-mapped 32-bit float texture
+///   .exr  32 bits, or 16: floats, as computed
+///   .png  8 bits, or 16: integers, clamped to [0, 1]
+///   .tx   a tiled, mip-mapped texture of 32-bit or 16-bit floats
 ///
-/// One channel for float, boolean and integer, else as many as the type has.
+/// Other numbers of bits are an error. One channel for float, boolean and integer,
+/// else as many as the type has. Fills in `range` if there is one.
 bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
-                  const std::string& path, Diagnostics& diagnostics,
-                  const BakeControl& control = {});
+                  const TextureEncoding& encoding, const std::string& path,
+                  Diagnostics& diagnostics, const BakeControl& control = {},
+                  TexelRange* range = nullptr);
 
 }  // namespace nacre::host

@@ -5,10 +5,11 @@
 #include <stop_token>
 
 #include "examples/bake/write_texture.h"
+#include "examples/tool/bake_document.h"
 #include "examples/tool/material_inputs.h"
 #include "examples/tool/options.h"
-#include "examples/tool/size.h"
 #include "examples/tool/stop.h"
+#include "examples/tool/texture_request.h"
 #include "jit/graph/find.h"
 
 namespace nacre::tool {
@@ -21,9 +22,9 @@ struct BakeOptions {
   CommonOptions common;
   std::vector<std::string> outputs;
   std::string material;
-  std::string size = "1024";
+  std::string document;
+  TextureRequest textures;
   std::string out = ".";
-  std::string format = "exr";
   float frame = 1.0f;
   float time = 0.0f;
 };
@@ -55,38 +56,86 @@ std::vector<std::string> wanted(const BakeOptions& options, const Opened& opened
   return names;
 }
 
+/// The <output> of that name, or null.
+const Element* output_element(const Document& document, const std::string& name) {
+  const std::size_t slash = name.find('/');
+  const Element* element = document.root().child(name.substr(0, slash));
+  if (slash != std::string::npos && element != nullptr)
+    element = element->child(name.substr(slash + 1));
+  return element != nullptr && element->category() == "output" ? element : nullptr;
+}
+
+void bake_outputs(const BakeOptions& options, const Opened& opened, host::BakeSettings settings,
+                  const ShaderOptions& shader, const std::stop_token& stop,
+                  Diagnostics& diagnostics) {
+  for (const std::string& name : wanted(options, opened, diagnostics)) {
+    if (stop.stop_requested()) break;
+    TextureSettings texture;
+    if (!texture_settings(options.textures, output_element(*opened.document, name), texture,
+                          diagnostics)) {
+      continue;
+    }
+    const auto kernel =
+        opened.system->compile_outputs(*opened.document, {name}, shader, diagnostics);
+    if (kernel == nullptr) continue;
+    settings.width = texture.width;
+    settings.height = texture.height;
+    const std::string path =
+        (fs::path(options.out) / (file_stem(name) + texture.extension)).string();
+    ProgressLine line(name, options.common.quiet);
+    const host::BakeControl control{.stop = stop,
+                                    .progress = [&](double share) { line.update(share); }};
+    if (host::bake_to_file(*kernel, 0, settings, texture.encoding, path, diagnostics, control) &&
+        !options.common.quiet) {
+      fmt::print("{}\n", path);
+    }
+  }
+}
+
+/// The material asked for, or all of the document.
+std::vector<std::string> wanted_materials(const BakeOptions& options, const Document& document,
+                                          Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const FoundMaterial& found : find_materials(document)) {
+    if (options.material.empty() || options.material == found.name) names.push_back(found.name);
+  }
+  if (names.empty()) {
+    diagnostics.error("unknown-material", {options.common.file, 0, 0, {}},
+                      options.material.empty()
+                          ? "the document has no material"
+                          : fmt::format("there is no material '{}'", options.material));
+  }
+  return names;
+}
+
 int run(const BakeOptions& options) {
   Diagnostics diagnostics;
-  host::BakeSettings settings;
-  if (!parse_size(options.size, settings.width, settings.height, diagnostics)) {
+  if (!options.textures.check(diagnostics)) {
     report(diagnostics);
     return status_usage;
   }
+  host::BakeSettings settings;
   settings.threads = options.common.threads;
   settings.frame = options.frame;
   settings.time = options.time;
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
-  const std::vector<std::string> names = wanted(options, opened, diagnostics);
   std::error_code status;
   fs::create_directories(options.out, status);
   ShaderOptions shader = options.common.shader_options();
   shader.graph.frame = static_cast<int>(options.frame);
   const StopOnSignal stop;
-  for (const std::string& name : names) {
-    if (stop.token().stop_requested()) break;
-    const auto kernel =
-        opened.system->compile_outputs(*opened.document, {name}, shader, diagnostics);
-    if (kernel == nullptr) continue;
-    const std::string path =
-        (fs::path(options.out) / (file_stem(name) + "." + options.format)).string();
-    ProgressLine line(name, options.common.quiet);
-    const host::BakeControl control{.stop = stop.token(),
-                                    .progress = [&](double share) { line.update(share); }};
-    if (host::bake_to_file(*kernel, 0, settings, path, diagnostics, control) &&
-        !options.common.quiet) {
-      fmt::print("{}\n", path);
-    }
+  if (options.document.empty()) {
+    bake_outputs(options, opened, settings, shader, stop.token(), diagnostics);
+  } else {
+    const DocumentBake bake{options.document,
+                            wanted_materials(options, *opened.document, diagnostics),
+                            options.out,
+                            options.textures,
+                            settings,
+                            shader,
+                            options.common.quiet};
+    if (!bake.materials.empty()) bake_document(bake, opened, stop.token(), diagnostics);
   }
   return report(diagnostics);
 }
@@ -97,17 +146,23 @@ void add_bake(CLI::App& app, int& status) {
   auto options = std::make_shared<BakeOptions>();
   CLI::App& command = *app.add_subcommand("bake", "Write graph outputs as textures");
   options->common.add_document(command);
-  command.add_option("--output", options->outputs, "An output: GRAPH/NAME, or NAME at the root; "
-                                                   "may be repeated (default: all)")
+  CLI::Option* outputs =
+      command
+          .add_option("--output", options->outputs,
+                      "An output: GRAPH/NAME, or NAME at the root; may be repeated (default: all)")
+          ->type_name("NAME");
+  command
+      .add_option("--material", options->material,
+                  "The inputs of this material's surface shader that graphs feed")
       ->type_name("NAME");
-  command.add_option("--material", options->material,
-                     "The inputs of this material's surface shader that graphs feed")
-      ->type_name("NAME");
-  command.add_option("--size", options->size, "Texels: N or WxH")->capture_default_str();
+  command
+      .add_option("--document", options->document,
+                  "Write a document too, in which textures and values stand for the graphs that "
+                  "feed --material, or every material")
+      ->type_name("FILE.mtlx")
+      ->excludes(outputs);
+  options->textures.add(command);
   command.add_option("--out", options->out, "Folder for the images")->capture_default_str();
-  command.add_option("--format", options->format, "exr and tx hold floats, png 8 bits")
-      ->check(CLI::IsMember({"exr", "png", "tx"}))
-      ->capture_default_str();
   command.add_option("--frame", options->frame, "Frame number")->capture_default_str();
   command.add_option("--time", options->time, "Seconds")->capture_default_str();
   options->common.add_compile(command);

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   int status = nacre::tool::status_ok;
   nacre::tool::add_bake(app, status);
   nacre::tool::add_check(app, status);
+  nacre::tool::add_convert(app, status);
   nacre::tool::add_inspect(app, status);
   nacre::tool::add_render(app, status);
   try {

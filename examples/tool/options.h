@@ -63,6 +63,7 @@ class ProgressLine {
 /// Each adds its subcommand; running it sets `status`.
 void add_bake(CLI::App& app, int& status);
 void add_check(CLI::App& app, int& status);
+void add_convert(CLI::App& app, int& status);
 void add_inspect(CLI::App& app, int& status);
 void add_render(CLI::App& app, int& status);
 

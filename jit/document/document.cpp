@@ -135,6 +135,10 @@ Element& Document::create(std::string_view category, std::uint16_t file, std::ui
   return *element;
 }
 
+Element& Document::create_at(std::string_view category, const Element& place) {
+  return create(category, place.file_, place.offset_);
+}
+
 void Document::append(Element& parent, Element& child) {
   child.parent_ = &parent;
   child.next_ = nullptr;
@@ -173,6 +177,41 @@ void Document::set_attribute(Element& element, std::string_view name, std::strin
     found->value = value;
   }
   set_attributes(element, attributes);
+}
+
+void Document::remove_attribute(Element& element, std::string_view name) {
+  if (!element.has_attribute(name)) return;
+  std::vector<Attribute> attributes(element.attributes().begin(), element.attributes().end());
+  std::erase_if(attributes, [&](const Attribute& attribute) { return attribute.name == name; });
+  set_attributes(element, attributes);
+}
+
+std::span<const Note> Document::notes_before(const Element& element) const {
+  const auto found = before_.find(&element);
+  return found == before_.end() ? std::span<const Note>() : found->second;
+}
+
+std::span<const Note> Document::notes_at_end(const Element& parent) const {
+  const auto found = at_end_.find(&parent);
+  return found == at_end_.end() ? std::span<const Note>() : found->second;
+}
+
+void Document::set_notes_before(const Element& element, std::vector<Note> notes) {
+  if (!notes.empty()) before_[&element] = std::move(notes);
+}
+
+void Document::set_notes_at_end(const Element& parent, std::vector<Note> notes) {
+  if (!notes.empty()) at_end_[&parent] = std::move(notes);
+}
+
+void Document::move_notes(const Element& from, const Element* to, const Element& parent) {
+  const auto found = before_.find(&from);
+  if (found == before_.end()) return;
+  std::vector<Note> notes = std::move(found->second);
+  before_.erase(found);
+  std::vector<Note>& place = to != nullptr ? before_[to] : at_end_[&parent];
+  notes.insert(notes.end(), place.begin(), place.end());
+  place = std::move(notes);
 }
 
 void Document::build_index() {

@@ -11,6 +11,15 @@
 
 namespace nacre {
 
+/// What an XML file holds beside elements, for writing it again: it stands before
+/// an element, or at the end of its parent.
+struct Note {
+  enum class Kind { comment, instruction, text, cdata, blank_line, include };
+  Kind kind = Kind::comment;
+  std::string_view text = {};        ///< Without what encloses it.
+  const Element* include = nullptr;  ///< The <xi:include> that was followed.
+};
+
 /// What one or several .mtlx files say: a tree of elements, each knowing where
 /// it was written. Read one with `read_document`; reading checks structure
 /// (names, nesting, limits), not meaning. Once read it is never changed and may
@@ -42,20 +51,43 @@ class Document {
   char* text(std::uint16_t file) { return texts_[file].get(); }
 
   Element& create(std::string_view category, std::uint16_t file, std::uint32_t offset);
+  /// A new element that stands where `place` was written.
+  Element& create_at(std::string_view category, const Element& place);
   void append(Element& parent, Element& child);
   /// Takes the children from an element and returns the first of their chain.
   Element* take_children(Element& parent);
   static Element* next_sibling(Element& element) { return element.next_; }
+  static Element* first_child(Element& element) { return element.first_child_; }
   static void set_name(Element& element, std::string_view name) { element.name_ = name; }
+  static void set_category(Element& element, std::string_view category) {
+    element.category_ = category;
+  }
   void set_attributes(Element& element, std::span<const Attribute> attributes);
   /// Adds an attribute or replaces its value. Both texts must be kept.
   void set_attribute(Element& element, std::string_view name, std::string_view value);
+  void remove_attribute(Element& element, std::string_view name);
+
+  /// What stands before an element; with `keep_comments` of ReadOptions all that
+  /// the file had there, otherwise the includes of the main file.
+  std::span<const Note> notes_before(const Element& element) const;
+  /// What stands behind the last child of an element.
+  std::span<const Note> notes_at_end(const Element& parent) const;
+  /// What stands behind the root element.
+  std::span<const Note> notes_behind() const { return behind_; }
+  void set_notes_before(const Element& element, std::vector<Note> notes);
+  void set_notes_at_end(const Element& parent, std::vector<Note> notes);
+  void set_notes_behind(std::vector<Note> notes) { behind_ = std::move(notes); }
+  /// Puts the notes before `from` in front of those before `to`, or of those at
+  /// the end of `parent` if `to` is null.
+  void move_notes(const Element& from, const Element* to, const Element& parent);
+
   void set_root(Element& element) { root_ = &element; }
   /// Builds the name tables. Call after the last change.
   void build_index();
 
  private:
   friend class Element;
+  using NoteTable = std::unordered_map<const Element*, std::vector<Note>>;
   using NameTable = std::unordered_map<std::string_view, const Element*>;
 
   std::pmr::monotonic_buffer_resource arena_{1 << 16};
@@ -63,6 +95,9 @@ class Document {
   std::vector<std::string> file_names_;
   std::vector<std::vector<std::uint32_t>> line_starts_;
   std::unordered_map<const Element*, NameTable> tables_;
+  NoteTable before_;
+  NoteTable at_end_;
+  std::vector<Note> behind_;
   Element* root_ = nullptr;
 };
 

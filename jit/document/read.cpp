@@ -59,7 +59,7 @@ class FileReader {
     auto buffer = std::make_unique<char[]>(text.size() + 1);
     std::memcpy(buffer.get(), text.data(), text.size());
     const std::uint16_t file = document_.add_file(name, std::move(buffer), text.size());
-    Element* root = parse_xml(document_, file, text.size(), options_.limits, diagnostics_);
+    Element* root = parse_xml(document_, file, text.size(), options_, diagnostics_);
     if (root == nullptr) return nullptr;
     const std::size_t errors = diagnostics_.error_count();
     check_names(*root);
@@ -164,6 +164,7 @@ class FileReader {
 
   void merge_includes(Element& root, const fs::path& folder) {
     Element* own = document_.take_children(root);
+    keep_places(own);
     std::unordered_set<std::string_view> names;
     for (Element* child = own; child != nullptr; child = Document::next_sibling(*child)) {
       if (child->category() != "xi:include") continue;
@@ -173,8 +174,23 @@ class FileReader {
       Element* next = Document::next_sibling(*child);
       const bool kept = child->category() != "xi:include" &&
                         (child->name().empty() || !names.contains(child->name()));
-      if (kept) document_.append(root, *child);
+      if (kept) {
+        document_.append(root, *child);
+      } else {
+        document_.move_notes(*child, next, root);
+      }
       child = next;
+    }
+  }
+
+  /// Notes where the includes of a file stood.
+  void keep_places(Element* first) {
+    for (Element* child = first; child != nullptr; child = Document::next_sibling(*child)) {
+      if (child->category() != "xi:include") continue;
+      const std::span<const Note> before = document_.notes_before(*child);
+      std::vector<Note> notes(before.begin(), before.end());
+      notes.push_back({.kind = Note::Kind::include, .include = child});
+      document_.set_notes_before(*child, std::move(notes));
     }
   }
 

@@ -28,6 +28,9 @@ struct ReadOptions {
   /// Includes must lie below the main file's folder or a search path, whatever
   /// ".." and symbolic links say. True lifts that.
   bool includes_anywhere = false;
+  /// Keep comments, processing instructions, text and blank lines for
+  /// `write_document`. Elements are the same without.
+  bool keep_comments = false;
   ReadLimits limits;
 };
 

@@ -5,12 +5,14 @@
 #include <array>
 #include <charconv>
 #include <optional>
-#include <vector>
+
+#include "jit/document/upgrade/steps.h"
 
 namespace nacre {
 
 namespace {
 
+constexpr int oldest_version = 122;
 constexpr int current_version = 139;
 
 /// 1.38 is 138.
@@ -26,94 +28,35 @@ std::optional<int> parse_version(std::string_view text) {
   return major * 100 + minor;
 }
 
-// Categories whose meaning, name or ports changed in the step to `before`.
-struct ChangedCategory {
-  std::string_view category;
-  int before;
+struct Step {
+  int to;
+  void (*apply)(const upgrading::Upgrade& upgrade);
 };
-constexpr std::array changed_categories = std::to_array<ChangedCategory>({
-    {"arrayappend", 139},
-    {"swizzle", 139},
-    {"thin_film_bsdf", 139},
-    {"atan2", 139},
-    {"normalmap", 139},
-    {"parameter", 138},
-    {"shaderref", 138},
-    {"bindinput", 138},
-    {"bindparam", 138},
-    {"bindtoken", 138},
-    {"dielectric_brdf", 138},
-    {"dielectric_btdf", 138},
-    {"conductor_brdf", 138},
-    {"sheen_brdf", 138},
-    {"diffuse_brdf", 138},
-    {"burley_diffuse_brdf", 138},
-    {"diffuse_btdf", 138},
-    {"subsurface_brdf", 138},
-    {"generalized_schlick_brdf", 138},
-    {"thin_film_brdf", 138},
-    {"artistic_ior", 138},
-    {"invert", 137},
-    {"rotate", 137},
-    {"compare", 137},
-    {"transformpoint", 137},
-    {"transformvector", 137},
-    {"transformnormal", 137},
-    {"combine", 137},
-    {"separate", 137},
-    {"geomattr", 137},
-    {"geomattrvalue", 137},
-    {"opgraph", 127},
-    {"assign", 127},
-});
 
-std::optional<std::string> change_of_element(const Element& element, int version) {
-  for (const ChangedCategory& changed : changed_categories) {
-    if (element.category() == changed.category && version < changed.before) {
-      return fmt::format("<{}>", element.category());
-    }
-  }
-  if (version < 139 && element.has_attribute("channels")) return "attribute channels=";
-  if (version < 139 && element.has_attribute("value") &&
-      (element.has_attribute("nodename") || element.has_attribute("interfacename"))) {
-    return "an input with both a value and a connection";
-  }
-  if (version < 139 && element.name() == "radius" && element.attribute("type") == "vector3" &&
-      element.parent() != nullptr && element.parent()->category() == "subsurface_bsdf") {
-    return "subsurface_bsdf radius of type vector3";
-  }
-  if (version < 138 && element.attribute("type") == "color2") return "type color2";
-  if (version < 138 && element.category() == "material") return "<material>";
-  if (version < 137 && element.category() == "nodedef" && element.has_attribute("type")) {
-    return "nodedef with type=";
-  }
-  if (version < 136 && element.has_attribute("default")) return "attribute default=";
-  if (version < 135 && element.attribute("type") == "matrix") return "type matrix";
-  return std::nullopt;
-}
+constexpr auto steps = std::to_array<Step>({{123, upgrading::upgrade_to_1_23},
+                                            {124, upgrading::upgrade_to_1_24},
+                                            {125, upgrading::upgrade_to_1_25},
+                                            {126, upgrading::upgrade_to_1_26},
+                                            {134, upgrading::upgrade_to_1_34},
+                                            {135, upgrading::upgrade_to_1_35},
+                                            {136, upgrading::upgrade_to_1_36},
+                                            {137, upgrading::upgrade_to_1_37},
+                                            {138, upgrading::upgrade_to_1_38},
+                                            {139, upgrading::upgrade_to_1_39}});
 
-// The element after this one in reading order, within `root`; null at the end.
-const Element* next_in_order(const Element& root, const Element& element) {
-  if (element.child_count() > 0) return &*element.children().begin();
-  const Element* at = &element;
-  while (at != &root && at->next() == nullptr) at = at->parent();
-  return at == &root ? nullptr : at->next();
-}
-
-void report_changes(const Element& root, int version, std::string_view text,
-                    Diagnostics& diagnostics) {
-  for (const Element* at = &root; at != nullptr; at = next_in_order(root, *at)) {
-    if (const auto change = change_of_element(*at, version)) {
-      diagnostics.error("needs-upgrade", location(*at),
-                        fmt::format("{} changed since version {} of the format", *change, text),
-                        "a document of version 1.39");
-    }
+void apply_steps(Document& document, Element& root, int version, Diagnostics& diagnostics) {
+  upgrading::Upgrade upgrade(document, root, diagnostics);
+  for (const Step& step : steps) {
+    if (version >= step.to) continue;
+    upgrade.find_nodedefs();
+    step.apply(upgrade);
   }
+  document.set_attribute(root, "version", "1.39");
 }
 
 }  // namespace
 
-void upgrade(Document&, Element& root, Diagnostics& diagnostics) {
+void upgrade(Document& document, Element& root, Diagnostics& diagnostics) {
   const auto where = [&] { return location(root); };
   if (root.category() != "materialx") {
     diagnostics.error("not-materialx", where(), "this is not a MaterialX document",
@@ -134,8 +77,11 @@ void upgrade(Document&, Element& root, Diagnostics& diagnostics) {
     diagnostics.warning("newer-version", where(),
                         "the document is of a version that is not known yet", "1.39 or older",
                         std::string(text));
+  } else if (*version < oldest_version) {
+    diagnostics.error("cannot-upgrade", where(), "the document is of a version that is too old",
+                      "1.22 to 1.39", std::string(text));
   } else if (*version < current_version) {
-    report_changes(root, *version, text, diagnostics);
+    apply_steps(document, root, *version, diagnostics);
   }
 }
 

@@ -12,6 +12,6 @@ namespace nacre {
 /// which is not linked to anything yet. Null after an error. UTF-8 only;
 /// document type declarations are refused, so there are no entities to expand.
 Element* parse_xml(Document& document, std::uint16_t file, std::size_t size,
-                   const ReadLimits& limits, Diagnostics& diagnostics);
+                   const ReadOptions& options, Diagnostics& diagnostics);
 
 }  // namespace nacre

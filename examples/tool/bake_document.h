@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "examples/bake/write_texture.h"
+#include "examples/tool/options.h"
+#include "examples/tool/texture_request.h"
+
+namespace nacre::tool {
+
+struct DocumentBake {
+  std::string document;                ///< The file to write.
+  std::vector<std::string> materials;  ///< Names of material nodes.
+  std::string folder;                  ///< Of the textures.
+  TextureRequest textures;
+  host::BakeSettings settings;  ///< But for the size.
+  ShaderOptions shader;
+  bool quiet = false;
+};
+
+/// Bakes what feeds materials into textures, and writes a document that has them
+/// in place of the graphs. The opened document gets outputs for it. A file that
+/// could not be written is an error, and then there is no document.
+void bake_document(const DocumentBake& options, const Opened& opened, const std::stop_token& stop,
+                   Diagnostics& diagnostics);
+
+}  // namespace nacre::tool

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "examples/bake/write_texture.h"
+#include "jit/document/document.h"
+#include "runtime/diagnostic.h"
+
+namespace nacre::tool {
+
+/// What the command line says about the textures to write. What it leaves open is
+/// taken from the `width`, `height`, `bitdepth` and `colorspace` of an <output>
+/// (MaterialX Specification, "Output Elements"), then from the format.
+struct TextureRequest {
+  std::string size;    ///< --size: "N", "WxH", or "" if not given.
+  int bits = 0;        ///< --bitdepth, 0 if not given.
+  std::string format;  ///< --format, "" if not given.
+
+  void add(CLI::App& command);
+  /// True if what was given can be understood.
+  bool check(Diagnostics& diagnostics) const;
+};
+
+/// One texture: how large, and what it holds.
+struct TextureSettings {
+  int width = 1024, height = 1024;
+  host::TextureEncoding encoding;
+  std::string extension;  ///< ".exr", or ".png" where a bit depth of 8 and no format is asked for.
+};
+
+/// The settings for an <output>, null for what has none; false after an error.
+bool texture_settings(const TextureRequest& request, const Element* output,
+                      TextureSettings& settings, Diagnostics& diagnostics);
+
+}  // namespace nacre::tool
