@@ -59,7 +59,7 @@ class FileReader {
     auto buffer = std::make_unique<char[]>(text.size() + 1);
     std::memcpy(buffer.get(), text.data(), text.size());
     const std::uint16_t file = document_.add_file(name, std::move(buffer), text.size());
-    Element* root = parse_xml(document_, file, text.size(), options_.limits, diagnostics_);
+    Element* root = parse_xml(document_, file, text, options_.limits, diagnostics_);
     if (root == nullptr) return nullptr;
     const std::size_t errors = diagnostics_.error_count();
     check_names(*root);
@@ -131,11 +131,13 @@ class FileReader {
   // Names are unique within a scope; checked before the includes come in.
   void check_names(const Element& root) {
     std::vector<const Element*> pending{&root};
+    check_namespace(root);
     while (!pending.empty()) {
       const Element& scope = *pending.back();
       pending.pop_back();
       for (const Element& child : scope.children()) {
         if (child.child_count() > 0) pending.push_back(&child);
+        check_namespace(child);
         if (!child.has_attribute("name") || is_valid_name(child.name())) continue;
         diagnostics_.error("invalid-name", location(child), "this is not a valid name",
                            "letters, digits and '_', not starting with a digit",
@@ -143,6 +145,14 @@ class FileReader {
       }
       check_unique(scope);
     }
+  }
+
+  void check_namespace(const Element& element) {
+    const std::string_view space = element.attribute("namespace");
+    if (space.empty() || is_valid_name(space)) return;
+    diagnostics_.error("invalid-name", location(element), "this is not a valid namespace",
+                       "letters, digits and '_', not starting with a digit",
+                       fmt::format("'{}'", space.substr(0, 100)));
   }
 
   void check_unique(const Element& scope) {
@@ -157,8 +167,9 @@ class FileReader {
         is_new = scope.child(child.name()) == &child;
       }
       if (is_new) continue;
-      diagnostics_.error("duplicate-name", location(child),
-                         fmt::format("the name '{}' is used twice in one scope", child.name()));
+      diagnostics_.error(
+          "duplicate-name", location(child),
+          fmt::format("the name '{}' is used twice in one scope", child.name().substr(0, 100)));
     }
   }
 

@@ -8,6 +8,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "jit/document/text_check.h"
+
 namespace nacre {
 
 namespace {
@@ -64,6 +66,18 @@ struct Reader {
                       fmt::format("attribute '{}' is given twice", twice));
   }
 
+  // Elements say all they say in attributes: text is something that slipped.
+  void warn_of_text(const Element& element, const pugi::xml_node& node) {
+    const std::string_view text = node.value();
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) return;
+    SourceLocation where = at(node.offset_debug() + static_cast<std::ptrdiff_t>(first));
+    where.path = element_path(element);
+    const std::string_view line = text.substr(first, 60);
+    diagnostics.warning("stray-text", where, "text between tags means nothing", "an attribute",
+                        fmt::format("'{}'", line.substr(0, line.find_first_of("\r\n"))));
+  }
+
   // Without recursion: the depth is the document's choice until it is checked.
   Element* convert_tree(const pugi::xml_node& top) {
     Element* root = &convert(top);
@@ -75,6 +89,9 @@ struct Reader {
         continue;
       }
       open.back().first = node.next_sibling();
+      if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) {
+        warn_of_text(*open.back().second, node);
+      }
       if (node.type() != pugi::node_element) continue;
       if (open.size() + 1 > static_cast<std::size_t>(limits.xml_depth)) {
         diagnostics.error("too-deep", at(node.offset_debug()), "elements are nested too deeply",
@@ -89,38 +106,37 @@ struct Reader {
   }
 };
 
-std::string describe(pugi::xml_parse_status status) {
-  switch (status) {
-    case pugi::status_no_document_element: return "there is no element in it";
-    case pugi::status_end_element_mismatch: return "an end tag does not match its start tag";
-    case pugi::status_bad_doctype: return "the document type declaration is malformed";
-    case pugi::status_bad_attribute: return "an attribute is malformed";
-    case pugi::status_bad_start_element: return "a start tag is malformed";
-    case pugi::status_bad_end_element: return "an end tag is malformed";
-    case pugi::status_bad_comment: return "a comment is not closed";
-    case pugi::status_bad_cdata: return "a CDATA section is not closed";
-    case pugi::status_bad_pi: return "a processing instruction is malformed";
-    case pugi::status_out_of_memory: return "there is not enough memory for it";
-    default: return "a tag is not recognised";
-  }
+/// How the parser itself puts it, where we find no better words.
+TextFault fault_of(const pugi::xml_parse_result& result) {
+  const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0));
+  return {offset, "malformed-xml",
+          fmt::format("the file is not well-formed XML: {}", result.description())};
 }
 
-bool check_encoding(std::string_view text) {
-  return !text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF") &&
-         text.find('\0') == std::string_view::npos;
+bool is_utf8(std::string_view encoding) {
+  std::string lower(encoding);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower.empty() || lower == "utf-8" || lower == "utf8" || lower == "us-ascii" ||
+         lower == "ascii";
 }
 
 }  // namespace
 
-Element* parse_xml(Document& document, std::uint16_t file, std::size_t size,
+Element* parse_xml(Document& document, std::uint16_t file, std::string_view text,
                    const ReadLimits& limits, Diagnostics& diagnostics) {
   Reader reader{document, file, limits, diagnostics, {}};
-  char* text = document.text(file);
-  if (!check_encoding({text, size})) {
-    diagnostics.error("bad-encoding", reader.at(0), "the file is not UTF-8 text", "UTF-8");
+  const auto refuse = [&](TextFault fault) -> Element* {
+    diagnostics.error(std::move(fault.code), reader.at(static_cast<std::ptrdiff_t>(fault.offset)),
+                      std::move(fault.message), std::move(fault.expected), std::move(fault.found));
     return nullptr;
+  };
+  if (auto fault = find_bad_character(text)) return refuse(std::move(*fault));
+  if (const std::string_view encoding = declared_encoding(text); !is_utf8(encoding)) {
+    diagnostics.warning("declared-encoding", reader.at(0),
+                        "the file says that it is of another encoding, and is read as UTF-8",
+                        "UTF-8", fmt::format("'{}'", encoding.substr(0, 40)));
   }
-  const auto tags = static_cast<std::size_t>(std::count(text, text + size, '<'));
+  const auto tags = static_cast<std::size_t>(std::count(text.begin(), text.end(), '<'));
   if (tags / 2 > limits.elements) {
     diagnostics.error("too-many-elements", reader.at(0), "the file has too many elements",
                       fmt::format("at most {}", limits.elements));
@@ -128,18 +144,15 @@ Element* parse_xml(Document& document, std::uint16_t file, std::size_t size,
   }
   pugi::xml_document xml;
   const pugi::xml_parse_result result =
-      xml.load_buffer_inplace(text, size, parse_flags, pugi::encoding_utf8);
+      xml.load_buffer_inplace(document.text(file), text.size(), parse_flags, pugi::encoding_utf8);
   for (const pugi::xml_node& node : xml.children()) {
     if (node.type() != pugi::node_doctype) continue;
-    diagnostics.error("doctype", reader.at(node.offset_debug()),
+    diagnostics.error("doctype", reader.at(node.offset_debug() - 2),
                       "document type declarations are not allowed");
     return nullptr;
   }
-  if (!result) {
-    diagnostics.error("malformed-xml", reader.at(result.offset),
-                      fmt::format("the file is not well-formed XML: {}", describe(result.status)));
-    return nullptr;
-  }
+  if (!result) return refuse(find_markup_fault(text).value_or(fault_of(result)));
+  if (auto fault = find_text_outside(text)) return refuse(std::move(*fault));
   const pugi::xml_node top = xml.document_element();
   for (pugi::xml_node node = top.next_sibling(); node; node = node.next_sibling()) {
     if (node.type() != pugi::node_element) continue;
