@@ -114,6 +114,10 @@ std::optional<TextFault> find_bad_reference(std::string_view text) {
       if (at == std::string_view::npos) return std::nullopt;  // the parser will say so
       continue;
     }
+    // The entities that it declares are not what is wrong.
+    if (rest.starts_with("<!")) {
+      return TextFault{at, "doctype", "document type declarations are not allowed"};
+    }
     if (text[at] == '&') {
       const std::string_view inside = rest.substr(1, longest);
       const std::size_t stop = std::min(inside.find_first_of(";\"'<> \t\r\n"), inside.size());

@@ -56,7 +56,7 @@ bool version_agrees(const NodeDef& def, std::string_view version) {
 // The first input of the instance that the nodedef does not take, or null.
 const Element* first_misfit(const Element& instance, const NodeDef& def) {
   for (const Element& child : instance.children()) {
-    if (child.category() != "input") continue;
+    if (child.category() != "input" || child.name().empty()) continue;
     const NodeDefInput* input = def.input(child.name());
     if (input == nullptr || input->type_text != child.attribute("type")) return &child;
   }

@@ -9,6 +9,7 @@
 
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
+#include "jit/graph/check_parts.h"
 #include "jit/graph/connection.h"
 #include "jit/graph/find.h"
 
@@ -22,13 +23,13 @@ class Checker {
       : document_(document), definitions_(definitions), diagnostics_(diagnostics) {}
 
   void check_all() {
+    check_structure(document_, diagnostics_);
+    check_declarations(document_, definitions_, diagnostics_);
     check_scope(document_.root());
     for (const Element& child : document_.root().children()) {
       if (child.category() == "nodegraph") check_graph(child);
-      if (child.category() == "implementation") check_implementation(child);
-      if (child.category() == "nodedef") check_nodedef(child);
-      if (child.category() == "look") check_look(child);
     }
+    check_looks(document_, definitions_, diagnostics_);
     find_looks(document_, diagnostics_);
   }
 
@@ -102,17 +103,9 @@ class Checker {
   }
 
   void check_port(const Element& port) {
-    const std::string_view type_text = port.attribute("type");
-    const auto type = parse_type(type_text);
-    if (!type) {
-      if (type_text.empty()) {
-        error("missing-type", port, "the port has no type", "type=\"TYPE\"");
-      } else if (!is_declared_type(type_text)) {
-        error("unknown-type", port, "there is no type of this name", "a standard type",
-              fmt::format("'{}'", type_text));
-      }
-      return;
-    }
+    if (!check_type_name(port, definitions_, diagnostics_)) return;
+    const auto type = parse_type(port.attribute("type"));
+    if (!type) return;  // a type of the document's own
     const Connection connection = find_connection(port, diagnostics_);
     switch (connection.kind) {
       case Connection::Kind::value: check_value(port, *type); break;
@@ -133,17 +126,16 @@ class Checker {
     }
   }
 
-  bool is_declared_type(std::string_view name) const {
-    const Element* found = definitions_.resolve(name, document_.root());
-    return found != nullptr && found->category() == "typedef";
-  }
-
   void check_value(const Element& port, Type type) {
     const std::string_view text = port.attribute("value");
-    bool leftover = false;  // building warns of it
+    bool leftover = false;
     if (!parse_value(type, text, &leftover)) {
       error("bad-value", port, fmt::format("the value does not fit the type {}", type_name(type)),
-            expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
+            expected_text(type), quoted(text));
+    } else if (leftover) {
+      diagnostics_.warning("number-leftover", location(port),
+                           "what follows a number in the value is not used", expected_text(type),
+                           quoted(text));
     }
     const std::string_view unit = port.attribute("unit");
     if (!unit.empty() && !definitions_.unit(unit)) {
@@ -234,67 +226,6 @@ class Checker {
         error("type-mismatch", *port, "the output has another type than in the nodedef",
               std::string(output.type_text), std::string(port->attribute("type")));
       }
-    }
-  }
-
-  void check_implementation(const Element& element) {
-    const std::string_view name = element.attribute("nodedef");
-    if (definitions_.nodedef(qualified_name(element, name)) == nullptr &&
-        definitions_.nodedef(name) == nullptr) {
-      error("unknown-nodedef", element, "the nodedef to implement does not exist",
-            "the name of a nodedef", fmt::format("'{}'", name));
-    }
-    const std::string_view graph = element.attribute("nodegraph");
-    if (graph.empty()) return;
-    const Element* found = definitions_.resolve(graph, element);
-    if (found == nullptr || found->category() != "nodegraph") {
-      error("unknown-nodegraph", element, "there is no node graph of this name",
-            "the name of a node graph", fmt::format("'{}'", graph));
-    }
-  }
-
-  void check_nodedef(const Element& element) {
-    if (element.attribute("node").empty()) {
-      error("missing-node", element, "the nodedef does not say which node it defines",
-            "node=\"CATEGORY\"");
-      return;
-    }
-    const NodeDef* def = definitions_.nodedef(element.name());
-    if (def == nullptr) return;
-    if (def->element != &element) {
-      diagnostics_.warning("shadowed-nodedef", location(element),
-                           "a library has a nodedef of this name, which is used instead");
-      return;
-    }
-    if (def->outputs.empty()) {
-      error("missing-output", element, "the nodedef has no output", "an <output>");
-    }
-    for (const NodeDefInput& input : def->inputs) {
-      if (!input.defaultgeomprop.empty() &&
-          definitions_.geompropdef(input.defaultgeomprop) == nullptr) {
-        error("unknown-geomprop", *input.element, "there is no geometric property of this name",
-              "the name of a <geompropdef>", fmt::format("'{}'", input.defaultgeomprop));
-      }
-      check_declared_type(*input.element, input.type, input.type_text);
-    }
-    for (const NodeDefOutput& output : def->outputs) {
-      check_declared_type(*output.element, output.type, output.type_text);
-    }
-  }
-
-  void check_declared_type(const Element& port, Type type, std::string_view text) {
-    if (type != Type::none || text == "none" || is_declared_type(text)) return;
-    error("unknown-type", port, "there is no type of this name", "a standard type",
-          fmt::format("'{}'", text));
-  }
-
-  void check_look(const Element& look) {
-    for (const Element& child : look.children()) {
-      if (child.category() != "materialassign") continue;
-      const std::string_view name = child.attribute("material");
-      if (definitions_.resolve(name, child) != nullptr) continue;
-      error("unknown-material", child, "there is no material of this name",
-            "the name of a material", fmt::format("'{}'", name));
     }
   }
 

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <vector>
 
+#include "runtime/texture/exr_header.h"
 #include "runtime/texture/image_format.h"
 #include "runtime/texture/png_chunks.h"
 
@@ -187,6 +188,10 @@ std::optional<Diagnostic> ImageReader::open(const std::string& path, const std::
   if (!opened->input) return broken(path, OIIO::geterror());
   if (*format == ImageFormat::png) {
     if (auto problem = take_png(*opened, file_bytes)) return problem;
+  }
+  if (*format == ImageFormat::exr) {
+    std::ifstream stream(path, std::ios::binary);
+    if (auto reason = exr_header_fault(stream, file_bytes, limits)) return broken(path, *reason);
   }
   OIIO::ImageInput& input = *opened->input;
   if (!input.open(path, opened->spec, reader_options())) return broken(path, input.geterror());

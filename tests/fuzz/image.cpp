@@ -17,22 +17,25 @@ using namespace nacre;
 
 /// Memory that looks like a file. TGA has no signature, so the name says it; all
 /// other formats are told by their first bytes.
-const std::string& file_name() {
-  static const std::string name = [] {
+struct MemoryFile {
+  std::string name;
+
+  MemoryFile() {
     const std::filesystem::path memory = "/dev/shm";
     const auto folder =
         std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
-    return (folder / ("nacre_fuzz_image_" + std::to_string(getpid()) + ".tga")).string();
-  }();
-  return name;
-}
-
-struct RemoveFile {
-  ~RemoveFile() {
+    name = (folder / ("nacre_fuzz_image_" + std::to_string(getpid()) + ".tga")).string();
+  }
+  ~MemoryFile() {
     std::error_code ignored;
-    std::filesystem::remove(file_name(), ignored);
+    std::filesystem::remove(name, ignored);
   }
 };
+
+const std::string& file_name() {
+  static const MemoryFile file;
+  return file.name;
+}
 
 void look_up(const HostTexture& texture) {
   const std::vector<float> u{-0.5f, 0.1f, 0.5f, 0.99f};
@@ -64,7 +67,6 @@ void load(std::uint64_t budget, const std::string& layer) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const RemoveFile remove_at_exit;
   std::ofstream(file_name(), std::ios::binary | std::ios::trunc)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   load(8 << 20, size % 3 == 0 ? "1" : "");
