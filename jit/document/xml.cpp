@@ -145,13 +145,11 @@ Element* parse_xml(Document& document, std::uint16_t file, std::string_view text
   pugi::xml_document xml;
   const pugi::xml_parse_result result =
       xml.load_buffer_inplace(document.text(file), text.size(), parse_flags, pugi::encoding_utf8);
+  bool has_doctype = false;
   for (const pugi::xml_node& node : xml.children()) {
-    if (node.type() != pugi::node_doctype) continue;
-    diagnostics.error("doctype", reader.at(node.offset_debug() - 2),
-                      "document type declarations are not allowed");
-    return nullptr;
+    has_doctype = has_doctype || node.type() == pugi::node_doctype;
   }
-  if (!result) return refuse(find_markup_fault(text).value_or(fault_of(result)));
+  if (!result || has_doctype) return refuse(find_markup_fault(text).value_or(fault_of(result)));
   if (auto fault = find_text_outside(text)) return refuse(std::move(*fault));
   const pugi::xml_node top = xml.document_element();
   for (pugi::xml_node node = top.next_sibling(); node; node = node.next_sibling()) {

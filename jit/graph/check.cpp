@@ -56,7 +56,7 @@ class Checker {
     if (node.name().empty()) {
       error("missing-name", node, "the node has no name", "a name");
     }
-    const NodeDef* def = find_nodedef(node, definitions_, diagnostics_);
+    const NodeDef* def = nodedef_of(node);
     if (def != nullptr && def->category != node.category() &&
         def->category != qualified_name(node, node.category())) {
       diagnostics_.warning("nodedef-mismatch", location(node),
@@ -71,6 +71,24 @@ class Checker {
       if (input != nullptr) check_enum(child, *input);
     }
     check_instance_inheritance(node);
+  }
+
+  // An input whose type is the name of none is reported as such, once.
+  const NodeDef* nodedef_of(const Element& node) {
+    Diagnostics found;
+    const NodeDef* def = find_nodedef(node, definitions_, found);
+    for (const Diagnostic& one : found.all()) {
+      const auto has_bad_type = [&](const Element& child) {
+        const std::string_view type = child.attribute("type");
+        return child.category() == "input" && location(child).path == one.where.path &&
+               !parse_type(type) && !is_declared_type(type, child, definitions_);
+      };
+      const ElementRange children = node.children();
+      const bool is_doubled =
+          one.code == "input-type" && std::any_of(children.begin(), children.end(), has_bad_type);
+      if (!is_doubled) diagnostics_.add(one);
+    }
+    return def;
   }
 
   void check_instance_inheritance(const Element& node) {
@@ -211,6 +229,19 @@ class Checker {
             "the name of a nodedef", fmt::format("'{}'", name));
     } else {
       check_outputs(graph, *def);
+      check_inputs(graph, *def);
+    }
+  }
+
+  // Instances never see them (Specification, "Functional Nodegraphs").
+  void check_inputs(const Element& graph, const NodeDef& def) {
+    for (const Element& child : graph.children()) {
+      if (child.category() != "input") continue;
+      diagnostics_.warning(
+          "interface-of-nodedef", location(child),
+          fmt::format("the inputs of this graph are those of '{}', and this one is not used",
+                      def.name),
+          "an <input> of the nodedef");
     }
   }
 
