@@ -61,14 +61,16 @@ void Definitions::read_implementations() {
     const bool is_graph = element.category() == "nodegraph";
     if (!is_graph && element.category() != "implementation") continue;
     const std::string_view def_name = element.attribute("nodedef");
-    if (def_name.empty() || !is_for_us(element.attribute("target"))) continue;
+    if (def_name.empty()) continue;
     const NodeDef* def = resolve_nodedef(def_name, element);
     const Element* graph = &element;
     if (!is_graph) {
       graph = resolve(element.attribute("nodegraph"), element);
       if (graph == nullptr || graph->category() != "nodegraph") continue;
     }
-    if (def != nullptr) graphs_.emplace(def, graph);
+    if (def == nullptr) continue;
+    implemented_.emplace(graph, def);
+    if (is_for_us(element.attribute("target"))) graphs_.emplace(def, graph);
   }
 }
 
@@ -116,6 +118,12 @@ const Element* Definitions::graph_of(const NodeDef& def) const {
   }
   const auto found = graphs_.find(&def);
   return found == graphs_.end() ? nullptr : found->second;
+}
+
+const NodeDef* Definitions::implemented_by(const Element& graph) const {
+  const auto found = implemented_.find(&graph);
+  if (found != implemented_.end()) return found->second;
+  return base_ == nullptr ? nullptr : base_->implemented_by(graph);
 }
 
 const Element* Definitions::geompropdef(std::string_view name) const {

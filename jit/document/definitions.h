@@ -36,6 +36,10 @@ class Definitions {
   /// or by an <implementation>; null if there is none.
   const Element* graph_of(const NodeDef& def) const;
 
+  /// The nodedef that a <nodegraph> implements, named by it or by an <implementation>,
+  /// for whatever target; null for a compound graph.
+  const NodeDef* implemented_by(const Element& graph) const;
+
   /// The <geompropdef> of that name, or null.
   const Element* geompropdef(std::string_view name) const;
 
@@ -63,6 +67,7 @@ class Definitions {
   std::unordered_map<std::string_view, NodeDef*> by_name_;
   std::unordered_map<std::string_view, std::vector<const NodeDef*>> by_category_;
   std::unordered_map<const NodeDef*, const Element*> graphs_;
+  std::unordered_map<const Element*, const NodeDef*> implemented_;
   std::unordered_map<std::string_view, const Element*> geompropdefs_;
   std::unordered_map<std::string_view, Unit> units_;
 };

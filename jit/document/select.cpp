@@ -113,6 +113,8 @@ void report_no_match(const Element& instance, const std::vector<const NodeDef*>&
     diagnostics.error("unknown-version", location(instance),
                       fmt::format("there is no such version of '{}'", instance.category()),
                       list_of(versions), fmt::format("'{}'", instance.attribute("version")));
+  } else if (!instance.has_attribute("type") || instance.attribute("type").empty()) {
+    diagnostics.error("missing-type", location(instance), "the node has no type", list_of(types));
   } else if (of_type.empty()) {
     diagnostics.error("no-matching-nodedef", location(instance),
                       fmt::format("no '{}' has this output type", instance.category()),
@@ -191,10 +193,12 @@ const NodeDef* find_nodedef(const Element& instance, const Definitions& definiti
   return nullptr;
 }
 
+bool is_node_category(std::string_view category) {
+  return std::find(structural.begin(), structural.end(), category) == structural.end();
+}
+
 bool is_node(const Element& element) {
-  if (std::find(structural.begin(), structural.end(), element.category()) != structural.end()) {
-    return false;
-  }
+  if (!is_node_category(element.category())) return false;
   return element.parent() != nullptr &&
          (element.parent()->category() == "nodegraph" || element.parent()->parent() == nullptr);
 }

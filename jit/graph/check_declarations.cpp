@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
+#include "jit/document/read.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/check_parts.h"
 
@@ -20,8 +19,11 @@ namespace {
 class DeclarationCheck {
  public:
   DeclarationCheck(const Document& document, const Definitions& definitions,
-                   Diagnostics& diagnostics)
-      : document_(document), definitions_(definitions), diagnostics_(diagnostics) {}
+                   const Definitions& library, Diagnostics& diagnostics)
+      : document_(document),
+        definitions_(definitions),
+        library_(library),
+        diagnostics_(diagnostics) {}
 
   void run() {
     for (const Element& child : document_.root().children()) {
@@ -46,6 +48,11 @@ class DeclarationCheck {
             "node=\"CATEGORY\"");
       return;
     }
+    if (!is_valid_name(element.attribute("node"))) {
+      error("invalid-name", element, "this is not a valid name of a node",
+            "letters, digits and '_', not starting with a digit",
+            in_quotes(element.attribute("node")));
+    }
     const NodeDef* def = definitions_.nodedef(element.name());
     if (def == nullptr) return;
     if (def->element != &element) {
@@ -62,7 +69,23 @@ class DeclarationCheck {
     for (const NodeDefOutput& output : def->outputs) {
       if (output.element->parent() == &element) check_output(*def, output);
     }
+    check_inherited(*def);
     check_overload(*def);
+  }
+
+  // An heir's instances stand for its base's: what has the same name is the same.
+  void check_inherited(const NodeDef& def) {
+    const std::string_view name = def.element->attribute("inherit");
+    const NodeDef* base = definitions_.nodedef(qualified_name(*def.element, name));
+    if (base == nullptr) base = definitions_.nodedef(name);
+    if (base == nullptr) return;
+    for (const NodeDefInput& input : def.inputs) {
+      const NodeDefInput* inherited = base->input(input.name);
+      if (inherited == nullptr || inherited->type_text == input.type_text) continue;
+      warning("inherited-type", *input.element,
+              fmt::format("the input has another type than in '{}'", base->name),
+              std::string(inherited->type_text), std::string(input.type_text));
+    }
   }
 
   void check_input(const NodeDefInput& input) {
@@ -71,7 +94,8 @@ class DeclarationCheck {
     for (std::string_view way : {"nodename", "nodegraph", "interfacename"}) {
       if (!element.has_attribute(way)) continue;
       error("connected-declaration", element, "an input of a nodedef cannot be connected",
-            "value or defaultgeomprop", fmt::format("{}={}", way, quoted(element.attribute(way))));
+            "value or defaultgeomprop",
+            fmt::format("{}={}", way, in_quotes(element.attribute(way))));
     }
     check_geomprop(input);
     check_enums(input);
@@ -83,7 +107,7 @@ class DeclarationCheck {
     const Element* geomprop = definitions_.geompropdef(input.defaultgeomprop);
     if (geomprop == nullptr) {
       error("unknown-geomprop", *input.element, "there is no geometric property of this name",
-            "the name of a <geompropdef>", quoted(input.defaultgeomprop));
+            "the name of a <geompropdef>", in_quotes(input.defaultgeomprop));
     } else if (geomprop->attribute("type") != input.type_text) {
       error("type-mismatch", *input.element, "the geometric property has another type",
             std::string(input.type_text), std::string(geomprop->attribute("type")));
@@ -107,7 +131,7 @@ class DeclarationCheck {
       if (std::find(list->begin(), list->end(), text) != list->end()) return;
     }
     error("bad-enum", *input.element, "the default is none of the values the input takes",
-          fmt::format("{}", fmt::join(input.enums, ", ")), quoted(text));
+          fmt::format("{}", fmt::join(input.enums, ", ")), in_quotes(text));
   }
 
   void check_unit(const NodeDefInput& input) {
@@ -115,7 +139,7 @@ class DeclarationCheck {
     const auto unit = definitions_.unit(input.unit);
     if (!unit) {
       error("unknown-unit", *input.element, "there is no unit of this name", "the name of a <unit>",
-            quoted(input.unit));
+            in_quotes(input.unit));
     } else if (!input.unit_type.empty() && unit->type != input.unit_type) {
       error("unit-type", *input.element, "the unit is not of the type that unittype says",
             fmt::format("a unit of type {}", input.unit_type),
@@ -134,7 +158,7 @@ class DeclarationCheck {
     const NodeDefInput* input = def.input(output.defaultinput);
     if (input == nullptr) {
       error("unknown-input", element, "the nodedef has no input of this name to pass through",
-            "the name of an input", quoted(output.defaultinput));
+            "the name of an input", in_quotes(output.defaultinput));
     } else if (input->type_text != output.type_text) {
       error("type-mismatch", element, "the input to pass through has another type",
             std::string(output.type_text), std::string(input->type_text));
@@ -144,7 +168,8 @@ class DeclarationCheck {
   // Instances cannot tell two nodedefs apart that differ in nothing they say.
   void check_overload(const NodeDef& def) {
     std::string signature =
-        fmt::format("{}|{}|{}|{}", def.category, def.instance_type(), def.version, def.target);
+        fmt::format("{}|{}|{}|{}", def.category, def.instance_type(),
+                    def.is_default_version ? "default" : def.version, def.target);
     std::vector<std::string> ports;
     for (const NodeDefInput& input : def.inputs) {
       ports.push_back(fmt::format("|{}:{}", input.name, input.type_text));
@@ -171,7 +196,7 @@ class DeclarationCheck {
     const NodeDef* def = named_nodedef(element);
     if (!name.empty() && def == nullptr) {
       error("unknown-nodedef", element, "the nodedef to implement does not exist",
-            "the name of a nodedef", quoted(name));
+            "the name of a nodedef", in_quotes(name));
     }
     if (def != nullptr) check_renamed_ports(element, *def);
     const std::string_view graph = element.attribute("nodegraph");
@@ -179,7 +204,7 @@ class DeclarationCheck {
     const Element* found = definitions_.resolve(graph, element);
     if (found == nullptr || found->category() != "nodegraph") {
       error("unknown-nodegraph", element, "there is no node graph of this name",
-            "the name of a node graph", quoted(graph));
+            "the name of a node graph", in_quotes(graph));
       return;
     }
     check_only_one(element);
@@ -189,7 +214,7 @@ class DeclarationCheck {
     for (const Element& child : element.children()) {
       if (child.category() != "input" || def.input(child.name()) != nullptr) continue;
       error("unknown-input", child, fmt::format("'{}' has no input of this name", def.name),
-            "the name of an input", quoted(child.name()));
+            "the name of an input", in_quotes(child.name()));
     }
   }
 
@@ -204,7 +229,7 @@ class DeclarationCheck {
     if (used == nullptr || used == own) return;
     warning("ambiguous-implementation", element,
             fmt::format("'{}' has another implementation, which is used instead", def->name),
-            "one for each nodedef", quoted(used->name()));
+            "one for each nodedef", in_quotes(used->name()));
   }
 
   const NodeDef* named_nodedef(const Element& element) const {
@@ -218,7 +243,7 @@ class DeclarationCheck {
   void check_typedef(const Element& element) {
     if (parse_type(element.name())) {
       warning("standard-type", element, "a standard type has this name, and is used instead",
-              "another name", quoted(element.name()));
+              "another name", in_quotes(element.name()));
     }
     std::vector<const Element*> chain{&element};
     while (chain.back()->has_attribute("inherit")) {
@@ -227,7 +252,7 @@ class DeclarationCheck {
       const Element* base = definitions_.resolve(name, element);
       if (base == nullptr || base->category() != "typedef") {
         return error("unknown-type", *chain.back(), "the type to inherit from does not exist",
-                     "the name of a type", quoted(name));
+                     "the name of a type", in_quotes(name));
       }
       if (std::find(chain.begin(), chain.end(), base) != chain.end() || chain.size() > 64) {
         return error("inherit-cycle", element, "the type inherits from itself, directly or not");
@@ -243,14 +268,14 @@ class DeclarationCheck {
     if (!check_type_name(member, definitions_, diagnostics_)) return;
     if (struct_holds(member.attribute("type"), owner)) {
       error("type-cycle", member, "the type contains itself, directly or not", "",
-            quoted(member.attribute("type")));
+            in_quotes(member.attribute("type")));
       return;
     }
     const auto type = parse_type(member.attribute("type"));
     if (!type || !member.has_attribute("value")) return;
     if (parse_value(*type, member.attribute("value"))) return;
     error("bad-value", member, fmt::format("the value does not fit the type {}", type_name(*type)),
-          expected_text(*type), quoted(member.attribute("value")));
+          expected_text(*type), in_quotes(member.attribute("value")));
   }
 
   // Whether a type, or one of its members' types, is `wanted`.
@@ -276,7 +301,7 @@ class DeclarationCheck {
       const Element* found = definitions_.resolve(kind, element);
       if (found == nullptr || found->category() != "unittypedef") {
         error("unknown-unittype", element, "there is no unit type of this name",
-              "the name of a <unittypedef>", quoted(kind));
+              "the name of a <unittypedef>", in_quotes(kind));
       }
     }
     for (const Element& unit : element.children()) {
@@ -289,17 +314,12 @@ class DeclarationCheck {
     const auto scale = parse_value(Type::float_, text);
     if (!scale || !(scale->floats[0] > 0)) {
       error("bad-scale", unit, "the scale of a unit is a number above 0", "scale=\"NUMBER\"",
-            quoted(text));
+            in_quotes(text));
       return;
     }
-    const auto used = definitions_.unit(unit.name());
-    double wanted = 0;
-    std::from_chars(text.data(), text.data() + text.size(), wanted);
-    if (!used || (used->type == unit.parent()->attribute("unittype") && used->scale == wanted)) {
-      return;
-    }
-    warning("shadowed-unit", unit, "another unit has this name", "a name of its own",
-            quoted(unit.name()));
+    if (!library_.unit(unit.name())) return;
+    warning("redefined-unit", unit, "a library has a unit of this name, which this one replaces",
+            "a name of its own", in_quotes(unit.name()));
   }
 
   void check_geompropdef(const Element& element) {
@@ -308,14 +328,14 @@ class DeclarationCheck {
     const std::string_view space = element.attribute("space");
     if (!space.empty() && std::find(spaces.begin(), spaces.end(), space) == spaces.end()) {
       error("unknown-space", element, "there is no such space", "model, object or world",
-            quoted(space));
+            in_quotes(space));
     }
     const std::string_view index = element.attribute("index");
     if (!element.has_attribute("index")) return;
     const auto number = parse_value(Type::integer, index);
     if (!number || number->ints[0] < 0) {
       error("bad-value", element, "the index does not fit the type integer",
-            "a whole number from 0", quoted(index));
+            "a whole number from 0", in_quotes(index));
     }
   }
 
@@ -354,6 +374,7 @@ class DeclarationCheck {
 
   const Document& document_;
   const Definitions& definitions_;
+  const Definitions& library_;
   Diagnostics& diagnostics_;
   std::unordered_map<std::string, const NodeDef*> signatures_;
 };
@@ -361,8 +382,8 @@ class DeclarationCheck {
 }  // namespace
 
 void check_declarations(const Document& document, const Definitions& definitions,
-                        Diagnostics& diagnostics) {
-  DeclarationCheck(document, definitions, diagnostics).run();
+                        const Definitions& library, Diagnostics& diagnostics) {
+  DeclarationCheck(document, definitions, library, diagnostics).run();
 }
 
 bool is_declared_type(std::string_view name, const Element& user, const Definitions& definitions) {
@@ -379,7 +400,7 @@ bool check_type_name(const Element& port, const Definitions& definitions,
                       fmt::format("the {} has no type", port.category()), "type=\"TYPE\"");
   } else {
     diagnostics.error("unknown-type", location(port), "there is no type of this name",
-                      "a standard type or the name of a <typedef>", quoted(text));
+                      "a standard type or the name of a <typedef>", in_quotes(text));
   }
   return false;
 }

@@ -56,14 +56,14 @@ class LookCheck {
     const Element* found = definitions_.resolve(name, element);
     if (found == nullptr) {
       error("unknown-material", element, "there is no material of this name",
-            "the name of a material", quoted(name));
+            "the name of a material", in_quotes(name));
       return;
     }
     const bool is_material = found->attribute("type") == "material" &&
                              (is_node(*found) || found->category() == "output");
     if (is_material || found->category() == "nodegraph") return;
     error("not-a-material", element, "what is assigned is no material", "a node of type material",
-          fmt::format("<{}> {}", found->category(), quoted(name)));
+          fmt::format("<{}> {}", found->category(), in_quotes(name)));
   }
 
   // What an assignment is for: geometry by expression or by collection.
@@ -93,7 +93,7 @@ class LookCheck {
     if (open.empty()) return;
     error("bad-expression", element, "brackets in the geometry expression do not match",
           fmt::format("a '{}' for each '{}'", open.back(), open.back() == ']' ? '[' : '{'),
-          quoted(text));
+          in_quotes(text));
   }
 
   // The element that an attribute names, which must be there and be of a category.
@@ -113,7 +113,7 @@ class LookCheck {
     if (found != nullptr && found->category() == category) return found;
     error(fmt::format("unknown-{}", category), element,
           fmt::format("there is no {} of this name", category),
-          fmt::format("the name of a <{}>", category), quoted(name));
+          fmt::format("the name of a <{}>", category), in_quotes(name));
     return nullptr;
   }
 
@@ -136,7 +136,7 @@ class LookCheck {
     const auto type = parse_type(element.attribute("type"));
     if (!type || parse_value(*type, element.attribute("value"))) return;
     error("bad-value", element, fmt::format("the value does not fit the type {}", type_name(*type)),
-          expected_text(*type), quoted(element.attribute("value")));
+          expected_text(*type), in_quotes(element.attribute("value")));
   }
 
   void check_variantset(const Element& set) {
@@ -156,7 +156,7 @@ class LookCheck {
     const Element* found = set->child(name);
     if (found != nullptr && found->category() == "variant") return;
     error("unknown-variant", element, fmt::format("'{}' has no such variant", set->name()),
-          "the name of a <variant>", quoted(name));
+          "the name of a <variant>", in_quotes(name));
   }
 
   void check_visibility(const Element& element) {
@@ -166,7 +166,7 @@ class LookCheck {
     const std::string_view kind = element.attribute("vistype");
     if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
       warning("unknown-vistype", element, "the kind of visibility is none of the standard's",
-              fmt::format("{}", fmt::join(kinds, ", ")), quoted(kind));
+              fmt::format("{}", fmt::join(kinds, ", ")), in_quotes(kind));
     }
     if (!element.attribute("viewercollection").empty()) {
       check_reference(element, "viewercollection", "collection");
@@ -182,7 +182,7 @@ class LookCheck {
     const std::string_view chosen = group.attribute("default");
     if (chosen.empty() || std::find(names.begin(), names.end(), chosen) != names.end()) return;
     error("unknown-look", group, "the default is none of the looks of the group",
-          fmt::format("{}", fmt::join(names, ", ")), quoted(chosen));
+          fmt::format("{}", fmt::join(names, ", ")), in_quotes(chosen));
   }
 
   void check_collection(const Element& collection) {
@@ -193,7 +193,7 @@ class LookCheck {
     for (std::string_view name : parts) {
       if (find(collection, name, "collection") != nullptr && includes(name, collection)) {
         error("collection-cycle", collection, "the collection includes itself, directly or not", "",
-              quoted(name));
+              in_quotes(name));
       }
     }
     const bool holds_nothing = parts.empty() && collection.attribute("includegeom").empty();

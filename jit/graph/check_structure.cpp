@@ -127,8 +127,8 @@ std::string lower(std::string_view text) {
 
 class StructureCheck {
  public:
-  StructureCheck(const Document& document, Diagnostics& diagnostics)
-      : document_(document), diagnostics_(diagnostics) {}
+  StructureCheck(const Document& document, const Definitions& definitions, Diagnostics& diagnostics)
+      : document_(document), definitions_(definitions), diagnostics_(diagnostics) {}
 
   void run() {
     std::vector<const Element*> pending{&document_.root()};
@@ -157,6 +157,7 @@ class StructureCheck {
     }
     check_place(element);
     check_spelling(element);
+    check_stray_node(element);
   }
 
   void check_place(const Element& element) {
@@ -200,6 +201,17 @@ class StructureCheck {
             fmt::format("<{}>", small), fmt::format("<{}>", category));
   }
 
+  // What would be a node elsewhere; other unknown elements may be somebody's own.
+  void check_stray_node(const Element& element) {
+    const Element& parent = *element.parent();
+    if (parent.category() == "materialx" || parent.category() == "nodegraph") return;
+    if (!is_node_category(element.category())) return;
+    if (definitions_.of_category(element.category()).empty()) return;
+    warning("stray-element", element, "a node here is left out of account",
+            "a place in <materialx> or <nodegraph>",
+            fmt::format("in <{}>", quoted_name(parent.category())));
+  }
+
   void check_attributes(const Element& element) {
     for (const Attribute& attribute : element.attributes()) {
       if (holds(booleans, attribute.name)) check_boolean(element, attribute);
@@ -208,7 +220,7 @@ class StructureCheck {
       const std::string small = lower(attribute.name);
       if (small == attribute.name || !holds(attributes, small)) continue;
       warning("misspelt-attribute", element, "the attribute is not known, and left out of account",
-              small, quoted(attribute.name));
+              small, in_quotes(attribute.name));
     }
     check_range(element, "uimin", "uimax");
     check_range(element, "uisoftmin", "uisoftmax");
@@ -218,7 +230,7 @@ class StructureCheck {
     if (attribute.value == "true" || attribute.value == "false") return;
     warning("bad-attribute", element,
             fmt::format("attribute '{}' is neither true nor false", attribute.name),
-            "true or false", quoted(attribute.value));
+            "true or false", in_quotes(attribute.value));
   }
 
   // A step is one number for all components.
@@ -229,7 +241,7 @@ class StructureCheck {
     warning(
         "bad-attribute", element,
         fmt::format("attribute '{}' does not fit the type {}", attribute.name, type_name(*type)),
-        expected_text(*type), quoted(attribute.value));
+        expected_text(*type), in_quotes(attribute.value));
   }
 
   void check_range(const Element& element, std::string_view low, std::string_view high) {
@@ -267,16 +279,18 @@ class StructureCheck {
   }
 
   const Document& document_;
+  const Definitions& definitions_;
   Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void check_structure(const Document& document, Diagnostics& diagnostics) {
-  StructureCheck(document, diagnostics).run();
+void check_structure(const Document& document, const Definitions& definitions,
+                     Diagnostics& diagnostics) {
+  StructureCheck(document, definitions, diagnostics).run();
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 200;
   if (text.size() <= longest) return fmt::format("'{}'", text);
   return fmt::format("'{}...'", text.substr(0, longest));

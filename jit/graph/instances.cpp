@@ -82,10 +82,7 @@ const Context* Resolver::compound_context(const Element& graph, const Context* p
   context.path = join(parent, graph.name());
   // A graph that implements a nodedef, looked at on its own: the nodedef's
   // defaults stand for its inputs.
-  const std::string_view def_name = graph.attribute("nodedef");
-  const NodeDef* def = definitions_.nodedef(qualified_name(graph, def_name));
-  if (def == nullptr) def = definitions_.nodedef(def_name);
-  if (def != nullptr) {
+  if (const NodeDef* def = definitions_.implemented_by(graph)) {
     context.instance = &add_instance(*def, context.path, &graph);
     context.def = def;
   }
