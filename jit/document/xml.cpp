@@ -40,11 +40,12 @@ struct Reader {
       attributes.push_back(entry);
     }
     if (!attributes.empty()) document.set_attributes(element, attributes);
-    check_attributes(element, offset);
     return element;
   }
 
-  void check_attributes(const Element& element, std::uint32_t offset) {
+  // After converting the element, whose attributes still stand in the list, and
+  // putting it in its place.
+  void check_attributes(const Element& element, std::ptrdiff_t offset) {
     std::string_view twice;
     if (attributes.size() <= 16) {
       for (std::size_t i = 1; i < attributes.size(); ++i) {
@@ -61,7 +62,7 @@ struct Reader {
     if (twice.data() == nullptr) return;
     failed = true;
     SourceLocation where = at(offset);
-    where.path = element.name();
+    where.path = element_path(element);
     diagnostics.error("duplicate-attribute", where,
                       fmt::format("attribute '{}' is given twice", twice));
   }
@@ -81,6 +82,7 @@ struct Reader {
   // Without recursion: the depth is the document's choice until it is checked.
   Element* convert_tree(const pugi::xml_node& top) {
     Element* root = &convert(top);
+    check_attributes(*root, top.offset_debug());
     std::vector<std::pair<pugi::xml_node, Element*>> open{{top.first_child(), root}};
     while (!open.empty()) {
       pugi::xml_node node = open.back().first;
@@ -100,6 +102,7 @@ struct Reader {
       }
       Element& child = convert(node);
       document.append(*open.back().second, child);
+      check_attributes(child, node.offset_debug());
       if (node.first_child()) open.emplace_back(node.first_child(), &child);
     }
     return failed ? nullptr : root;

@@ -18,6 +18,37 @@ constexpr std::uint64_t offset_bytes = 8;  // Of each chunk in the table behind 
 /// Largest number of lines compressed together, by the number of the method.
 constexpr std::array<std::uint64_t, 10> chunk_lines{1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
+/// Attributes of a size that their type says; OpenEXR reads that many bytes whatever
+/// the header claims.
+struct FixedSize {
+  std::string_view type;
+  std::size_t bytes;
+};
+constexpr std::array fixed_sizes = std::to_array<FixedSize>({{"box2f", 16},
+                                                             {"box2i", 16},
+                                                             {"chromaticities", 32},
+                                                             {"compression", 1},
+                                                             {"deepImageState", 1},
+                                                             {"double", 8},
+                                                             {"envmap", 1},
+                                                             {"float", 4},
+                                                             {"int", 4},
+                                                             {"keycode", 28},
+                                                             {"lineOrder", 1},
+                                                             {"m33d", 72},
+                                                             {"m33f", 36},
+                                                             {"m44d", 128},
+                                                             {"m44f", 64},
+                                                             {"rational", 8},
+                                                             {"tiledesc", 9},
+                                                             {"timecode", 8},
+                                                             {"v2d", 16},
+                                                             {"v2f", 8},
+                                                             {"v2i", 8},
+                                                             {"v3d", 24},
+                                                             {"v3f", 12},
+                                                             {"v3i", 12}});
+
 struct Window {
   std::int64_t width = 0;
   std::int64_t height = 0;
@@ -102,19 +133,24 @@ class HeaderReader {
   /// False: the sizes inside an attribute do not fit it.
   static bool read_attribute(Part& part, std::string_view name, std::string_view type,
                              std::string_view data) {
+    for (const FixedSize& fixed : fixed_sizes) {
+      if (fixed.type == type && fixed.bytes != data.size()) return false;
+    }
     if (name == "dataWindow") {
-      if (data.size() != 16) return false;
+      if (type != "box2i") return false;
       part.data = {signed_word(data, 8) - signed_word(data, 0) + 1,
                    signed_word(data, 12) - signed_word(data, 4) + 1};
     } else if (name == "tiles") {
-      if (data.size() != 9) return false;
+      if (type != "tiledesc") return false;
       part.tile = {word(data, 0), word(data, 4)};
     } else if (name == "compression") {
-      if (data.size() != 1) return false;
+      if (type != "compression") return false;
       const auto method = static_cast<unsigned char>(data[0]);
       part.lines = chunk_lines[std::min<std::size_t>(method, chunk_lines.size() - 1)];
-    } else if (name == "channels") {
-      part.pixel_bytes = channel_bytes(data);
+    } else if (type == "chlist") {
+      const auto bytes = channel_bytes(data);
+      if (name == "channels") part.pixel_bytes = bytes.value_or(0);
+      return bytes.has_value();
     } else if (type == "preview") {
       return data.size() >= 8 &&
              std::uint64_t{word(data, 0)} * word(data, 4) == (data.size() - 8) / 4;
@@ -134,12 +170,14 @@ class HeaderReader {
     return true;
   }
 
-  /// Four bytes a channel at most: a name, its zero byte, and 16 bytes each.
-  static std::uint64_t channel_bytes(std::string_view data) {
+  /// Four bytes a channel at most: a name, its zero byte, and 16 bytes each, up to an
+  /// empty name. Nothing if that does not end with the data.
+  static std::optional<std::uint64_t> channel_bytes(std::string_view data) {
     std::uint64_t bytes = 0;
     for (;;) {
       const std::size_t end = data.find('\0');
-      if (end == std::string_view::npos || end == 0 || data.size() < end + 17) return bytes;
+      if (end == 0 && data.size() == 1) return bytes;
+      if (end == std::string_view::npos || end == 0 || data.size() < end + 17) return std::nullopt;
       data.remove_prefix(end + 17);
       bytes += 4;
     }
