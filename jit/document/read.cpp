@@ -47,9 +47,7 @@ class FileReader {
   Element* read(const fs::path& path, const SourceLocation& asked_by) {
     std::optional<std::string> text = load(path, asked_by);
     if (!text) return nullptr;
-    std::error_code error;
-    fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
-    open_.push_back(std::move(canonical));
+    open_.push_back(canonical_path(path));
     Element* root = parse(*text, path.string(), path.parent_path());
     open_.pop_back();
     return root;
@@ -157,19 +155,17 @@ class FileReader {
 
   void check_unique(const Element& scope) {
     constexpr std::size_t small_scope = 16;
-    std::unordered_set<std::string_view> names;
+    std::unordered_map<std::string_view, const Element*> names;
     for (const Element& child : scope.children()) {
       if (child.name().empty()) continue;
-      bool is_new = true;
-      if (scope.child_count() > small_scope) {
-        is_new = names.insert(child.name()).second;
-      } else {
-        is_new = scope.child(child.name()) == &child;
-      }
-      if (is_new) continue;
+      const bool is_small = scope.child_count() <= small_scope;
+      const Element* first =
+          is_small ? scope.child(child.name()) : names.emplace(child.name(), &child).first->second;
+      if (first == &child) continue;
       diagnostics_.error(
           "duplicate-name", location(child),
-          fmt::format("the name '{}' is used twice in one scope", child.name().substr(0, 100)));
+          fmt::format("the name '{}' is used twice in one scope", child.name().substr(0, 100)),
+          "a name of its own", fmt::format("the first in line {}", document_.line_of(*first)));
     }
   }
 
@@ -198,17 +194,19 @@ class FileReader {
       return nullptr;
     }
     const std::optional<fs::path> file = find(href, folder);
+    // The same for files that are there and that are not: a document is not to learn it.
+    if (!file && !is_allowed(canonical_path(folder / fs::path(href)))) {
+      report_outside(where, href);
+      return nullptr;
+    }
     if (!file) {
       diagnostics_.error("include-not-found", where, "the included file cannot be found",
                          "a file beside this one or in a search path", fmt::format("'{}'", href));
       return nullptr;
     }
-    std::error_code error;
-    const fs::path canonical = fs::weakly_canonical(fs::absolute(*file, error), error);
+    const fs::path canonical = canonical_path(*file);
     if (!is_allowed(canonical)) {
-      diagnostics_.error(
-          "include-outside", where, "the included file is outside the allowed folders",
-          "a file below the document's folder or a search path", fmt::format("'{}'", href));
+      report_outside(where, href);
       return nullptr;
     }
     if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
@@ -222,6 +220,19 @@ class FileReader {
       return nullptr;
     }
     return read(*file, where);
+  }
+
+  void report_outside(const SourceLocation& where, std::string_view href) {
+    diagnostics_.error("include-outside", where, "the included file is outside the allowed folders",
+                       "a file below the document's folder or a search path",
+                       fmt::format("'{}'", href));
+  }
+
+  // Without "..", "." and symbolic links; the path itself where the system refuses.
+  static fs::path canonical_path(const fs::path& path) {
+    std::error_code error;
+    fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
+    return error ? path.lexically_normal() : canonical;
   }
 
   std::optional<fs::path> find(std::string_view href, const fs::path& folder) const {

@@ -76,6 +76,28 @@ void add_once(std::vector<std::string>& items, std::string item) {
   if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(std::move(item));
 }
 
+struct Successor {
+  std::string_view category;
+  std::string_view now;
+};
+constexpr std::array removed = std::to_array<Successor>(
+    {{"include", "<xi:include>"},
+     {"swizzle", "<extract>, <convert> or <combine3>, since version 1.39"},
+     {"thin_film_bsdf", "thinfilm_thickness and thinfilm_ior of a BSDF, since version 1.39"}});
+
+// What somebody who wrote this category will have meant.
+std::string meant_by(std::string_view category, const Definitions& definitions) {
+  std::string small(category);
+  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (small == "xi:include") return "<xi:include>";
+  if (small != category && !definitions.of_category(small).empty())
+    return fmt::format("<{}>", small);
+  for (const Successor& one : removed) {
+    if (one.category == small) return std::string(one.now);
+  }
+  return "a node that a library or the document defines";
+}
+
 void report_misfit(const Element& input, const std::vector<const NodeDef*>& candidates,
                    Diagnostics& diagnostics) {
   std::vector<std::string> names;
@@ -177,8 +199,8 @@ const NodeDef* find_nodedef(const Element& instance, const Definitions& definiti
   std::erase_if(candidates, [](const NodeDef* def) { return !is_for_us(def->target); });
   if (candidates.empty()) {
     diagnostics.error("unknown-node", location(instance), "there is no node of this category",
-                      "a node that a library or the document defines",
-                      fmt::format("<{}>", instance.category()));
+                      meant_by(instance.category(), definitions),
+                      fmt::format("<{}>", instance.category().substr(0, 100)));
     return nullptr;
   }
   const std::string_view version = instance.attribute("version");
