@@ -30,6 +30,8 @@ struct GraphOptions {
   std::optional<int> frame;
   /// A graph with more nodes is refused.
   std::size_t max_nodes = 1'000'000;
+  /// A node with more inputs is refused.
+  std::size_t max_inputs = 1024;
 };
 
 /// What to build; several may be given at once.

@@ -47,6 +47,11 @@ const NodeDef* Resolver::nodedef_of(const Element& node) {
   const auto known = nodedefs_.find(&node);
   if (known != nodedefs_.end()) return known->second;
   const NodeDef* def = find_nodedef(node, definitions_, diagnostics_);
+  if (def != nullptr && def->inputs.size() > options_.max_inputs) {
+    error("too-many-inputs", node, "the node has too many inputs",
+          fmt::format("at most {}", options_.max_inputs), fmt::format("{}", def->inputs.size()));
+    def = nullptr;
+  }
   nodedefs_.emplace(&node, def);
   return def;
 }

@@ -41,6 +41,12 @@ class GraphRecorder {
         return std::nullopt;
       }
       outputs_.push_back(record(node, *body));
+      if (count_instructions() > options_.max_instructions) {
+        diagnostics_.error(
+            "program-too-large", node.where, "the graph leads to too large a kernel",
+            "at most " + std::to_string(options_.max_instructions) + " instructions");
+        return std::nullopt;
+      }
     }
     std::vector<Recorded> results;
     for (const GraphOutput& output : graph_.outputs) {
@@ -51,6 +57,14 @@ class GraphRecorder {
 
  private:
   using Ports = std::vector<NodeCall::Port>;
+
+  /// Functions that are recorded stay as they are: each is counted once.
+  std::size_t count_instructions() {
+    const std::vector<Function>& functions = recorder_.program().functions;
+    for (; counted_ < functions.size(); ++counted_)
+      in_functions_ += functions[counted_].code.size();
+    return in_functions_ + functions.front().code.size();
+  }
 
   Ports record(const GraphNode& node, const NodeBody& body) {
     Ports inputs;
@@ -124,6 +138,8 @@ class GraphRecorder {
   Recorder& recorder_;
   Diagnostics& diagnostics_;
   std::vector<Ports> outputs_;  ///< By node.
+  std::size_t counted_ = 1;     ///< Functions; the first is the entry.
+  std::size_t in_functions_ = 0;
 };
 
 }  // namespace

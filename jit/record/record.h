@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,12 +25,15 @@ struct RecordOptions {
   Accuracy accuracy = Accuracy::standard;
   ParameterMode parameters = ParameterMode::frozen;
   TextureProvider* textures = nullptr;
+  /// A graph that leads to more is refused.
+  std::size_t max_instructions = 2'000'000;
   /// The file that a name written in `document` stands for; the name itself if null.
   std::function<std::string(const std::string& name, const std::string& document)> resolve_file;
 };
 
 /// Records every node of a graph, in order, and returns the values of its
-/// outputs. Nothing, with a diagnostic, for a node that has no body.
+/// outputs. Nothing, with a diagnostic, for a node that has no body and for what becomes
+/// too large.
 std::optional<std::vector<Recorded>> record_graph(const Graph& graph, const Bodies& bodies,
                                                   const RecordOptions& options, Recorder& recorder,
                                                   Diagnostics& diagnostics);

@@ -57,6 +57,7 @@ class Compilation {
         .accuracy = options_.compile.accuracy,
         .parameters = options_.parameters,
         .textures = textures_.get(),
+        .max_instructions = options_.compile.max_instructions,
         .resolve_file = [this](const std::string& name, const std::string& document) {
           return find_file(name, document, options_.search_paths);
         }};
