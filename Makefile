@@ -13,7 +13,7 @@ CXX_SOURCES = $(shell git ls-files '*.h' '*.cpp')
 NACRE_MATERIALX_LIBRARIES ?= $(abspath $(BUILD))/materialx/libraries
 
 .DEFAULT_GOAL := build
-.PHONY: bench build clean configure demo deps format format-check help install materialx \
+.PHONY: bench build clean configure demo deps format format-check fuzz help install materialx \
         test test-full tidy
 
 help: ## This list
@@ -29,6 +29,11 @@ test: build ## Run the tests, except the very long ones
 
 test-full: build ## Run every test, and let sweeps visit all they can
 	NACRE_TEST_FULL=1 $(CTEST)
+
+fuzz: ## Build the fuzzers and run each for FUZZ_SECONDS (default 60)
+	$(MAKE) configure PRESET=fuzz BUILD=build-fuzz \
+	  NACRE_MATERIALX_LIBRARIES="$(NACRE_MATERIALX_LIBRARIES)"
+	FUZZ_SECONDS=$(or $(FUZZ_SECONDS),60) cmake --build build-fuzz --parallel $(JOBS) --target fuzz
 
 bench: build ## Measure; results as JSON in <build>/bench-results
 	cmake --build "$(BUILD)" --target bench

@@ -1,5 +1,7 @@
 #include "jit/compile.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 #include <chrono>
 #include <utility>
@@ -45,14 +47,54 @@ class Stages {
   bool keep_text_;
 };
 
+std::size_t instruction_count(const Program& program) {
+  std::size_t count = 0;
+  for (const Function& function : program.functions) count += function.code.size();
+  return count;
+}
+
+bool is_too_large(const Program& program, const CompileOptions& options) {
+  return instruction_count(program) > options.max_instructions;
+}
+
+/// Reports and drops the Programs that are too large; which of them are left.
+std::vector<bool> refuse_too_large(std::vector<Program>& programs, const CompileOptions& options,
+                                   Diagnostics& diagnostics) {
+  std::vector<bool> fits;
+  for (const Program& program : programs) {
+    fits.push_back(!is_too_large(program, options));
+    if (fits.back()) continue;
+    diagnostics.error("program-too-large", {},
+                      fmt::format("the kernel '{}' is too large", program.name),
+                      fmt::format("at most {} instructions", options.max_instructions),
+                      fmt::format("{}", instruction_count(program)));
+  }
+  std::size_t i = 0;
+  std::erase_if(programs, [&](const Program&) { return !fits[i++]; });
+  return fits;
+}
+
+/// Null where a Program was refused.
+std::vector<std::shared_ptr<const Kernel>> in_their_places(
+    std::vector<std::shared_ptr<const Kernel>> kernels, const std::vector<bool>& fits) {
+  std::vector<std::shared_ptr<const Kernel>> all(fits.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (fits[i]) all[i] = std::move(kernels[next++]);
+  }
+  return all;
+}
+
 }  // namespace
 
 Program lower(Program program, const CompileOptions& options, std::vector<StageReport>* reports) {
   Stages stages(reports, options.keep_text);
   program = stages.run("recorded", program, [](const Program& p) { return p; });
+  if (is_too_large(program, options)) return program;
 
   // Footprint derivatives become arithmetic on derivative channels.
   program = stages.run("derive", program, [](const Program& p) { return derive(p); });
+  if (is_too_large(program, options)) return program;
 
   // The oracle computes what was written: no contraction, functions of the C library.
   if (options.backend == Backend::reference) return program;
@@ -63,9 +105,8 @@ Program lower(Program program, const CompileOptions& options, std::vector<StageR
   }
 
   // Transcendental functions become polynomials of the accuracy asked for.
-  program = stages.run("expand_math", program, [&](const Program& p) {
-    return expand_math(p, options.accuracy);
-  });
+  program = stages.run("expand_math", program,
+                       [&](const Program& p) { return expand_math(p, options.accuracy); });
 
   mark_varying(program, options.all_varying);
   return program;
@@ -79,6 +120,7 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(
     std::vector<StageReport>* reports = stages != nullptr ? &(*stages)[i] : nullptr;
     programs[i] = lower(std::move(programs[i]), options, reports);
     if (options.backend != Backend::jit || reports == nullptr) continue;
+    if (is_too_large(programs[i], options)) continue;
     const auto dump = [&](const char* name, auto&& text_of) {
       StageReport report;
       report.name = name;
@@ -88,17 +130,17 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(
     if (options.dump_ir) dump("llvm", dump_ir);
     if (options.dump_assembly) dump("assembly", dump_assembly);
   }
+  const std::vector<bool> fits = refuse_too_large(programs, options, diagnostics);
   if (options.backend == Backend::jit) {
     assert(service != nullptr);
-    return service->compile(std::move(programs), options, diagnostics);
+    return in_their_places(service->compile(std::move(programs), options, diagnostics), fits);
   }
   std::vector<std::shared_ptr<const Kernel>> kernels;
   for (Program& program : programs) {
-    kernels.push_back(options.backend == Backend::reference
-                          ? make_reference(std::move(program))
-                          : make_interpreter(std::move(program)));
+    kernels.push_back(options.backend == Backend::reference ? make_reference(std::move(program))
+                                                            : make_interpreter(std::move(program)));
   }
-  return kernels;
+  return in_their_places(std::move(kernels), fits);
 }
 
 std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,13 +34,18 @@ struct CompileOptions {
   bool all_varying = false;
   /// Answer through the interpreter while the JIT compiles in the background.
   bool asynchronous = false;
+  /// A Program with more instructions, before or after any stage, is refused.
+  std::size_t max_instructions = 2'000'000;
+  /// Seconds that a caller waits for the JIT; then the kernel is interpreted, with a
+  /// warning. The thread that compiles goes on to the end of LLVM's stage.
+  double max_seconds = 60;
   bool keep_text = false;      ///< Fill StageReport::text with the Program.
   bool dump_ir = false;        ///< A stage "llvm" with the LLVM IR as text. JIT only.
   bool dump_assembly = false;  ///< A stage "assembly" with the machine code as text. JIT only.
 };
 
 /// From a sliced recording to a kernel: every pass in order, then an engine.
-/// Null, with a diagnostic, if the JIT refuses. `stages` may be null; `service`
+/// Null, with a diagnostic, if the Program is too large or the JIT refuses. `stages` may be null; `service`
 /// may be null for the other backends.
 std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,
                                       CompileService* service, Diagnostics& diagnostics,
@@ -51,7 +57,8 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(
     std::vector<Program> programs, const CompileOptions& options, CompileService* service,
     Diagnostics& diagnostics, std::vector<std::vector<StageReport>>* stages = nullptr);
 
-/// The passes alone: what the engines get.
+/// The passes alone: what the engines get. Ends early, with a Program that no engine
+/// takes, once there are more than `max_instructions`.
 Program lower(Program program, const CompileOptions& options,
               std::vector<StageReport>* stages = nullptr);
 

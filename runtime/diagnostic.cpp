@@ -22,16 +22,40 @@ const char* name(Severity severity) {
 std::string Diagnostic::to_string() const {
   std::string text;
   if (!where.file.empty()) {
-    text += where.file;
+    text += printable(where.file);
     if (where.line > 0) text += fmt::format(":{}", where.line);
+    if (where.line > 0 && where.column > 0) text += fmt::format(":{}", where.column);
     text += ": ";
   }
-  text += fmt::format("{}: {}", name(severity), message);
-  if (!expected.empty()) text += fmt::format("; expected {}", expected);
-  if (!found.empty()) text += fmt::format("{} found {}", expected.empty() ? ";" : ",", found);
+  text += fmt::format("{}: {}", name(severity), printable(message));
+  if (!expected.empty()) text += fmt::format("; expected {}", printable(expected));
+  if (!found.empty()) {
+    text += fmt::format("{} found {}", expected.empty() ? ";" : ",", printable(found));
+  }
   text += fmt::format(" [{}]", code);
-  if (!where.path.empty()) text += fmt::format(" ({})", where.path);
+  if (!where.path.empty()) text += fmt::format(" ({})", printable(where.path));
   return text;
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t longest = 400;
+  const std::size_t size = text.size();
+  if (size > longest) {
+    std::size_t cut = longest;
+    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0) == 0x80) --cut;
+    text = text.substr(0, cut);
+  }
+  std::string result;
+  for (char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) {
+      result += fmt::format("\\x{:02X}", byte);
+    } else {
+      result += c;
+    }
+  }
+  if (text.size() < size) result += fmt::format("... ({} bytes)", size);
+  return result;
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {
@@ -42,8 +66,8 @@ void Diagnostics::add(Diagnostic diagnostic) {
 
 void Diagnostics::error(std::string code, SourceLocation where, std::string message,
                         std::string expected, std::string found) {
-  add({Severity::error, std::move(code), std::move(where), std::move(message),
-       std::move(expected), std::move(found)});
+  add({Severity::error, std::move(code), std::move(where), std::move(message), std::move(expected),
+       std::move(found)});
 }
 
 void Diagnostics::warning(std::string code, SourceLocation where, std::string message,

@@ -27,9 +27,14 @@ struct Diagnostic {
   std::string expected;  ///< What would have been right; may be empty.
   std::string found;     ///< What was there; may be empty.
 
-  /// "file:line: error: message; expected X, found Y [code] (path)"
+  /// "file:line:column: error: message; expected X, found Y [code] (path)", on one line
+  /// and printable whatever the document holds: see `printable`.
   std::string to_string() const;
 };
+
+/// Text from a document as a log may show it: control characters, which could begin a new
+/// line or command a terminal, become \xNN, and what is longer than 400 bytes is cut.
+std::string printable(std::string_view text);
 
 /// Collects diagnostics. The library never prints: a host decides what to show.
 class Diagnostics {

@@ -34,6 +34,38 @@ void CommonOptions::add_document(CLI::App& command) {
   command.add_option("--search-path", search_paths, "Where includes and images are looked for too")
       ->type_name("DIR");
   command.add_flag("-q,--quiet", quiet, "No progress on standard error");
+  add_limits(command);
+}
+
+void CommonOptions::add_limits(CLI::App& command) {
+  const auto add = [&](const char* flag, auto& value, const char* what) {
+    return command.add_option(flag, value, what)
+        ->capture_default_str()
+        ->group("Limits, beyond which a document or image is refused (sizes: 64MB, 2GB)");
+  };
+  const auto add_size = [&](const char* flag, auto& value, const char* what) {
+    add(flag, value, what)->transform(CLI::AsSizeValue(false))->type_name("SIZE");
+  };
+  const auto add_count = [&](const char* flag, auto& value, const char* what) {
+    add(flag, value, what)->check(CLI::NonNegativeNumber)->type_name("N");
+  };
+  add_size("--max-file-size", read_limits.file_bytes, "Bytes of one document file");
+  add_size("--max-total-size", read_limits.total_bytes, "Bytes of a document with its includes");
+  add_count("--max-files", read_limits.files, "Files of a document with its includes");
+  add_count("--max-include-depth", read_limits.include_depth, "Includes within includes");
+  add_count("--max-xml-depth", read_limits.xml_depth, "Elements within elements");
+  add_count("--max-elements", read_limits.elements, "Elements of one file");
+  add_count("--max-nodes", graph_limits.max_nodes, "Nodes of a graph, all graphs inlined");
+  add_count("--max-inputs", graph_limits.max_inputs, "Inputs of one node");
+  add_count("--max-instructions", compile_limits.max_instructions, "Instructions of a kernel");
+  add("--max-compile-time", compile_limits.max_seconds,
+      "Seconds to compile for; then a kernel is interpreted")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  add_count("--max-image-side", texture_limits.limits.max_size, "Pixels of an image on a side");
+  add_size("--max-image-size", texture_limits.limits.max_bytes, "Bytes of an image, decoded");
+  add_size("--max-image-file-size", texture_limits.limits.max_file_bytes, "Bytes of an image file");
+  add_count("--max-tiles", texture_limits.tiles.max_tiles, "Files that a <UDIM> name stands for");
 }
 
 void CommonOptions::add_compile(CLI::App& command) {
@@ -66,6 +98,10 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.accuracy = parsed_accuracy();
   options.compile.backend = parsed_backend();
   options.compile.lanes = lanes;
+  options.compile.max_instructions = compile_limits.max_instructions;
+  options.compile.max_seconds = compile_limits.max_seconds;
+  options.graph.max_nodes = graph_limits.max_nodes;
+  options.graph.max_inputs = graph_limits.max_inputs;
   for (const std::string& path : search_paths) options.search_paths.emplace_back(path);
   return options;
 }
@@ -82,12 +118,14 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   system.libraries.push_back(data);
   for (const std::string& library : options.libraries) system.libraries.emplace_back(library);
   system.compile_threads = options.threads;
+  system.textures = options.texture_limits;
   if (!options.no_cache) {
     system.cache = options.cache.empty() ? default_cache() : fs::path(options.cache);
   }
   opened.system = ShadingSystem::create(system, diagnostics);
   if (opened.system == nullptr) return opened;
   ReadOptions read;
+  read.limits = options.read_limits;
   for (const std::string& path : options.search_paths) read.search_paths.emplace_back(path);
   opened.document = read_document(options.file, read, diagnostics);
   return opened;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "jit/document/document.h"
+#include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
 
 namespace nacre::tool {
@@ -26,6 +27,11 @@ struct CommonOptions {
   bool no_cache = false;
   std::string cache;
   bool quiet = false;
+  /// What a document, its graphs and its images may cost.
+  ReadLimits read_limits;
+  GraphOptions graph_limits;
+  CompileOptions compile_limits;
+  TextureOptions texture_limits;
 
   void add_document(CLI::App& command);
   void add_compile(CLI::App& command);
@@ -33,6 +39,9 @@ struct CommonOptions {
   Accuracy parsed_accuracy() const;
   Backend parsed_backend() const;
   ShaderOptions shader_options() const;
+
+ private:
+  void add_limits(CLI::App& command);
 };
 
 /// A document with the system that compiles it. Empty pointers after an error.

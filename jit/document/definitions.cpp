@@ -75,14 +75,15 @@ void Definitions::read_implementations() {
       }
       continue;
     }
-    if (!is_for_us(targets)) continue;
     const NodeDef* def = resolve_nodedef(def_name, element);
     const Element* graph = &element;
     if (!is_graph) {
       graph = resolve(element.attribute("nodegraph"), element);
       if (graph == nullptr || graph->category() != "nodegraph") continue;
     }
-    if (def != nullptr) graphs_.emplace(def, graph);
+    if (def == nullptr) continue;
+    implemented_.emplace(graph, def);
+    if (is_for_us(element.attribute("target"))) graphs_.emplace(def, graph);
   }
 }
 
@@ -136,6 +137,12 @@ const Element* Definitions::source_of(const NodeDef& def) const {
   const auto found = sources_.find(&def);
   if (found != sources_.end()) return found->second;
   return base_ == nullptr ? nullptr : base_->source_of(def);
+}
+
+const NodeDef* Definitions::implemented_by(const Element& graph) const {
+  const auto found = implemented_.find(&graph);
+  if (found != implemented_.end()) return found->second;
+  return base_ == nullptr ? nullptr : base_->implemented_by(graph);
 }
 
 const Element* Definitions::geompropdef(std::string_view name) const {

@@ -43,6 +43,10 @@ class Definitions {
   /// for MaterialX's own GLSL generator. Null if there is none.
   const Element* source_of(const NodeDef& def) const;
 
+  /// The nodedef that a <nodegraph> implements, named by it or by an <implementation>,
+  /// for whatever target; null for a compound graph.
+  const NodeDef* implemented_by(const Element& graph) const;
+
   /// The <geompropdef> of that name, or null.
   const Element* geompropdef(std::string_view name) const;
 
@@ -71,6 +75,7 @@ class Definitions {
   std::unordered_map<std::string_view, std::vector<const NodeDef*>> by_category_;
   std::unordered_map<const NodeDef*, const Element*> graphs_;
   std::unordered_map<const NodeDef*, const Element*> sources_;
+  std::unordered_map<const Element*, const NodeDef*> implemented_;
   std::unordered_map<std::string_view, const Element*> geompropdefs_;
   std::unordered_map<std::string_view, Unit> units_;
 };

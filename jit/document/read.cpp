@@ -47,9 +47,7 @@ class FileReader {
   Element* read(const fs::path& path, const SourceLocation& asked_by) {
     std::optional<std::string> text = load(path, asked_by);
     if (!text) return nullptr;
-    std::error_code error;
-    fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
-    open_.push_back(std::move(canonical));
+    open_.push_back(canonical_path(path));
     Element* root = parse(*text, path.string(), path.parent_path());
     open_.pop_back();
     return root;
@@ -59,7 +57,7 @@ class FileReader {
     auto buffer = std::make_unique<char[]>(text.size() + 1);
     std::memcpy(buffer.get(), text.data(), text.size());
     const std::uint16_t file = document_.add_file(name, std::move(buffer), text.size());
-    Element* root = parse_xml(document_, file, text.size(), options_, diagnostics_);
+    Element* root = parse_xml(document_, file, text, options_, diagnostics_);
     if (root == nullptr) return nullptr;
     const std::size_t errors = diagnostics_.error_count();
     check_names(*root);
@@ -131,11 +129,13 @@ class FileReader {
   // Names are unique within a scope; checked before the includes come in.
   void check_names(const Element& root) {
     std::vector<const Element*> pending{&root};
+    check_namespace(root);
     while (!pending.empty()) {
       const Element& scope = *pending.back();
       pending.pop_back();
       for (const Element& child : scope.children()) {
         if (child.child_count() > 0) pending.push_back(&child);
+        check_namespace(child);
         if (!child.has_attribute("name") || is_valid_name(child.name())) continue;
         diagnostics_.error("invalid-name", location(child), "this is not a valid name",
                            "letters, digits and '_', not starting with a digit",
@@ -145,20 +145,27 @@ class FileReader {
     }
   }
 
+  void check_namespace(const Element& element) {
+    const std::string_view space = element.attribute("namespace");
+    if (space.empty() || is_valid_name(space)) return;
+    diagnostics_.error("invalid-name", location(element), "this is not a valid namespace",
+                       "letters, digits and '_', not starting with a digit",
+                       fmt::format("'{}'", space.substr(0, 100)));
+  }
+
   void check_unique(const Element& scope) {
     constexpr std::size_t small_scope = 16;
-    std::unordered_set<std::string_view> names;
+    std::unordered_map<std::string_view, const Element*> names;
     for (const Element& child : scope.children()) {
       if (child.name().empty()) continue;
-      bool is_new = true;
-      if (scope.child_count() > small_scope) {
-        is_new = names.insert(child.name()).second;
-      } else {
-        is_new = scope.child(child.name()) == &child;
-      }
-      if (is_new) continue;
-      diagnostics_.error("duplicate-name", location(child),
-                         fmt::format("the name '{}' is used twice in one scope", child.name()));
+      const bool is_small = scope.child_count() <= small_scope;
+      const Element* first =
+          is_small ? scope.child(child.name()) : names.emplace(child.name(), &child).first->second;
+      if (first == &child) continue;
+      diagnostics_.error(
+          "duplicate-name", location(child),
+          fmt::format("the name '{}' is used twice in one scope", child.name().substr(0, 100)),
+          "a name of its own", fmt::format("the first in line {}", document_.line_of(*first)));
     }
   }
 
@@ -203,17 +210,19 @@ class FileReader {
       return nullptr;
     }
     const std::optional<fs::path> file = find(href, folder);
+    // The same for files that are there and that are not: a document is not to learn it.
+    if (!file && !is_allowed(canonical_path(folder / fs::path(href)))) {
+      report_outside(where, href);
+      return nullptr;
+    }
     if (!file) {
       diagnostics_.error("include-not-found", where, "the included file cannot be found",
                          "a file beside this one or in a search path", fmt::format("'{}'", href));
       return nullptr;
     }
-    std::error_code error;
-    const fs::path canonical = fs::weakly_canonical(fs::absolute(*file, error), error);
+    const fs::path canonical = canonical_path(*file);
     if (!is_allowed(canonical)) {
-      diagnostics_.error(
-          "include-outside", where, "the included file is outside the allowed folders",
-          "a file below the document's folder or a search path", fmt::format("'{}'", href));
+      report_outside(where, href);
       return nullptr;
     }
     if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
@@ -227,6 +236,19 @@ class FileReader {
       return nullptr;
     }
     return read(*file, where);
+  }
+
+  void report_outside(const SourceLocation& where, std::string_view href) {
+    diagnostics_.error("include-outside", where, "the included file is outside the allowed folders",
+                       "a file below the document's folder or a search path",
+                       fmt::format("'{}'", href));
+  }
+
+  // Without "..", "." and symbolic links; the path itself where the system refuses.
+  static fs::path canonical_path(const fs::path& path) {
+    std::error_code error;
+    fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
+    return error ? path.lexically_normal() : canonical;
   }
 
   std::optional<fs::path> find(std::string_view href, const fs::path& folder) const {

@@ -56,7 +56,7 @@ bool version_agrees(const NodeDef& def, std::string_view version) {
 // The first input of the instance that the nodedef does not take, or null.
 const Element* first_misfit(const Element& instance, const NodeDef& def) {
   for (const Element& child : instance.children()) {
-    if (child.category() != "input") continue;
+    if (child.category() != "input" || child.name().empty()) continue;
     const NodeDefInput* input = def.input(child.name());
     // Every node may be disabled, whether its nodedef says so or not.
     const bool disables = child.name() == "disable" && child.attribute("type") == "boolean";
@@ -77,6 +77,28 @@ std::string list_of(const std::vector<std::string>& items) {
 
 void add_once(std::vector<std::string>& items, std::string item) {
   if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(std::move(item));
+}
+
+struct Successor {
+  std::string_view category;
+  std::string_view now;
+};
+constexpr std::array removed = std::to_array<Successor>(
+    {{"include", "<xi:include>"},
+     {"swizzle", "<extract>, <convert> or <combine3>, since version 1.39"},
+     {"thin_film_bsdf", "thinfilm_thickness and thinfilm_ior of a BSDF, since version 1.39"}});
+
+// What somebody who wrote this category will have meant.
+std::string meant_by(std::string_view category, const Definitions& definitions) {
+  std::string small(category);
+  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (small == "xi:include") return "<xi:include>";
+  if (small != category && !definitions.of_category(small).empty())
+    return fmt::format("<{}>", small);
+  for (const Successor& one : removed) {
+    if (one.category == small) return std::string(one.now);
+  }
+  return "a node that a library or the document defines";
 }
 
 void report_misfit(const Element& input, const std::vector<const NodeDef*>& candidates,
@@ -116,6 +138,8 @@ void report_no_match(const Element& instance, const std::vector<const NodeDef*>&
     diagnostics.error("unknown-version", location(instance),
                       fmt::format("there is no such version of '{}'", instance.category()),
                       list_of(versions), fmt::format("'{}'", instance.attribute("version")));
+  } else if (!instance.has_attribute("type") || instance.attribute("type").empty()) {
+    diagnostics.error("missing-type", location(instance), "the node has no type", list_of(types));
   } else if (of_type.empty()) {
     diagnostics.error("no-matching-nodedef", location(instance),
                       fmt::format("no '{}' has this output type", instance.category()),
@@ -178,8 +202,8 @@ const NodeDef* find_nodedef(const Element& instance, const Definitions& definiti
   std::erase_if(candidates, [](const NodeDef* def) { return !is_for_us(def->target); });
   if (candidates.empty()) {
     diagnostics.error("unknown-node", location(instance), "there is no node of this category",
-                      "a node that a library or the document defines",
-                      fmt::format("<{}>", instance.category()));
+                      meant_by(instance.category(), definitions),
+                      fmt::format("<{}>", instance.category().substr(0, 100)));
     return nullptr;
   }
   const std::string_view version = instance.attribute("version");
@@ -194,10 +218,12 @@ const NodeDef* find_nodedef(const Element& instance, const Definitions& definiti
   return nullptr;
 }
 
+bool is_node_category(std::string_view category) {
+  return std::find(structural.begin(), structural.end(), category) == structural.end();
+}
+
 bool is_node(const Element& element) {
-  if (std::find(structural.begin(), structural.end(), element.category()) != structural.end()) {
-    return false;
-  }
+  if (!is_node_category(element.category())) return false;
   return element.parent() != nullptr &&
          (element.parent()->category() == "nodegraph" || element.parent()->parent() == nullptr);
 }

@@ -16,6 +16,9 @@ namespace nacre {
 const NodeDef* find_nodedef(const Element& instance, const Definitions& definitions,
                             Diagnostics& diagnostics);
 
+/// False for the structural elements of the format: "nodegraph", "input", "look", ...
+bool is_node_category(std::string_view category);
+
 /// True for elements that are instances of nodes: children of a document or
 /// node graph that are none of the structural elements of the format.
 bool is_node(const Element& element);

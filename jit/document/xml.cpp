@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "jit/document/text_check.h"
+
 namespace nacre {
 
 namespace {
@@ -41,11 +43,12 @@ struct Reader {
       attributes.push_back(entry);
     }
     if (!attributes.empty()) document.set_attributes(element, attributes);
-    check_attributes(element, offset);
     return element;
   }
 
-  void check_attributes(const Element& element, std::uint32_t offset) {
+  // After converting the element, whose attributes still stand in the list, and
+  // putting it in its place.
+  void check_attributes(const Element& element, std::ptrdiff_t offset) {
     std::string_view twice;
     if (attributes.size() <= 16) {
       for (std::size_t i = 1; i < attributes.size(); ++i) {
@@ -62,7 +65,7 @@ struct Reader {
     if (twice.data() == nullptr) return;
     failed = true;
     SourceLocation where = at_offset(offset);
-    where.path = element.name();
+    where.path = element_path(element);
     diagnostics.error("duplicate-attribute", where,
                       fmt::format("attribute '{}' is given twice", twice));
   }
@@ -74,11 +77,24 @@ struct Reader {
     std::vector<Note> notes;  ///< Since the last child.
   };
 
+  // Elements say all they say in attributes: text is something that slipped.
+  void warn_of_text(const Element& element, const pugi::xml_node& node) {
+    const std::string_view text = node.value();
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) return;
+    SourceLocation where = at_offset(node.offset_debug() + static_cast<std::ptrdiff_t>(first));
+    where.path = element_path(element);
+    const std::string_view line = text.substr(first, 60);
+    diagnostics.warning("stray-text", where, "text between tags means nothing", "an attribute",
+                        fmt::format("'{}'", line.substr(0, line.find_first_of("\r\n"))));
+  }
+
   // Without recursion: the depth is the document's choice until it is checked.
   Element* convert_tree(const pugi::xml_node& top) {
     Element* root = &convert(top);
     std::vector<Open> open;
     open.push_back({top.first_child(), root, {}});
+    check_attributes(*root, top.offset_debug());
     while (!open.empty()) {
       Open& at = open.back();
       const pugi::xml_node node = at.next;
@@ -88,6 +104,9 @@ struct Reader {
         continue;
       }
       at.next = node.next_sibling();
+      if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) {
+        warn_of_text(*at.element, node);
+      }
       if (node.type() != pugi::node_element) {
         if (options.keep_comments) add_note(node, at.notes);
         continue;
@@ -100,6 +119,7 @@ struct Reader {
       }
       Element& child = convert(node);
       document.append(*at.element, child);
+      check_attributes(child, node.offset_debug());
       document.set_notes_before(child, std::exchange(at.notes, {}));
       if (node.first_child()) open.push_back({node.first_child(), &child, {}});
     }
@@ -149,57 +169,52 @@ struct Reader {
   }
 };
 
-std::string describe(pugi::xml_parse_status status) {
-  switch (status) {
-    case pugi::status_no_document_element: return "there is no element in it";
-    case pugi::status_end_element_mismatch: return "an end tag does not match its start tag";
-    case pugi::status_bad_doctype: return "the document type declaration is malformed";
-    case pugi::status_bad_attribute: return "an attribute is malformed";
-    case pugi::status_bad_start_element: return "a start tag is malformed";
-    case pugi::status_bad_end_element: return "an end tag is malformed";
-    case pugi::status_bad_comment: return "a comment is not closed";
-    case pugi::status_bad_cdata: return "a CDATA section is not closed";
-    case pugi::status_bad_pi: return "a processing instruction is malformed";
-    case pugi::status_out_of_memory: return "there is not enough memory for it";
-    default: return "a tag is not recognised";
-  }
+/// How the parser itself puts it, where we find no better words.
+TextFault fault_of(const pugi::xml_parse_result& result) {
+  const auto offset = static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0));
+  return {offset, "malformed-xml",
+          fmt::format("the file is not well-formed XML: {}", result.description())};
 }
 
-bool check_encoding(std::string_view text) {
-  return !text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF") &&
-         text.find('\0') == std::string_view::npos;
+bool is_utf8(std::string_view encoding) {
+  std::string lower(encoding);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower.empty() || lower == "utf-8" || lower == "utf8" || lower == "us-ascii" ||
+         lower == "ascii";
 }
 
 }  // namespace
 
-Element* parse_xml(Document& document, std::uint16_t file, std::size_t size,
+Element* parse_xml(Document& document, std::uint16_t file, std::string_view text,
                    const ReadOptions& options, Diagnostics& diagnostics) {
   Reader reader{document, file, options, diagnostics, {}};
-  char* text = document.text(file);
-  if (!check_encoding({text, size})) {
-    diagnostics.error("bad-encoding", reader.at_offset(0), "the file is not UTF-8 text", "UTF-8");
+  const auto refuse = [&](TextFault fault) -> Element* {
+    diagnostics.error(std::move(fault.code), reader.at_offset(static_cast<std::ptrdiff_t>(fault.offset)),
+                      std::move(fault.message), std::move(fault.expected), std::move(fault.found));
     return nullptr;
+  };
+  if (auto fault = find_bad_character(text)) return refuse(std::move(*fault));
+  if (const std::string_view encoding = declared_encoding(text); !is_utf8(encoding)) {
+    diagnostics.warning("declared-encoding", reader.at_offset(0),
+                        "the file says that it is of another encoding, and is read as UTF-8",
+                        "UTF-8", fmt::format("'{}'", encoding.substr(0, 40)));
   }
-  const auto tags = static_cast<std::size_t>(std::count(text, text + size, '<'));
+  const auto tags = static_cast<std::size_t>(std::count(text.begin(), text.end(), '<'));
   if (tags / 2 > options.limits.elements) {
     diagnostics.error("too-many-elements", reader.at_offset(0), "the file has too many elements",
                       fmt::format("at most {}", options.limits.elements));
     return nullptr;
   }
   pugi::xml_document xml;
-  const pugi::xml_parse_result result = xml.load_buffer_inplace(
-      text, size, options.keep_comments ? parse_notes_flags : parse_flags, pugi::encoding_utf8);
+  const pugi::xml_parse_result result =
+      xml.load_buffer_inplace(document.text(file), text.size(),
+                             options.keep_comments ? parse_notes_flags : parse_flags, pugi::encoding_utf8);
+  bool has_doctype = false;
   for (const pugi::xml_node& node : xml.children()) {
-    if (node.type() != pugi::node_doctype) continue;
-    diagnostics.error("doctype", reader.at_offset(node.offset_debug()),
-                      "document type declarations are not allowed");
-    return nullptr;
+    has_doctype = has_doctype || node.type() == pugi::node_doctype;
   }
-  if (!result) {
-    diagnostics.error("malformed-xml", reader.at_offset(result.offset),
-                      fmt::format("the file is not well-formed XML: {}", describe(result.status)));
-    return nullptr;
-  }
+  if (!result || has_doctype) return refuse(find_markup_fault(text).value_or(fault_of(result)));
+  if (auto fault = find_text_outside(text)) return refuse(std::move(*fault));
   const pugi::xml_node top = xml.document_element();
   for (pugi::xml_node node = top.next_sibling(); node; node = node.next_sibling()) {
     if (node.type() != pugi::node_element) continue;

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "jit/document/select.h"
+#include "jit/graph/check_parts.h"
+#include "jit/graph/find.h"
 #include "jit/graph/prune.h"
 #include "jit/graph/resolver.h"
 
@@ -83,6 +87,26 @@ class GraphBuild {
     }
     add_shaders(result.source, *element);
   }
+
+  /// Everything in a scope, whether or not something reads it.
+  void add_scope(const Element& scope, const Context* context) {
+    for (const Element& child : scope.children()) {
+      if (child.category() == "output") resolver_.resolve_port(child, context);
+      if (!is_node(child)) continue;
+      const NodeDef* def = resolver_.nodedef_of(child);
+      if (def == nullptr) continue;
+      for (const NodeDefOutput& output : def->outputs) {
+        resolver_.resolve_node(child, output.name, context);
+      }
+    }
+  }
+
+  const Context* context_of(const Element& graph) {
+    return graph.parent() == nullptr ? nullptr
+                                     : resolver_.compound_context(graph, context_around(graph));
+  }
+
+  double fullness() const { return resolver_.fullness(); }
 
   Graph take() {
     prune(resolver_.graph());
@@ -171,6 +195,36 @@ std::optional<Graph> build_graph(const Document& document, const Definitions& de
   if (!request.material.empty()) build.add_material(request.material);
   if (diagnostics.error_count() != errors) return std::nullopt;
   return build.take();
+}
+
+void try_all_graphs(const Document& document, const Definitions& definitions,
+                    const GraphOptions& options, Diagnostics& diagnostics) {
+  // One build serves many, so that what they share is resolved once; it is renewed
+  // before it could become too large for any single one.
+  std::optional<GraphBuild> build;
+  const auto renewed = [&]() -> GraphBuild& {
+    if (!build || build->fullness() > 0.5) {
+      build.emplace(document, definitions, options, diagnostics);
+    }
+    return *build;
+  };
+  const auto is_hopeless = [&] { return build && build->fullness() > 1; };
+  for (const FoundMaterial& material : find_materials(document)) {
+    if (is_hopeless()) return;
+    renewed().add_material(material.name);
+  }
+  std::vector<const Element*> scopes{&document.root()};
+  while (!scopes.empty() && !is_hopeless()) {
+    const Element& scope = *scopes.back();
+    scopes.pop_back();
+    GraphBuild& current = renewed();
+    current.add_scope(scope, current.context_of(scope));
+    const std::size_t first = scopes.size();
+    for (const Element& child : scope.children()) {
+      if (child.category() == "nodegraph") scopes.push_back(&child);
+    }
+    std::reverse(scopes.begin() + static_cast<std::ptrdiff_t>(first), scopes.end());
+  }
 }
 
 std::optional<Graph> build_graph(const Document& document, const Library& library,

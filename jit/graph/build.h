@@ -54,6 +54,8 @@ struct GraphOptions {
   std::vector<VariantChoice> variants;
   /// A graph with more nodes is refused.
   std::size_t max_nodes = 1'000'000;
+  /// A node with more inputs is refused.
+  std::size_t max_inputs = 1024;
 };
 
 /// What to build; several may be given at once.

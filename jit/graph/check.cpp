@@ -7,8 +7,10 @@
 #include <tuple>
 #include <vector>
 
+#include "jit/document/read.h"
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
+#include "jit/graph/check_parts.h"
 #include "jit/graph/connection.h"
 #include "jit/graph/find.h"
 
@@ -18,17 +20,21 @@ namespace {
 
 class Checker {
  public:
-  Checker(const Document& document, const Definitions& definitions, Diagnostics& diagnostics)
-      : document_(document), definitions_(definitions), diagnostics_(diagnostics) {}
+  Checker(const Document& document, const Definitions& definitions, const Definitions& library,
+          Diagnostics& diagnostics)
+      : document_(document),
+        definitions_(definitions),
+        library_(library),
+        diagnostics_(diagnostics) {}
 
   void check_all() {
+    check_structure(document_, definitions_, diagnostics_);
+    check_declarations(document_, definitions_, library_, diagnostics_);
     check_scope(document_.root());
     for (const Element& child : document_.root().children()) {
       if (child.category() == "nodegraph") check_graph(child);
-      if (child.category() == "implementation") check_implementation(child);
-      if (child.category() == "nodedef") check_nodedef(child);
-      if (child.category() == "look") check_look(child);
     }
+    check_looks(document_, definitions_, diagnostics_);
     find_looks(document_, diagnostics_);
   }
 
@@ -42,6 +48,8 @@ class Checker {
       for (const Element& child : scope.children()) {
         if (child.category() == "input" || child.category() == "output") {
           check_port(child);
+        } else if (child.category() == "token") {
+          check_token(child);
         } else if (is_node(child)) {
           check_node(child);
         } else if (child.category() == "nodegraph" && scope.parent() != nullptr) {
@@ -52,10 +60,10 @@ class Checker {
   }
 
   void check_node(const Element& node) {
-    if (node.name().empty()) {
+    const NodeDef* def = nodedef_of(node);
+    if (node.name().empty() && def != nullptr) {
       error("missing-name", node, "the node has no name", "a name");
     }
-    const NodeDef* def = find_nodedef(node, definitions_, diagnostics_);
     if (def != nullptr && def->category != node.category() &&
         def->category != qualified_name(node, node.category())) {
       diagnostics_.warning("nodedef-mismatch", location(node),
@@ -64,12 +72,36 @@ class Checker {
                            fmt::format("<{}>", node.category()));
     }
     for (const Element& child : node.children()) {
+      if (child.category() == "token") check_token(child);
       if (child.category() != "input") continue;
       check_port(child);
       const NodeDefInput* input = def == nullptr ? nullptr : def->input(child.name());
       if (input != nullptr) check_enum(child, *input);
     }
     check_instance_inheritance(node);
+    if (node.attribute("type") == "material" && node.category() == "surfacematerial" &&
+        node.child_count() == 0 && !node.has_attribute("inherit")) {
+      diagnostics_.warning("empty-material", location(node), "the material has no shader",
+                           "an <input> connected to a surface or displacement shader");
+    }
+  }
+
+  // An input whose type is the name of none is reported as such, once.
+  const NodeDef* nodedef_of(const Element& node) {
+    Diagnostics found;
+    const NodeDef* def = find_nodedef(node, definitions_, found);
+    for (const Diagnostic& one : found.all()) {
+      const auto has_bad_type = [&](const Element& child) {
+        const std::string_view type = child.attribute("type");
+        return child.category() == "input" && location(child).path == one.where.path &&
+               !parse_type(type) && !is_declared_type(type, child, definitions_);
+      };
+      const ElementRange children = node.children();
+      const bool is_doubled =
+          one.code == "input-type" && std::any_of(children.begin(), children.end(), has_bad_type);
+      if (!is_doubled) diagnostics_.add(one);
+    }
+    return def;
   }
 
   void check_instance_inheritance(const Element& node) {
@@ -102,17 +134,9 @@ class Checker {
   }
 
   void check_port(const Element& port) {
-    const std::string_view type_text = port.attribute("type");
-    const auto type = parse_type(type_text);
-    if (!type) {
-      if (type_text.empty()) {
-        error("missing-type", port, "the port has no type", "type=\"TYPE\"");
-      } else if (!is_declared_type(type_text)) {
-        error("unknown-type", port, "there is no type of this name", "a standard type",
-              fmt::format("'{}'", type_text));
-      }
-      return;
-    }
+    if (!check_type_name(port, definitions_, diagnostics_)) return;
+    const auto type = parse_type(port.attribute("type"));
+    if (!type) return;  // a type of the document's own
     const Connection connection = find_connection(port, diagnostics_);
     switch (connection.kind) {
       case Connection::Kind::value: check_value(port, *type); break;
@@ -133,29 +157,82 @@ class Checker {
     }
   }
 
-  bool is_declared_type(std::string_view name) const {
-    const Element* found = definitions_.resolve(name, document_.root());
-    return found != nullptr && found->category() == "typedef";
-  }
-
   void check_value(const Element& port, Type type) {
     const std::string_view text = port.attribute("value");
-    bool leftover = false;  // building warns of it
+    bool leftover = false;
     if (!parse_value(type, text, &leftover)) {
       error("bad-value", port, fmt::format("the value does not fit the type {}", type_name(type)),
-            expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
+            expected_text(type), in_quotes(text));
+    } else if (leftover) {
+      diagnostics_.warning("number-leftover", location(port),
+                           "what follows a number in the value is not used", expected_text(type),
+                           in_quotes(text));
     }
-    const std::string_view unit = port.attribute("unit");
-    if (!unit.empty() && !definitions_.unit(unit)) {
+    check_unit(port, type);
+    if (type == Type::filename) check_tokens(port, text);
+  }
+
+  void check_token(const Element& token) {
+    if (!check_type_name(token, definitions_, diagnostics_)) return;
+    const auto type = parse_type(token.attribute("type"));
+    if (!type || !token.has_attribute("value")) return;
+    if (parse_value(*type, token.attribute("value"))) return;
+    error("bad-value", token, fmt::format("the value does not fit the type {}", type_name(*type)),
+          expected_text(*type), in_quotes(token.attribute("value")));
+  }
+
+  void check_unit(const Element& port, Type type) {
+    const std::string_view name = port.attribute("unit");
+    if (name.empty()) return;
+    const auto unit = definitions_.unit(name);
+    const std::string_view wanted = port.attribute("unittype");
+    if (!unit) {
       error("unknown-unit", port, "there is no unit of this name", "the name of a <unit>",
-            fmt::format("'{}'", unit));
+            in_quotes(name));
+    } else if (!wanted.empty() && unit->type != wanted) {
+      error("unit-type", port, "the unit is not of the type that unittype says",
+            fmt::format("a unit of type {}", wanted),
+            fmt::format("'{}', of type {}", name, unit->type));
+    } else if (type != Type::float_ && type != Type::vector2 && type != Type::vector3 &&
+               type != Type::vector4 && type != Type::filename) {
+      diagnostics_.warning("unit-unused", location(port),
+                           fmt::format("values of type {} have no unit", type_name(type)),
+                           "float, vector2, vector3, vector4 or filename", in_quotes(name));
     }
+  }
+
+  // "[name]" in a file name is a token of an element around it, or of the nodedef
+  // that the graph around it implements (Specification, "Filename Substitutions").
+  void check_tokens(const Element& port, std::string_view text) {
+    for (std::size_t at = text.find('['); at != std::string_view::npos; at = text.find('[', at)) {
+      const std::size_t end = text.find(']', ++at);
+      if (end == std::string_view::npos) return;
+      const std::string_view name = text.substr(at, end - at);
+      if (!is_valid_name(name) || has_token(port, name)) continue;
+      diagnostics_.warning("unknown-token", location(port),
+                           "there is no token of this name, so the file name keeps it as it is",
+                           "the name of a <token> around it", in_quotes(name));
+    }
+  }
+
+  bool has_token(const Element& port, std::string_view name) {
+    const auto is_token = [&](const Element* scope) {
+      const Element* found = scope == nullptr ? nullptr : scope->child(name);
+      return found != nullptr && found->category() == "token";
+    };
+    for (const Element* at = &port; at != nullptr; at = at->parent()) {
+      if (is_token(at)) return true;
+      const NodeDef* def =
+          at->category() == "nodegraph" ? definitions_.implemented_by(*at) : nullptr;
+      if (def != nullptr && is_token(def->element)) return true;
+    }
+    return false;
   }
 
   void check_interface(const Element& port, std::string_view name, Type type) {
     const Element& graph = enclosing_graph(port.category() == "output" ? port : *port.parent());
     Type found = Type::none;
-    if (const NodeDef* def = implemented_by(graph)) {
+    if (const NodeDef* def = definitions_.implemented_by(graph)) {
       const NodeDefInput* input = def->input(name);
       if (input != nullptr) return check_type(port, type, input->type);
     } else if (const Element* input = graph.child(name)) {
@@ -164,21 +241,6 @@ class Checker {
     }
     error("unknown-interface", port, "the graph around it has no such input",
           "the name of an input of the graph", fmt::format("'{}'", name));
-  }
-
-  // The nodedef whose inputs the insides of a graph name.
-  const NodeDef* implemented_by(const Element& graph) {
-    const std::string_view name = graph.attribute("nodedef");
-    if (!name.empty()) {
-      const NodeDef* def = definitions_.nodedef(qualified_name(graph, name));
-      return def != nullptr ? def : definitions_.nodedef(name);
-    }
-    for (const Element& child : document_.root().children()) {
-      if (child.category() != "implementation" || graph.name().empty()) continue;
-      if (child.attribute("nodegraph") != graph.name()) continue;
-      return definitions_.nodedef(child.attribute("nodedef"));
-    }
-    return nullptr;
   }
 
   void check_node_output(const Element& port, const Connection& connection, Type type) {
@@ -212,13 +274,37 @@ class Checker {
   void check_graph(const Element& graph) {
     check_scope(graph);
     const std::string_view name = graph.attribute("nodedef");
-    if (name.empty()) return;
-    const NodeDef* def = implemented_by(graph);
-    if (def == nullptr) {
-      error("unknown-nodedef", graph, "the nodedef to implement does not exist",
-            "the name of a nodedef", fmt::format("'{}'", name));
-    } else {
+    const NodeDef* def = definitions_.implemented_by(graph);
+    if (def != nullptr) {
       check_outputs(graph, *def);
+      check_inputs(graph, *def);
+      check_extra_outputs(graph, *def);
+    } else if (!name.empty()) {
+      error("unknown-nodedef", graph, "the nodedef to implement does not exist",
+            "the name of a nodedef", in_quotes(name));
+    }
+  }
+
+  // Nothing can read them: instances have the outputs of the nodedef.
+  void check_extra_outputs(const Element& graph, const NodeDef& def) {
+    for (const Element& child : graph.children()) {
+      if (child.category() != "output" || child.name().empty()) continue;
+      if (def.output(child.name()) != nullptr) continue;
+      diagnostics_.warning("extra-output", location(child),
+                           fmt::format("'{}' has no such output, so nothing can read it", def.name),
+                           "the name of an output of the nodedef", in_quotes(child.name()));
+    }
+  }
+
+  // Instances never see them (Specification, "Functional Nodegraphs").
+  void check_inputs(const Element& graph, const NodeDef& def) {
+    for (const Element& child : graph.children()) {
+      if (child.category() != "input") continue;
+      diagnostics_.warning(
+          "interface-of-nodedef", location(child),
+          fmt::format("the inputs of this graph are those of '{}', and this one is not used",
+                      def.name),
+          "an <input> of the nodedef");
     }
   }
 
@@ -237,67 +323,6 @@ class Checker {
     }
   }
 
-  void check_implementation(const Element& element) {
-    const std::string_view name = element.attribute("nodedef");
-    if (definitions_.nodedef(qualified_name(element, name)) == nullptr &&
-        definitions_.nodedef(name) == nullptr) {
-      error("unknown-nodedef", element, "the nodedef to implement does not exist",
-            "the name of a nodedef", fmt::format("'{}'", name));
-    }
-    const std::string_view graph = element.attribute("nodegraph");
-    if (graph.empty()) return;
-    const Element* found = definitions_.resolve(graph, element);
-    if (found == nullptr || found->category() != "nodegraph") {
-      error("unknown-nodegraph", element, "there is no node graph of this name",
-            "the name of a node graph", fmt::format("'{}'", graph));
-    }
-  }
-
-  void check_nodedef(const Element& element) {
-    if (element.attribute("node").empty()) {
-      error("missing-node", element, "the nodedef does not say which node it defines",
-            "node=\"CATEGORY\"");
-      return;
-    }
-    const NodeDef* def = definitions_.nodedef(element.name());
-    if (def == nullptr) return;
-    if (def->element != &element) {
-      diagnostics_.warning("shadowed-nodedef", location(element),
-                           "a library has a nodedef of this name, which is used instead");
-      return;
-    }
-    if (def->outputs.empty()) {
-      error("missing-output", element, "the nodedef has no output", "an <output>");
-    }
-    for (const NodeDefInput& input : def->inputs) {
-      if (!input.defaultgeomprop.empty() &&
-          definitions_.geompropdef(input.defaultgeomprop) == nullptr) {
-        error("unknown-geomprop", *input.element, "there is no geometric property of this name",
-              "the name of a <geompropdef>", fmt::format("'{}'", input.defaultgeomprop));
-      }
-      check_declared_type(*input.element, input.type, input.type_text);
-    }
-    for (const NodeDefOutput& output : def->outputs) {
-      check_declared_type(*output.element, output.type, output.type_text);
-    }
-  }
-
-  void check_declared_type(const Element& port, Type type, std::string_view text) {
-    if (type != Type::none || text == "none" || is_declared_type(text)) return;
-    error("unknown-type", port, "there is no type of this name", "a standard type",
-          fmt::format("'{}'", text));
-  }
-
-  void check_look(const Element& look) {
-    for (const Element& child : look.children()) {
-      if (child.category() != "materialassign") continue;
-      const std::string_view name = child.attribute("material");
-      if (definitions_.resolve(name, child) != nullptr) continue;
-      error("unknown-material", child, "there is no material of this name",
-            "the name of a material", fmt::format("'{}'", name));
-    }
-  }
-
   void error(std::string code, const Element& element, std::string message,
              std::string expected = {}, std::string found = {}) {
     diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
@@ -306,21 +331,9 @@ class Checker {
 
   const Document& document_;
   const Definitions& definitions_;
+  const Definitions& library_;
   Diagnostics& diagnostics_;
 };
-
-void build_everything(const Document& document, const Definitions& definitions,
-                      const GraphOptions& options, Diagnostics& diagnostics) {
-  for (const FoundOutput& output : find_outputs(document)) {
-    build_graph(document, definitions, {{output.name}, ""}, options, diagnostics);
-  }
-  for (const FoundMaterial& material : find_materials(document)) {
-    build_graph(document, definitions, {{}, material.name}, options, diagnostics);
-  }
-  for (const FoundOutput& shader : find_loose_shaders(document, definitions)) {
-    build_graph(document, definitions, {{shader.name}, ""}, options, diagnostics);
-  }
-}
 
 }  // namespace
 
@@ -328,10 +341,10 @@ bool check_document(const Document& document, const Library& library, const Grap
                     Diagnostics& diagnostics) {
   Diagnostics found;
   const Definitions definitions(document, &library.definitions(), found);
-  Checker(document, definitions, found).check_all();
+  Checker(document, definitions, library.definitions(), found).check_all();
   // Building meets the same faults again wherever something depends on them;
   // what it alone can find is worth looking for only in a sound document.
-  if (!found.has_errors()) build_everything(document, definitions, options, found);
+  if (!found.has_errors()) try_all_graphs(document, definitions, options, found);
   std::set<std::tuple<std::string, std::string, int, std::string, std::string>> seen;
   for (const Diagnostic& one : found.all()) {
     const SourceLocation& at = one.where;

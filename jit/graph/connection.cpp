@@ -32,7 +32,11 @@ Connection connect_to_graph(const Element& port, const Element& graph, Diagnosti
     ++count;
   }
   if (wanted.empty() && count == 1) return {Connection::Kind::output, only, {}};
-  if (wanted.empty() && count > 1) {
+  if (count == 0) {
+    diagnostics.error("unknown-output", location(port),
+                      fmt::format("the node graph '{}' has no outputs", graph.name()),
+                      "a node graph with an <output>");
+  } else if (wanted.empty() && count > 1) {
     diagnostics.error("output-required", location(port),
                       fmt::format("'{}' has several outputs and none is named", graph.name()),
                       "output=\"NAME\"");
@@ -51,8 +55,10 @@ Connection connect_to_node(const Element& port, Diagnostics& diagnostics) {
     return connect_to_graph(port, *target, diagnostics);
   }
   if (target == nullptr || !is_node(*target)) {
+    std::string found = fmt::format("'{}'", name);
+    if (target != nullptr) found += fmt::format(", which is <{}>", target->category());
     diagnostics.error("unknown-nodename", location(port), "there is no node of this name here",
-                      "the name of a node beside this one", fmt::format("'{}'", name));
+                      "the name of a node beside this one", std::move(found));
     return invalid();
   }
   return {Connection::Kind::node, target, port.attribute("output")};

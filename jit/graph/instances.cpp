@@ -80,6 +80,11 @@ const NodeDef* Resolver::nodedef_of(const Element& node) {
   const auto known = nodedefs_.find(&node);
   if (known != nodedefs_.end()) return known->second;
   const NodeDef* def = find_nodedef(node, definitions_of(node), diagnostics_);
+  if (def != nullptr && def->inputs.size() > options_.max_inputs) {
+    error("too-many-inputs", node, "the node has too many inputs",
+          fmt::format("at most {}", options_.max_inputs), fmt::format("{}", def->inputs.size()));
+    def = nullptr;
+  }
   nodedefs_.emplace(&node, def);
   return def;
 }
@@ -115,10 +120,7 @@ const Context* Resolver::compound_context(const Element& graph, const Context* p
   context.path = join(parent, graph.name());
   // A graph that implements a nodedef, looked at on its own: the nodedef's
   // defaults stand for its inputs.
-  const std::string_view def_name = graph.attribute("nodedef");
-  const NodeDef* def = definitions_.nodedef(qualified_name(graph, def_name));
-  if (def == nullptr) def = definitions_.nodedef(def_name);
-  if (def != nullptr) {
+  if (const NodeDef* def = definitions_.implemented_by(graph)) {
     context.instance = &add_instance(*def, context.path, &graph);
     context.def = def;
   }

@@ -26,6 +26,16 @@ Value ui_bound(const Element* input, const Element* declared, Type type, std::st
   return {};
 }
 
+// Whether an input takes a string; one without an enumeration takes all.
+bool takes(const NodeDefInput& input, std::string_view text) {
+  if (input.type != Type::string || input.enums.empty()) return true;
+  const std::vector<std::string_view> values = split_list(input.enum_values);
+  for (const auto* list : {&input.enums, &values}) {
+    if (std::find(list->begin(), list->end(), text) != list->end()) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element& carrier, Type type,
@@ -193,21 +203,21 @@ std::optional<std::string> Resolver::find_token(std::string_view name, const Ele
   return std::nullopt;
 }
 
+// What an outer node may be given, its graph may hand on, whatever the inner node
+// lists: UsdUVTexture takes "black", and gives it to an image.
 bool Resolver::check_enum(const NodeDefInput& input, const Result& result) {
-  if (input.type != Type::string || input.enums.empty()) return true;
   if (result.source.kind != Source::Kind::literal) return true;
-  const std::string& text = result.source.value.texts[0];
-  const std::vector<std::string_view> values = split_list(input.enum_values);
-  for (const auto* list : {&input.enums, &values}) {
-    if (std::find(list->begin(), list->end(), text) != list->end()) return true;
+  const std::string text = result.source.value.texts.empty() ? "" : result.source.value.texts[0];
+  if (takes(input, text)) return true;
+  const Element* carrier = result.carrier;
+  if (carrier != nullptr && carrier->category() == "input" && is_node(*carrier->parent())) {
+    const NodeDef* def = nodedef_of(*carrier->parent());
+    const NodeDefInput* declared = def == nullptr ? nullptr : def->input(carrier->name());
+    if (declared != nullptr && !declared->enums.empty() && takes(*declared, text)) return true;
   }
-  std::string allowed;
-  for (std::string_view word : input.enums) {
-    allowed += (allowed.empty() ? "" : ", ") + std::string(word);
-  }
-  const Element& where = result.carrier != nullptr ? *result.carrier : *input.element;
-  error("bad-enum", where, fmt::format("'{}' does not take this value", input.name), allowed,
-        fmt::format("'{}'", text));
+  const Element& where = carrier != nullptr ? *carrier : *input.element;
+  error("bad-enum", where, fmt::format("'{}' does not take this value", input.name),
+        fmt::format("{}", fmt::join(input.enums, ", ")), fmt::format("'{}'", text));
   return false;
 }
 

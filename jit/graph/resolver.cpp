@@ -59,10 +59,14 @@ Resolver::Result Resolver::failure() {
 
 // Instances count as well as nodes: they take memory, and a graph may consist of
 // nothing but other graphs.
+double Resolver::fullness() const {
+  const auto limit = static_cast<double>(options_.max_nodes);
+  return std::max(static_cast<double>(graph_.nodes.size()) / limit,
+                  static_cast<double>(instances_.size()) / (2 * limit));
+}
+
 bool Resolver::is_too_large(const Frame& frame) {
-  if (graph_.nodes.size() <= options_.max_nodes && instances_.size() <= 2 * options_.max_nodes) {
-    return false;
-  }
+  if (fullness() <= 1) return false;
   const auto* subject = frame.key.subject;
   const Element& where = frame.key.kind == Kind::port
                              ? *static_cast<const Element*>(subject)
@@ -114,8 +118,9 @@ Resolver::Result Resolver::resolve_port(const Element& port, const Context* cont
   return run({Kind::port, 0, &port, context});
 }
 
-Resolver::Result Resolver::resolve_node(const Element& node, std::string_view output) {
-  const Instance* instance = instance_of(node, nullptr);
+Resolver::Result Resolver::resolve_node(const Element& node, std::string_view output,
+                                        const Context* context) {
+  const Instance* instance = instance_of(node, context);
   if (instance == nullptr) return failure();
   const auto index = output_index(*instance->def, output, node);
   return index ? run({Kind::output, *index, instance, nullptr}) : failure();

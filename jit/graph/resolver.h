@@ -62,12 +62,15 @@ class Resolver {
 
   /// What an <output> or an unowned <input> in a context comes to.
   Result resolve_port(const Element& port, const Context* context);
-  /// An output of a root node; "" for its only one.
-  Result resolve_node(const Element& node, std::string_view output);
+  /// An output of a node that stands in `context`, null at the root; "" for its only one.
+  Result resolve_node(const Element& node, std::string_view output,
+                      const Context* context = nullptr);
   const NodeDef* nodedef_of(const Element& node);
   const Context* compound_context(const Element& graph, const Context* parent);
 
   Graph& graph() { return graph_; }
+  /// How much of GraphOptions::max_nodes is used up, 1 at the limit.
+  double fullness() const;
 
  private:
   enum class Kind : std::uint8_t { node, output, input, port };

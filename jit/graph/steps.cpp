@@ -180,9 +180,11 @@ std::optional<Resolver::Key> Resolver::finish_native_output(Frame& frame,
     const Result& file = slots_.at({Kind::input, i, &instance, nullptr}).result;
     frame.stage = converted;
     const Type type = frame.result.type;
+    // Complaints are about who names the file, unless that is a library.
+    const bool is_ours = file.carrier != nullptr && &file.carrier->document() == &document_;
+    const Element& user = is_ours ? *file.carrier : *instance.origin;
     if (type == Type::color3 || type == Type::color4) {
-      return convert_colour(frame.result.source, type, file.source.colorspace, instance.path,
-                            *instance.origin);
+      return convert_colour(frame.result.source, type, file.source.colorspace, instance.path, user);
     }
     const bool scales = type == Type::float_ || type == Type::vector2 || type == Type::vector3 ||
                         type == Type::vector4;

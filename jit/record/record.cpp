@@ -60,11 +60,24 @@ class GraphRecorder {
  private:
   using Ports = std::vector<NodeCall::Port>;
 
+  /// Functions that are recorded stay as they are: each is counted once.
+  std::size_t count_instructions() {
+    const std::vector<Function>& functions = recorder_.program().functions;
+    for (; counted_ < functions.size(); ++counted_)
+      in_functions_ += functions[counted_].code.size();
+    return in_functions_ + functions.front().code.size();
+  }
+
   /// All nodes of one branch, in order. False, with a diagnostic, where one cannot
   /// be recorded.
   bool record_branch(std::uint32_t branch) {
     for (const std::uint32_t number : plan_.branches[branch].nodes) {
       if (!record_node(number)) return false;
+      if (count_instructions() <= options_.max_instructions) continue;
+      diagnostics_.error(
+          "program-too-large", graph_.nodes[number].where, "the graph leads to too large a kernel",
+          "at most " + std::to_string(options_.max_instructions) + " instructions");
+      return false;
     }
     return true;
   }
@@ -260,6 +273,8 @@ class GraphRecorder {
   Diagnostics& diagnostics_;
   BranchPlan plan_;
   std::vector<Ports> outputs_;  ///< By node.
+  std::size_t counted_ = 1;     ///< Functions; the first is the entry.
+  std::size_t in_functions_ = 0;
 };
 
 }  // namespace

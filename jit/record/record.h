@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -30,12 +31,15 @@ struct RecordOptions {
   /// Compute what only one side of a conditional node needs only where it is taken;
   /// false changes no result, only what it costs.
   bool lazy = true;
+  /// A graph that leads to more is refused.
+  std::size_t max_instructions = 2'000'000;
   /// The file that a name written in `document` stands for; the name itself if null.
   std::function<std::string(const std::string& name, const std::string& document)> resolve_file;
 };
 
 /// Records the nodes of a graph that its outputs may need, and returns the values of
-/// the outputs. Nothing, with a diagnostic, for a node that has no body.
+/// the outputs. Nothing, with a diagnostic, for a node that has no body and for what
+/// becomes too large.
 std::optional<std::vector<Recorded>> record_graph(const Graph& graph, const Bodies& bodies,
                                                   const RecordOptions& options, Recorder& recorder,
                                                   Diagnostics& diagnostics);

@@ -1,5 +1,8 @@
 #include "jit/service/compile_service.h"
 
+#include <fmt/format.h>
+
+#include <chrono>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
@@ -31,8 +34,12 @@ class Service final : public CompileService {
 
   std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
                                                            const CodegenOptions& options,
-                                                           Diagnostics& diagnostics) override {
+                                                           Diagnostics& diagnostics,
+                                                           double max_seconds) override {
+    const auto deadline =
+        std::chrono::steady_clock::now() + std::chrono::duration<double>(max_seconds);
     std::vector<std::shared_ptr<CompiledKernel>> kernels;
+    std::vector<std::shared_ptr<CompileJob>> jobs;
     for (Program& program : programs) {
       if (session_ == nullptr) {
         kernels.push_back(interpreting_kernel(std::move(program), no_session_));
@@ -41,9 +48,15 @@ class Service final : public CompileService {
       auto shared = std::make_shared<const Program>(std::move(program));
       const std::shared_ptr<CompileJob> job = joined_job(shared, options, true);
       kernels.push_back(std::make_shared<ServiceKernel>(shared, options.lanes, job, nullptr));
+      jobs.push_back(job);
     }
     if (session_ == nullptr) return kernels;
-    for (std::shared_ptr<CompiledKernel>& kernel : kernels) {
+    for (std::size_t i = 0; i < kernels.size(); ++i) {
+      std::shared_ptr<CompiledKernel>& kernel = kernels[i];
+      if (!jobs[i]->wait_until(deadline)) {
+        kernel = late_kernel(kernel->program(), max_seconds, diagnostics);
+        continue;
+      }
       const bool ready = kernel->wait();
       const Diagnostics said = kernel->diagnostics();
       for (const Diagnostic& one : said.all()) diagnostics.add(one);
@@ -62,6 +75,17 @@ class Service final : public CompileService {
   }
 
  private:
+  /// In the place of one whose code is not ready; nobody waits for that any more.
+  static std::shared_ptr<CompiledKernel> late_kernel(const Program& program, double max_seconds,
+                                                     Diagnostics& diagnostics) {
+    Diagnostics why;
+    why.warning("compile-timeout", {},
+                fmt::format("compiling '{}' takes too long, so it is interpreted", program.name),
+                fmt::format("at most {} seconds", max_seconds));
+    diagnostics.add(why.all().front());
+    return interpreting_kernel(program, std::move(why));
+  }
+
   /// The job for this code, new and begun or one that is under way or done.
   std::shared_ptr<CompileJob> joined_job(const std::shared_ptr<const Program>& program,
                                          const CodegenOptions& options, bool urgent) {
@@ -125,7 +149,7 @@ std::vector<std::shared_ptr<const Kernel>> CompileService::compile(std::vector<P
                                                                    Diagnostics& diagnostics) {
   const CodegenOptions codegen = codegen_options(options);
   if (!options.asynchronous) {
-    auto kernels = request_all(std::move(programs), codegen, diagnostics);
+    auto kernels = request_all(std::move(programs), codegen, diagnostics, options.max_seconds);
     return {kernels.begin(), kernels.end()};
   }
   std::vector<std::shared_ptr<const Kernel>> kernels;

@@ -104,6 +104,13 @@ bool CompileJob::wait() const {
   return state_ == State::ready;
 }
 
+bool CompileJob::wait_until(
+    std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> deadline)
+    const {
+  std::unique_lock lock(mutex_);
+  return ended_.wait_until(lock, deadline, [this] { return state_ != State::waiting; });
+}
+
 CompileJob::State CompileJob::state() const {
   const std::scoped_lock lock(mutex_);
   return state_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -32,6 +33,9 @@ class CompileJob {
   /// Ends it without code, if it has not ended; running, it stops at the next stage.
   void give_up();
   bool wait() const;
+  /// False if it has not ended by then.
+  bool wait_until(std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>>
+                      deadline) const;
 
   State state() const;
   /// The code to run, or null. Once not null it stays the same.

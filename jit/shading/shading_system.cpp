@@ -61,6 +61,7 @@ class Compilation {
         .textures = textures_.get(),
         .sources = &sources_,
         .lazy = options_.lazy,
+        .max_instructions = options_.compile.max_instructions,
         .resolve_file = [this](const std::string& name, const std::string& document) {
           return find_file(name, document, options_.search_paths);
         }};

@@ -34,6 +34,8 @@ TextureFilter parse_filter(NodeCall& call, std::string_view input) {
 }
 
 AddressMode parse_address_mode(NodeCall& call, std::string_view input) {
+  // USD's word, which the data library's UsdUVTexture hands on.
+  if (call.text(input) == "black") return AddressMode::constant;
   return parse(call, input, AddressMode::periodic,
                std::array<std::string_view, 4>{"constant", "clamp", "periodic", "mirror"});
 }

@@ -6,11 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <vector>
 
+#include "runtime/texture/exr_header.h"
 #include "runtime/texture/image_format.h"
 #include "runtime/texture/png_chunks.h"
 
@@ -134,6 +136,24 @@ Diagnostic broken(const std::string& path, std::string reason) {
                      reason.empty() ? "no reason given by the reader" : reason);
 }
 
+/// The reader allocates a GIF's canvas before it says how large it is (GIF89a, 18).
+std::optional<Diagnostic> check_gif(const std::string& path, const ImageLimits& limits) {
+  std::ifstream stream(path, std::ios::binary);
+  std::array<unsigned char, 10> head{};
+  stream.read(reinterpret_cast<char*>(head.data()), head.size());
+  const int width = head[6] | head[7] << 8;
+  const int height = head[8] | head[9] << 8;
+  const std::uint64_t bytes =
+      static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 4;
+  if (within(width, limits.max_size) && within(height, limits.max_size) &&
+      bytes <= limits.max_bytes) {
+    return std::nullopt;
+  }
+  return image_error("image-too-large", path, "the size of the image is outside the limits",
+                     fmt::format("1 to {} on either side", limits.max_size),
+                     fmt::format("{} x {}", width, height));
+}
+
 OIIO::ImageSpec reader_options() {
   OIIO::ImageSpec options;
   options["oiio:UnassociatedAlpha"] = 1;
@@ -187,6 +207,13 @@ std::optional<Diagnostic> ImageReader::open(const std::string& path, const std::
   if (!opened->input) return broken(path, OIIO::geterror());
   if (*format == ImageFormat::png) {
     if (auto problem = take_png(*opened, file_bytes)) return problem;
+  }
+  if (*format == ImageFormat::exr) {
+    std::ifstream stream(path, std::ios::binary);
+    if (auto reason = exr_header_fault(stream, file_bytes, limits)) return broken(path, *reason);
+  }
+  if (*format == ImageFormat::gif) {
+    if (auto problem = check_gif(path, limits)) return problem;
   }
   OIIO::ImageInput& input = *opened->input;
   if (!input.open(path, opened->spec, reader_options())) return broken(path, input.geterror());

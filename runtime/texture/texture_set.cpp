@@ -2,9 +2,8 @@
 
 namespace nacre {
 
-TextureSet acquire_set(TextureStore& store, const TextureKey& pattern, Diagnostics& diagnostics,
-                       const TileLimits& limits) {
-  const auto tiles = find_tiles(pattern.path, limits, diagnostics);
+TextureSet acquire_set(TextureStore& store, const TextureKey& pattern, Diagnostics& diagnostics) {
+  const auto tiles = find_tiles(pattern.path, store.options().tiles, diagnostics);
   if (!tiles) return {};
   TextureSet set;
   set.directory = tile_directory(*tiles);

@@ -18,8 +18,7 @@ struct TextureSet {
 };
 
 /// All tiles of a name. A tile that cannot be read is missing in its own right, with a
-/// diagnostic, and does not disturb the others.
-TextureSet acquire_set(TextureStore& store, const TextureKey& pattern, Diagnostics& diagnostics,
-                       const TileLimits& limits = {});
+/// diagnostic, and does not disturb the others. Limits are those of the store.
+TextureSet acquire_set(TextureStore& store, const TextureKey& pattern, Diagnostics& diagnostics);
 
 }  // namespace nacre

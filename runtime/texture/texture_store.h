@@ -12,6 +12,7 @@
 #include "runtime/texture/image_io.h"
 #include "runtime/texture/texture.h"
 #include "runtime/texture/texture_loader.h"
+#include "runtime/texture/tile_set.h"
 
 namespace nacre {
 
@@ -30,6 +31,7 @@ struct TextureOptions {
   /// Bytes of tiles kept for images that are not resident, by all of them together.
   std::uint64_t host_cache = std::uint64_t{256} << 20;
   ImageLimits limits;
+  TileLimits tiles;  ///< Of what a name with <UDIM> or <UVTILE> stands for.
 };
 
 struct TextureStatistics {
@@ -68,6 +70,8 @@ class TextureStore {
 
   /// Forgets every texture that no handle refers to, so that changed files are read again.
   void drop_unused();
+
+  const TextureOptions& options() const { return options_; }
 
   TextureStatistics statistics() const;
 

@@ -1,7 +1,7 @@
-// Every document in tests/documents/bad has a NAME.expected beside it: one line
-// for each diagnostic, in order,
+// Every document below tests/documents/bad, but what stands in folders "include",
+// has a NAME.expected beside it: one line for each diagnostic, in order,
 //
-//   severity code file:line path | text
+//   severity code file:line:column path | text
 //
 // where `path` is "-" if there is none and `text` is part of what is said.
 #include <fmt/format.h>
@@ -19,9 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> bad_documents() {
+  const fs::path folder = source_folder() / "tests/documents/bad";
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(source_folder() / "tests/documents/bad")) {
-    if (entry.path().extension() == ".mtlx") names.push_back(entry.path().stem().string());
+  for (fs::recursive_directory_iterator at(folder), end; at != end; ++at) {
+    if (at->path().filename() == "include") at.disable_recursion_pending();
+    if (at->path().extension() != ".mtlx") continue;
+    names.push_back(fs::path(at->path()).replace_extension().lexically_relative(folder).string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -36,20 +39,21 @@ std::vector<std::string> lines_of(const fs::path& file) {
 
 std::string head_of(const Diagnostic& one, const fs::path& folder) {
   const std::string severity = one.severity == Severity::error ? "error" : "warning";
-  return fmt::format("{} {} {}:{} {} | ", severity, one.code,
+  return fmt::format("{} {} {}:{}:{} {} | ", severity, one.code,
                      fs::path(one.where.file).lexically_relative(folder).string(), one.where.line,
-                     one.where.path.empty() ? "-" : one.where.path);
+                     one.where.column, one.where.path.empty() ? "-" : printable(one.where.path));
 }
 
 class BadDocument : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(BadDocument, IsReportedWhereItIsWrong) {
-  const fs::path folder = source_folder() / "tests/documents/bad";
+  const fs::path file = source_folder() / "tests/documents/bad" / (GetParam() + ".mtlx");
+  const fs::path folder = file.parent_path();
   Diagnostics diagnostics;
-  const auto document = read_document(folder / (GetParam() + ".mtlx"), {}, diagnostics);
+  const auto document = read_document(file, {}, diagnostics);
   if (document != nullptr) check_document(*document, standard_library(), {}, diagnostics);
 
-  const std::vector<std::string> expected = lines_of(folder / (GetParam() + ".expected"));
+  const std::vector<std::string> expected = lines_of(fs::path(file).replace_extension(".expected"));
   ASSERT_FALSE(expected.empty());
   ASSERT_EQ(diagnostics.all().size(), expected.size()) << diagnostics.to_string();
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -62,7 +66,11 @@ TEST_P(BadDocument, IsReportedWhereItIsWrong) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadDocument, ::testing::ValuesIn(bad_documents()),
-                         [](const auto& test) { return test.param; });
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '/', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace nacre

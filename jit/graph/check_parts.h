@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "jit/document/definitions.h"
+#include "jit/document/document.h"
+#include "jit/graph/build.h"
+#include "runtime/diagnostic.h"
+#include "runtime/type.h"
+
+/// The parts of check_document, one for each kind of fault.
+namespace nacre {
+
+/// Elements without a name, in places where they mean nothing, of versions gone by;
+/// attributes that are almost one of the standard's.
+void check_structure(const Document& document, const Definitions& definitions,
+                     Diagnostics& diagnostics);
+
+/// What nodedefs, implementations, types, units and geometric properties declare;
+/// `library` is what the document's own definitions stand on.
+void check_declarations(const Document& document, const Definitions& definitions,
+                        const Definitions& library, Diagnostics& diagnostics);
+
+/// Looks and what they assign: materials, collections, properties, variants.
+void check_looks(const Document& document, const Definitions& definitions,
+                 Diagnostics& diagnostics);
+
+/// Builds all nodes, outputs and materials for the sake of the diagnostics, those that
+/// nothing reads too. In a sound document only: it meets each fault again.
+void try_all_graphs(const Document& document, const Definitions& definitions,
+                    const GraphOptions& options, Diagnostics& diagnostics);
+
+/// True for the name of a <typedef>.
+bool is_declared_type(std::string_view name, const Element& user, const Definitions& definitions);
+
+/// Reports a port whose `type` is missing or the name of no type; false after that.
+bool check_type_name(const Element& port, const Definitions& definitions, Diagnostics& diagnostics);
+
+/// "'text'", cut if it is long.
+std::string in_quotes(std::string_view text);
+
+}  // namespace nacre

@@ -1,0 +1,118 @@
+#include "tests/fuzz/host.h"
+
+#include <bit>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <vector>
+
+#include "jit/graph/find.h"
+
+namespace nacre::fuzz {
+
+namespace {
+
+constexpr std::size_t points = 5;
+constexpr std::size_t most_kernels = 8;  // Of one document; the rest is more of the same.
+
+std::unique_ptr<ShadingSystem> create_host() {
+  const char* folder = std::getenv("NACRE_MATERIALX_LIBRARIES");
+  SystemOptions options;
+  options.libraries = {folder != nullptr ? folder : NACRE_MATERIALX_LIBRARIES_DIR};
+  options.textures.limits.max_size = 256;
+  options.textures.limits.max_bytes = 1 << 20;
+  options.compile_threads = 1;
+  Diagnostics diagnostics;
+  auto system = ShadingSystem::create(options, diagnostics);
+  if (system == nullptr) fail(diagnostics.to_string());
+  return system;
+}
+
+using Channels = std::map<std::string, std::vector<std::uint32_t>>;
+
+/// Runs a kernel on channels by name; what is not there is a ramp through 0.
+void run(const BoundKernel& kernel, Channels& channels) {
+  const Program& program = kernel.program();
+  std::vector<const void*> inputs;
+  for (const auto& input : program.inputs) {
+    auto& column = channels[input.name];
+    for (std::size_t i = column.size(); i < points; ++i) {
+      const float ramp = 0.375f * static_cast<float>(i) - 0.5f;
+      column.push_back(std::bit_cast<std::uint32_t>(ramp));
+    }
+    inputs.push_back(column.data());
+  }
+  std::map<std::string, std::vector<std::uint32_t>> results;
+  std::vector<void*> outputs;
+  for (const auto& output : program.outputs) {
+    auto& column = results[output.name];
+    column.resize(points);
+    outputs.push_back(column.data());
+  }
+  kernel.run(inputs, outputs, points);
+  for (auto& [name, column] : results) channels[name] = std::move(column);
+}
+
+void shade_outputs(const Document& document, Diagnostics& diagnostics) {
+  std::size_t count = 0;
+  for (const FoundOutput& output : find_outputs(document)) {
+    if (++count > most_kernels) return;
+    const auto shader =
+        host().compile_outputs(document, {output.name}, shader_options(), diagnostics);
+    Channels channels;
+    if (shader != nullptr) run(shader->kernel, channels);
+  }
+}
+
+void shade_materials(const Document& document, Diagnostics& diagnostics) {
+  std::size_t count = 0;
+  for (const FoundMaterial& material : find_materials(document)) {
+    if (++count > most_kernels) return;
+    const auto kernels =
+        host().compile_material(document, material.name, shader_options(), diagnostics);
+    if (kernels == nullptr) continue;
+    Channels channels;  // begin's outputs are what the others read
+    for (const auto* kernel : {&kernels->begin, &kernels->sample, &kernels->evaluate,
+                               &kernels->albedo, &kernels->emission, &kernels->opacity}) {
+      if (*kernel) run(**kernel, channels);
+    }
+  }
+}
+
+}  // namespace
+
+ShadingSystem& host() {
+  static const std::unique_ptr<ShadingSystem> system = create_host();
+  return *system;
+}
+
+ReadOptions read_options() {
+  ReadOptions options;
+  options.limits.file_bytes = 1 << 16;
+  options.limits.total_bytes = 1 << 18;
+  options.limits.files = 8;
+  options.limits.elements = 4000;
+  return options;
+}
+
+ShaderOptions shader_options() {
+  ShaderOptions options;
+  options.compile.backend = Backend::interpreter;
+  options.graph.max_nodes = 500;
+  return options;
+}
+
+void shade_everything(const Document& document) {
+  Diagnostics diagnostics;
+  host().check(document, shader_options(), diagnostics);
+  if (diagnostics.has_errors()) return;
+  shade_outputs(document, diagnostics);
+  shade_materials(document, diagnostics);
+}
+
+void fail(const std::string& reason) {
+  std::fprintf(stderr, "%s\n", reason.c_str());
+  std::abort();
+}
+
+}  // namespace nacre::fuzz

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "jit/document/document.h"
+#include "jit/shading/shading_system.h"
+
+namespace nacre::fuzz {
+
+/// The data library and what runs documents, made once a process: reading the
+/// library takes a thousand times what one document does.
+ShadingSystem& host();
+
+/// The interpreter, and limits small enough that one input costs milliseconds.
+ShaderOptions shader_options();
+ReadOptions read_options();
+
+/// Everything a host does with a document it was given: checks all of it, then
+/// runs each output, and each kernel of each material, on a few points.
+void shade_everything(const Document& document);
+
+/// Ends the process, so that the fuzzer keeps the input.
+[[noreturn]] void fail(const std::string& reason);
+
+}  // namespace nacre::fuzz

@@ -1,0 +1,75 @@
+// Bytes as an image file: header, decoding, pyramid, and tiles through the cache.
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "runtime/texture/texture_store.h"
+#include "tests/fuzz/host.h"
+
+namespace {
+
+using namespace nacre;
+
+/// Memory that looks like a file. TGA has no signature, so the name says it; all
+/// other formats are told by their first bytes.
+struct MemoryFile {
+  std::string name;
+
+  MemoryFile() {
+    const std::filesystem::path memory = "/dev/shm";
+    const auto folder =
+        std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
+    name = (folder / ("nacre_fuzz_image_" + std::to_string(getpid()) + ".tga")).string();
+  }
+  ~MemoryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(name, ignored);
+  }
+};
+
+const std::string& file_name() {
+  static const MemoryFile file;
+  return file.name;
+}
+
+void look_up(const HostTexture& texture) {
+  const std::vector<float> u{-0.5f, 0.1f, 0.5f, 0.99f};
+  const std::vector<float> zero(u.size());
+  std::vector<std::vector<float>> rgba(4, std::vector<float>(u.size()));
+  HostLookup lookup{};
+  lookup.count = static_cast<int>(u.size());
+  lookup.u = lookup.v = u.data();
+  lookup.dudx = lookup.dvdx = lookup.dudy = lookup.dvdy = zero.data();
+  texture.lookup(lookup, {rgba[0].data(), rgba[1].data(), rgba[2].data(), rgba[3].data()});
+}
+
+void load(std::uint64_t budget, const std::string& layer) {
+  TextureOptions options;
+  options.budget = budget;
+  options.host_cache = 1 << 20;
+  options.limits.max_size = 512;
+  options.limits.max_bytes = 4 << 20;
+  TextureStore store(options);
+  Diagnostics diagnostics;
+  const TextureHandle texture = store.acquire({.path = file_name(), .layer = layer}, diagnostics);
+  if (texture->missing() != diagnostics.has_errors()) {
+    fuzz::fail("an image is missing without a reason, or there with an error");
+  }
+  if (texture->words().empty()) fuzz::fail("a texture without a header");
+  if (texture->host() != nullptr) look_up(*texture->host());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::ofstream(file_name(), std::ios::binary | std::ios::trunc)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  load(8 << 20, size % 3 == 0 ? "1" : "");
+  load(0, "");  // no room: through the tile cache
+  return 0;
+}
