@@ -135,7 +135,8 @@ def latency(run: results.Run) -> str:
     names = sorted(name for name in run.figures if name.startswith("latency/"))
     stages = []
     for stage in ("read", "graph", "record", "slice", "derive", "contract", "expand_math", "run",
-                  "emit", "optimize", "codegen", "link", "cache", "begin", "sample", "evaluate"):
+                  "emit", "optimize", "codegen", "link", "cache", "begin", "sample", "evaluate",
+                  "kernel", "node"):
         if any(f"{stage}_ms" in run.figures[name].counters for name in names):
             stages.append(stage)
     rows = []

@@ -119,6 +119,67 @@ void document_load(benchmark::State& state) {
   stages.show(state);
 }
 
+/// A document of that many nodes: chains of arithmetic with a noise in every tenth,
+/// joined into one output, as a procedural texture is.
+std::string texture_document(int nodes) {
+  const char* const kinds[] = {"add", "multiply", "subtract", "max", "min",
+                               "add", "multiply", "power",    "sin", "noise2d"};
+  std::string text = "<materialx version=\"1.39\">\n";
+  std::string before;
+  for (int i = 0; i < nodes; ++i) {
+    const std::string kind = kinds[(nodes - 1 - i) % 10 == 0 ? 0 : i % 10];
+    const std::string name = "n" + std::to_string(i);
+    text += "<" + kind + " name=\"" + name + "\" type=\"float\">";
+    const bool is_noise = kind == "noise2d";
+    if (!before.empty()) {
+      text += "<input name=\"" + std::string(is_noise ? "amplitude" : kind == "sin" ? "in" : "in1") +
+              "\" type=\"float\" nodename=\"" + before + "\"/>";
+    }
+    if (!is_noise && kind != "sin") {
+      text += "<input name=\"in2\" type=\"float\" value=\"0." + std::to_string(i + 1) + "\"/>";
+    }
+    text += "</" + kind + ">\n";
+    before = name;
+  }
+  return text + "<output name=\"out\" type=\"float\" nodename=\"" + before + "\"/></materialx>";
+}
+
+/// Read, graph and kernel of such a document, by `backend`; the counters are
+/// milliseconds, `node` the whole over the number of nodes.
+void document_of(benchmark::State& state, int nodes, Backend backend) {
+  const std::string text = texture_document(nodes);
+  const ShaderOptions options = [&] {
+    ShaderOptions made;
+    made.compile.backend = backend;
+    return made;
+  }();
+  Stages stages;
+  for (auto _ : state) {
+    Diagnostics diagnostics;
+    const auto whole = Clock::now();
+    auto start = whole;
+    const auto document = read_document_text(text, "texture.mtlx", {}, diagnostics);
+    stages.add("read", milliseconds_since(start));
+    start = Clock::now();
+    const auto graph =
+        document == nullptr
+            ? std::nullopt
+            : build_graph(*document, shading_system().library(), {.outputs = {"out"}, .material = {}},
+                          graph_options(), diagnostics);
+    stages.add("graph", milliseconds_since(start));
+    if (!graph) {
+      state.SkipWithError(diagnostics.to_string().c_str());
+      return;
+    }
+    start = Clock::now();
+    const auto kernel = shading_system().compile_outputs(*graph, options, diagnostics);
+    stages.add("kernel", milliseconds_since(start));
+    stages.add("node", milliseconds_since(whole) / nodes);
+    if (kernel == nullptr) state.SkipWithError(diagnostics.to_string().c_str());
+  }
+  stages.show(state);
+}
+
 /// From the document to the first results of all three kernels, nothing compiled.
 void first_batch(benchmark::State& state, ParameterMode parameters) {
   bodies();
@@ -223,6 +284,10 @@ void register_benchmarks() {
   static const TemporaryFolder cache;
   add("latency/library_load", library_load);
   add("latency/document_load", document_load);
+  add("latency/document_100_nodes/interpreter",
+      [](benchmark::State& state) { document_of(state, 100, Backend::interpreter); });
+  add("latency/document_100_nodes/jit",
+      [](benchmark::State& state) { document_of(state, 100, Backend::jit); });
   for (const Case& each : cases) {
     const std::string suffix = std::string("/") + each.name;
     const ParameterMode parameters = each.parameters;

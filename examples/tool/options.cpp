@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "examples/common/materialx_libraries.h"
 #include "jit/document/read.h"
@@ -33,6 +35,14 @@ void CommonOptions::add_document(CLI::App& command) {
       ->type_name("DIR");
   command.add_option("--search-path", search_paths, "Where includes and images are looked for too")
       ->type_name("DIR");
+  const std::map<std::string, Preference> preferences{
+      {"body", Preference::body}, {"graph", Preference::graph}, {"source", Preference::source}};
+  command
+      .add_option("--prefer", graph_limits.prefer,
+                  "Which implementation of a node to take: body (built in), graph, source (GLSL)")
+      ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case))
+      ->default_str("body")
+      ->type_name("KIND");
   command.add_flag("-q,--quiet", quiet, "No progress on standard error");
   add_limits(command);
 }
@@ -100,6 +110,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.lanes = lanes;
   options.compile.max_instructions = compile_limits.max_instructions;
   options.compile.max_seconds = compile_limits.max_seconds;
+  options.graph.prefer = graph_limits.prefer;
   options.graph.max_nodes = graph_limits.max_nodes;
   options.graph.max_inputs = graph_limits.max_inputs;
   for (const std::string& path : search_paths) options.search_paths.emplace_back(path);

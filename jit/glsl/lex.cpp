@@ -151,8 +151,8 @@ class Lexer {
 
 }  // namespace
 
-std::uint32_t Sources::add(std::string name, std::string text) {
-  files_.push_back({std::move(name), std::move(text)});
+std::uint32_t Sources::add(File file) {
+  files_.push_back(std::move(file));
   return static_cast<std::uint32_t>(files_.size() - 1);
 }
 
@@ -162,7 +162,9 @@ std::vector<Token> lex(const Sources& sources, std::uint32_t file) {
 
 void fail(const Sources& sources, Diagnostics& diagnostics, Place place, std::string code,
           std::string message, std::string expected, std::string found) {
-  diagnostics.error(std::move(code), {sources.file(place.file).name, place.line, place.column, ""},
+  const Sources::File& file = sources.file(place.file);
+  diagnostics.error(std::move(code),
+                    {file.name, place.line + file.first_line - 1, place.column, ""},
                     std::move(message), std::move(expected), std::move(found));
   throw Failure{};
 }

@@ -11,17 +11,17 @@ namespace {
 
 /// The prelude and a text as one run of tokens, so that the prelude's macros
 /// hold in the text; an include keeps the lines of the text as they are.
-std::vector<Token> tokens_after_prelude(Sources& sources, const std::string& name, std::string text,
+std::vector<Token> tokens_after_prelude(Sources& sources, Sources::File text,
                                         PreprocessOptions options, Diagnostics& diagnostics) {
   for (const PreludeToken& token : prelude_tokens) {
     options.tokens.emplace(token.name, token.text);
   }
   const std::uint32_t start =
-      sources.add("<prelude>", std::string(prelude) + "#include \"<text>\"\n");
+      sources.add({"<prelude>", std::string(prelude) + "#include \"<text>\"\n"});
   const FindInclude find_others = options.find_include;
   options.find_include = [&](const std::string& wanted,
                              const std::string& from) -> std::optional<Sources::File> {
-    if (from == "<prelude>") return Sources::File{name, std::move(text)};
+    if (from == "<prelude>") return std::move(text);
     return find_others ? find_others(wanted, from) : std::nullopt;
   };
   return preprocess(sources, start, options, diagnostics);
@@ -29,13 +29,12 @@ std::vector<Token> tokens_after_prelude(Sources& sources, const std::string& nam
 
 }  // namespace
 
-std::shared_ptr<const Module> Module::read(const std::string& name, std::string text,
-                                           const PreprocessOptions& options,
+std::shared_ptr<const Module> Module::read(Sources::File text, const PreprocessOptions& options,
                                            Diagnostics& diagnostics) {
   auto module = std::shared_ptr<Module>(new Module);
   try {
     const std::vector<Token> tokens =
-        tokens_after_prelude(module->sources_, name, std::move(text), options, diagnostics);
+        tokens_after_prelude(module->sources_, std::move(text), options, diagnostics);
     parse(tokens, module->sources_, diagnostics, module->syntax_);
   } catch (const Failure&) {
     return nullptr;
@@ -43,12 +42,12 @@ std::shared_ptr<const Module> Module::read(const std::string& name, std::string 
   return module;
 }
 
-std::shared_ptr<const Module> Module::read_expression(const std::string& name, std::string text,
+std::shared_ptr<const Module> Module::read_expression(Sources::File text,
                                                       Diagnostics& diagnostics) {
   auto module = std::shared_ptr<Module>(new Module);
   try {
     const std::vector<Token> tokens =
-        tokens_after_prelude(module->sources_, name, std::move(text), {}, diagnostics);
+        tokens_after_prelude(module->sources_, std::move(text), {}, diagnostics);
     const auto is_prelude = [](const Token& token) { return token.place.file == 0; };
     const auto split = std::find_if_not(tokens.begin(), tokens.end(), is_prelude);
     std::vector<Token> before(tokens.begin(), split);
@@ -70,8 +69,9 @@ const Function* Module::function(std::string_view name) const {
 
 std::optional<CallResult> Module::record(const Function& function, std::vector<Value> arguments,
                                          Recorder& recorder, Diagnostics& diagnostics,
-                                         const TextureLookup& texture) const {
-  const RecordContext context{sources_, syntax_, recorder, diagnostics, {}, texture};
+                                         const TextureLookup& texture,
+                                         const RecordLimits& limits) const {
+  const RecordContext context{sources_, syntax_, recorder, diagnostics, limits, texture};
   try {
     return record_call(context, function, std::move(arguments));
   } catch (const Failure&) {
@@ -81,8 +81,8 @@ std::optional<CallResult> Module::record(const Function& function, std::vector<V
 
 std::optional<Value> Module::record_expression(
     const std::vector<std::pair<std::string_view, Value>>& names, Recorder& recorder,
-    Diagnostics& diagnostics) const {
-  const RecordContext context{sources_, syntax_, recorder, diagnostics, {}, {}};
+    Diagnostics& diagnostics, const RecordLimits& limits) const {
+  const RecordContext context{sources_, syntax_, recorder, diagnostics, limits, {}};
   try {
     return glsl::record_expression(context, *expression_, names);
   } catch (const Failure&) {

@@ -19,13 +19,12 @@ namespace nacre::glsl {
 /// (M_PI, mx_sin, mx_matrix_mul, ...); see prelude.h.
 class Module {
  public:
-  /// `name` is what diagnostics call the text, and where its includes are
-  /// looked for. Null, with a diagnostic, for what is not well-formed.
-  static std::shared_ptr<const Module> read(const std::string& name, std::string text,
-                                            const PreprocessOptions& options,
+  /// The name of the text is what diagnostics call it, and where its includes
+  /// are looked for. Null, with a diagnostic, for what is not well-formed.
+  static std::shared_ptr<const Module> read(Sources::File text, const PreprocessOptions& options,
                                             Diagnostics& diagnostics);
   /// A lone expression, "a * sin(b)".
-  static std::shared_ptr<const Module> read_expression(const std::string& name, std::string text,
+  static std::shared_ptr<const Module> read_expression(Sources::File text,
                                                        Diagnostics& diagnostics);
 
   /// The last function defined under that name, or null.
@@ -34,10 +33,11 @@ class Module {
   /// Both as in record.h, but a fault is a diagnostic and gives nothing.
   std::optional<CallResult> record(const Function& function, std::vector<Value> arguments,
                                    Recorder& recorder, Diagnostics& diagnostics,
-                                   const TextureLookup& texture = {}) const;
+                                   const TextureLookup& texture = {},
+                                   const RecordLimits& limits = {}) const;
   std::optional<Value> record_expression(
       const std::vector<std::pair<std::string_view, Value>>& names, Recorder& recorder,
-      Diagnostics& diagnostics) const;
+      Diagnostics& diagnostics, const RecordLimits& limits = {}) const;
 
  private:
   Module() = default;

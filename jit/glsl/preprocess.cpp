@@ -26,7 +26,7 @@ class Preprocessor {
 
   std::vector<Token> run(std::uint32_t file) {
     for (const auto& [name, text] : options_.tokens) {
-      const std::uint32_t token_file = sources_.add(fmt::format("${}", name), text);
+      const std::uint32_t token_file = sources_.add({fmt::format("${}", name), text});
       Macro macro;
       macro.body = lex(sources_, token_file);
       macro.body.pop_back();
@@ -268,7 +268,7 @@ class Preprocessor {
       file = options_.find_include(name, sources_.file(line[2].place.file).name);
     }
     if (!file) error(line[2].place, "glsl-include", fmt::format("'{}' was not found", name));
-    if (!seen_.contains(file->name)) read(sources_.add(file->name, std::move(file->text)));
+    if (!seen_.contains(file->name)) read(sources_.add(std::move(*file)));
   }
 
   // -- Macros

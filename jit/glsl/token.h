@@ -16,9 +16,10 @@ class Sources {
   struct File {
     std::string name;
     std::string text;
+    int first_line = 1;  ///< Where the text starts in the file of that name.
   };
   /// Keeps a file and returns its number.
-  std::uint32_t add(std::string name, std::string text);
+  std::uint32_t add(File file);
   const File& file(std::uint32_t number) const { return files_[number]; }
   /// Keeps a text that is of no file.
   std::string_view keep(std::string text) { return kept_.emplace_back(std::move(text)); }

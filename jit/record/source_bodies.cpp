@@ -129,7 +129,8 @@ bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string mess
 
 bool record_expression(const NodeSource& source, const glsl::Module& module, NodeCall& call) {
   std::vector<std::string> names;
-  for (const NodeCall::Port& port : call.inputs()) names.push_back(fmt::format("__{}__", port.name));
+  for (const NodeCall::Port& port : call.inputs())
+    names.push_back(fmt::format("__{}__", port.name));
   std::vector<std::pair<std::string_view, glsl::Value>> values;
   for (std::size_t i = 0; i < names.size(); ++i) {
     values.emplace_back(names[i], argument(source, call.inputs()[i]));
@@ -254,12 +255,13 @@ std::shared_ptr<const glsl::Module> SourceBodies::read(const NodeSource& source,
     folders.insert(folders.end(), allowed.begin(), allowed.end());
     return find_source(name, folders, allowed);
   };
-  const std::string name = fmt::format("{}:{}", source.where.file, source.where.line);
+  const std::string& where = source.where.file;
+  const int line = source.where.line;
   if (source.file.empty()) {
     if (source.function.empty()) {
-      return glsl::Module::read_expression(name, with_names(source.text), diagnostics);
+      return glsl::Module::read_expression({where, with_names(source.text), line}, diagnostics);
     }
-    return glsl::Module::read(name, source.text, options, diagnostics);
+    return glsl::Module::read({where, source.text, line}, options, diagnostics);
   }
   if (source.function.empty()) {
     misfit(source, diagnostics, "the implementation names a file but no function",
@@ -273,7 +275,7 @@ std::shared_ptr<const glsl::Module> SourceBodies::read(const NodeSource& source,
                       "a file below the document's folder or a library's", source.file);
     return nullptr;
   }
-  return glsl::Module::read(file->name, std::move(file->text), options, diagnostics);
+  return glsl::Module::read(std::move(*file), options, diagnostics);
 }
 
 }  // namespace nacre
