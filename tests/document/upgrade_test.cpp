@@ -601,6 +601,52 @@ TEST(Upgrade, ReplacementsStandWhereTheReplacedWasWritten) {
   EXPECT_EQ(line("z", "in1"), 8);
 }
 
+// Everything that a step looks at, cut off and changed byte by byte.
+TEST(Upgrade, WhatMakesNoSenseDoesNotCrashIt) {
+  const std::string text =
+      "<materialx version=\"1.22\"><opgraph name=\"g\"><swizzle name=\"s\" type=\"color3\">"
+      "<input name=\"in\" type=\"color2\" nodename=\"a\" channels=\"ra\"/></swizzle>"
+      "<thin_film_brdf name=\"f\"><input name=\"base\" nodename=\"l\"/></thin_film_brdf>"
+      "<layer name=\"l\"><input name=\"top\" nodename=\"f\"/><input name=\"base\" "
+      "nodename=\"l\"/></layer><normalmap name=\"in\"><input name=\"normal\" "
+      "interfacename=\"in\"/></normalmap><compare name=\"c\"/><separate name=\"p\"/>"
+      "<backdrop name=\"b\"/><output name=\"o\"><parameter name=\"in\" type=\"opgraphnode\" "
+      "value=\"s\"/></output></opgraph><shader name=\"h\" shadertype=\"s\"><input name=\"i\" "
+      "graphname=\"g\" graphoutput=\"o\" publicname=\"q\"/></shader><material name=\"m\">"
+      "<shaderref name=\"h\"/><override name=\"q\"/></material></materialx>";
+  const auto try_text = [](const std::string& changed) {
+    Diagnostics diagnostics;
+    ReadOptions options;
+    options.keep_comments = true;
+    const auto document = read_document_text(changed, "changed", options, diagnostics);
+    EXPECT_EQ(document == nullptr, diagnostics.has_errors());
+  };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    try_text(text.substr(0, at));
+    for (const char byte : {'"', '<', '>', ' ', 'a', '2', '\0'}) {
+      std::string changed = text;
+      changed[at] = byte;
+      try_text(changed);
+    }
+  }
+}
+
+// n films in a chain over n closures are n^2 / 2 visits.
+TEST(Upgrade, TakesBoundedTime) {
+  constexpr int films = 20'000;
+  std::string body = "<thin_film_bsdf name=\"f\" type=\"BSDF\"/><conductor_bsdf name=\"l0\"/>";
+  for (int i = 1; i <= films; ++i) {
+    const std::string n = std::to_string(i);
+    const std::string below = std::to_string(i - 1);
+    body += "<mix name=\"m" + n + "\"><input name=\"fg\" nodename=\"l" + below +
+            "\"/></mix><layer name=\"l" + n + "\"><input name=\"top\" nodename=\"f\"/>" +
+            "<input name=\"base\" nodename=\"m" + n + "\"/></layer>";
+  }
+  Diagnostics diagnostics;
+  EXPECT_EQ(read("1.38", body, diagnostics), nullptr);
+  EXPECT_EQ(diagnostics.all().front().code, "cannot-upgrade");
+}
+
 TEST(Upgrade, EachIncludedFileByItsOwnVersion) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(::testing::TempDir()) / "nacre_upgrade_include";
