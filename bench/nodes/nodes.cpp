@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -79,6 +80,42 @@ void register_node(const NodeDef& def) {
                   make);
 }
 
+/// uv.x > threshold ? fractal3d : uv.y, so that all points, half of them or none take
+/// the expensive side; recorded apart, or for all points as a select.
+std::optional<Graph> choice_graph(float threshold) {
+  GraphBuilder builder(shading_system().library());
+  const auto uv = builder.add_node("ND_texcoord_vector2", "uv");
+  const auto parts = builder.add_node("ND_separate2_vector2", "parts");
+  const auto noise = builder.add_node("ND_fractal3d_float", "noise");
+  const auto choice = builder.add_node("ND_ifgreater_float", "choice");
+  builder.connect(parts, "in", uv);
+  builder.connect(choice, "value1", parts, "outx");
+  builder.set(choice, "value2", {Type::float_, {threshold}, {}, {}});
+  builder.connect(choice, "in1", noise);
+  builder.connect(choice, "in2", parts, "outy");
+  builder.output("out", choice);
+  Diagnostics diagnostics;
+  return builder.finish(graph_options(), diagnostics);
+}
+
+void register_choice(const std::string& name, float threshold, bool lazy) {
+  const auto make = [threshold, lazy](const CompileOptions& options,
+                                      std::string& error) -> std::unique_ptr<KernelRun> {
+    const auto graph = choice_graph(threshold);
+    ShaderOptions shader;
+    shader.compile = options;
+    shader.lazy = lazy;
+    Diagnostics diagnostics;
+    const auto made =
+        graph ? shading_system().compile_outputs(*graph, shader, diagnostics) : nullptr;
+    if (made != nullptr) return std::make_unique<KernelRun>(made->kernel);
+    error = diagnostics.to_string();
+    return nullptr;
+  };
+  register_kernel(fmt::format("nodes/choice_{}/{}", name, lazy ? "apart" : "both_sides"),
+                  quick_variants(), make);
+}
+
 }  // namespace
 
 /// One nodedef of each category; all of them with NACRE_BENCH_ALL set.
@@ -91,6 +128,11 @@ void register_benchmarks() {
     if (best == nullptr || rank(*def) > rank(*best)) best = def;
   }
   for (const auto& [name, def] : chosen) register_node(*def);
+  for (const bool lazy : {true, false}) {
+    register_choice("none", 2.0f, lazy);
+    register_choice("half", 0.5f, lazy);
+    register_choice("all", -1.0f, lazy);
+  }
 }
 
 }  // namespace nacre::bench

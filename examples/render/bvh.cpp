@@ -19,7 +19,7 @@ RTCRay to_embree(const Ray& ray) {
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
   r.tnear = 0.f;
   r.tfar = ray.far;
-  r.mask = ~0u;
+  r.mask = ray.kind;
   return r;
 }
 
@@ -33,6 +33,7 @@ bool add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
   if (ok) {
     std::memcpy(vertices, mesh.position.data(), mesh.position.size() * sizeof(Vec3));
     std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
+    rtcSetGeometryMask(geometry, mesh.visible_to);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);  // numbered as they come: the mesh index
   }
@@ -58,9 +59,15 @@ Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_uniqu
   if (embree_->device != nullptr) {
     embree_->scene = rtcNewScene(embree_->device);
     rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+    const bool masks =
+        rtcGetDeviceProperty(embree_->device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0;
     bool ok = true;
     for (const Mesh& mesh : scene.meshes) {
       ok = ok && add_mesh(embree_->device, embree_->scene, mesh);
+      if (!masks && mesh.visible_to != ray_any) {
+        diagnostics.warning("no-ray-masks", {}, "this Embree cannot hide meshes from some rays",
+                            "one built with EMBREE_RAY_MASK", mesh.object_name);
+      }
     }
     if (ok) rtcCommitScene(embree_->scene);
   }

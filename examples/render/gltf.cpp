@@ -88,7 +88,7 @@ class GltfReader {
   Scene read() {
     const std::size_t chosen = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
     if (chosen < model_.scenes.size()) {
-      for (const int node : model_.scenes[chosen].nodes) visit(node, {}, 0);
+      for (const int node : model_.scenes[chosen].nodes) visit(node, {}, {}, 0);
     } else {
       error(fmt::format("scenes[{}]", chosen), "there is no such scene",
             fmt::format("an index below {}", model_.scenes.size()), fmt::format("{}", chosen));
@@ -106,7 +106,7 @@ class GltfReader {
                        std::move(found));
   }
 
-  void visit(int index, const Affine& parent, int depth) {
+  void visit(int index, const Affine& parent, const std::string& above, int depth) {
     const std::string path = fmt::format("nodes[{}]", index);
     if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) {
       return error(path, "there is no such node",
@@ -120,12 +120,14 @@ class GltfReader {
     visited_[static_cast<std::size_t>(index)] = true;
     const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
     const Affine world = parent * local_transform(node);
-    if (node.mesh >= 0) add_mesh(node, world, path);
+    const std::string name = node.name.empty() ? above : above + '/' + node.name;
+    if (node.mesh >= 0) add_mesh(node, world, name, path);
     if (node.camera >= 0) add_camera(node, world, path);
-    for (const int child : node.children) visit(child, world, depth + 1);
+    for (const int child : node.children) visit(child, world, name, depth + 1);
   }
 
-  void add_mesh(const tinygltf::Node& node, const Affine& world, const std::string& path) {
+  void add_mesh(const tinygltf::Node& node, const Affine& world, const std::string& name,
+                const std::string& path) {
     if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) {
       return error(path, "there is no such mesh",
                    fmt::format("an index below {}", model_.meshes.size()),
@@ -141,6 +143,7 @@ class GltfReader {
       Mesh mesh;
       mesh.mesh_name = source.name.empty() ? fmt::format("mesh{}", node.mesh) : source.name;
       mesh.object_name = node.name.empty() ? mesh.mesh_name : node.name;
+      mesh.path = node.name.empty() ? name + '/' + mesh.object_name : name;
       const std::string where = fmt::format("meshes[{}].primitives[{}]", node.mesh, i);
       if (!read_primitive(source.primitives[i], where, mesh)) continue;
       bake_transform(mesh, world);

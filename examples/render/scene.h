@@ -25,11 +25,22 @@ struct Tangent {
   float sign = 1.f;  ///< Bitangent = sign · cross(N, T), along +v (glTF 2.0, 3.7.2.1).
 };
 
+/// What a ray is for. Bits: a mesh may be hidden from some.
+enum RayKind : std::uint32_t {
+  ray_camera = 1u << 0,
+  ray_shadow = 1u << 1,
+  ray_secondary = 1u << 2,  ///< Scattered.
+  ray_any = ray_camera | ray_shadow | ray_secondary,
+};
+
 /// One drawable piece of geometry with one material, baked to world space.
 struct Mesh {
   std::string object_name;    ///< Node of the scene graph.
   std::string mesh_name;      ///< Data block; several objects may share it.
   std::string material_name;  ///< As the file calls it; may be empty.
+  std::string path;           ///< "/parent/object"; empty: the object stands at the top.
+
+  std::uint32_t visible_to = ray_any;  ///< RayKind bits of the rays that meet it.
 
   std::vector<Triangle> triangles;    ///< Counter-clockwise seen from the front.
   std::vector<Vec3> position;         ///< World.

@@ -63,6 +63,7 @@ void Wavefront::intersect() {
   for (std::size_t i = 0; i < count; ++i) {
     const Path& path = paths_[active_[i]];
     rays_[i] = path.ray;
+    rays_[i].kind = path.from_camera ? ray_camera : ray_secondary;
     straight = straight && path.from_camera;
   }
   statistics_.rays += count;

@@ -70,7 +70,10 @@ void Wavefront::trace_shadows() {
 
 void Wavefront::trace_opaque_shadows() {
   const std::size_t count = shadows_.size();
-  for (std::size_t i = 0; i < count; ++i) rays_[i] = shadows_[i].ray;
+  for (std::size_t i = 0; i < count; ++i) {
+    rays_[i] = shadows_[i].ray;
+    rays_[i].kind = ray_shadow;
+  }
   statistics_.shadow_rays += count;
   {
     const Stopwatch watch(statistics_.tracing_seconds);
@@ -85,7 +88,10 @@ void Wavefront::trace_opaque_shadows() {
 void Wavefront::trace_transparent_shadows() {
   for (int pass = 0; pass <= context_.settings.max_transparent && !shadows_.empty(); ++pass) {
     const std::size_t count = shadows_.size();
-    for (std::size_t i = 0; i < count; ++i) rays_[i] = shadows_[i].ray;
+    for (std::size_t i = 0; i < count; ++i) {
+      rays_[i] = shadows_[i].ray;
+      rays_[i].kind = ray_shadow;
+    }
     statistics_.shadow_rays += count;
     {
       const Stopwatch watch(statistics_.tracing_seconds);

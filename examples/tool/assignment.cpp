@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
-#include "jit/document/nodedef.h"
 #include "jit/graph/find.h"
+#include "jit/graph/geometry_names.h"
 
 namespace nacre::tool {
 
@@ -13,20 +14,26 @@ namespace {
 
 using host::Mesh;
 
-/// A geometry name of a look against a mesh: "*" and "/" are everything, else the
-/// last part of the path is the object's, the mesh's or its material's name.
-bool geom_matches(std::string_view geom, const Mesh& mesh) {
-  if (geom == "*" || geom == "/") return true;
-  const std::size_t slash = geom.rfind('/');
-  const std::string_view name = slash == std::string_view::npos ? geom : geom.substr(slash + 1);
-  return name == "*" || name == mesh.object_name || name == mesh.mesh_name ||
-         name == mesh.material_name;
+std::string path_of(const Mesh& mesh) {
+  return mesh.path.empty() ? '/' + mesh.object_name : mesh.path;
+}
+
+/// The path, then the names that a document may know the mesh by.
+std::vector<std::string> names_of(const Mesh& mesh) {
+  std::vector<std::string> names{path_of(mesh)};
+  for (const std::string* name : {&mesh.object_name, &mesh.mesh_name, &mesh.material_name}) {
+    if (!name->empty()) names.push_back('/' + *name);
+  }
+  return names;
 }
 
 class Assigner {
  public:
   Assigner(const Document& document, const AssignmentOptions& options, Diagnostics& diagnostics)
-      : document_(document), options_(options), diagnostics_(diagnostics) {
+      : document_(document),
+        options_(options),
+        diagnostics_(diagnostics),
+        rules_(document, diagnostics) {
     for (const FoundMaterial& material : find_materials(document)) {
       known_.insert(material.name);
       if (first_.empty()) first_ = material.name;
@@ -36,15 +43,35 @@ class Assigner {
     if (!options.material.empty()) check_known(options.material);
   }
 
-  std::string material_of(const Mesh& mesh) const {
+  MeshAssignment assignment_of(const Mesh& mesh) const {
+    MeshAssignment result;
+    if (mesh.light_radiance) return result;
+    result.tokens = rules_.tokens_of(path_of(mesh));
+    if (look_) {
+      result.variants = look_->variants;
+      result.visible_to = visible_to(mesh);
+    }
+    const std::string named = named_material(mesh);
+    const Assignment* assigned = named.empty() && look_ ? from_look(mesh) : nullptr;
+    if (assigned != nullptr) {
+      result.material = assigned->material;
+      result.variants.insert(result.variants.end(), assigned->variants.begin(),
+                             assigned->variants.end());
+    } else {
+      result.material = named.empty() ? other_material(mesh) : named;
+    }
+    return result;
+  }
+
+ private:
+  std::string named_material(const Mesh& mesh) const {
     for (const std::string& name : {mesh.object_name, mesh.mesh_name, mesh.material_name}) {
       if (const auto found = assigns_.find(name); found != assigns_.end()) return found->second;
     }
-    for (auto each = look_.rbegin(); each != look_.rend(); ++each) {
-      for (const std::string_view geom : split_list(each->geom)) {
-        if (geom_matches(geom, mesh)) return each->material;
-      }
-    }
+    return {};
+  }
+
+  std::string other_material(const Mesh& mesh) const {
     if (options_.material.empty() && known_.contains(mesh.material_name)) return mesh.material_name;
     // The stage of the built-in scenes stays neutral.
     if (mesh.material_name == "ground" || mesh.material_name == "base") return {};
@@ -52,7 +79,30 @@ class Assigner {
     return first_;
   }
 
- private:
+  /// An assignment to the mesh itself, by any of its names, is stronger than one to
+  /// something above it.
+  const Assignment* from_look(const Mesh& mesh) const {
+    for (const std::string& name : names_of(mesh)) {
+      const Assignment* found = rules_.material_of(*look_, name);
+      if (found != nullptr && rules_.reach(*found, name) == name.size()) return found;
+    }
+    return rules_.material_of(*look_, path_of(mesh));
+  }
+
+  std::uint32_t visible_to(const Mesh& mesh) const {
+    std::uint32_t kinds = 0;
+    for (const auto& [kind, vistype] :
+         {std::pair{host::ray_camera, "camera"}, std::pair{host::ray_shadow, "shadow"},
+          std::pair{host::ray_secondary, "secondary"}}) {
+      const auto names = names_of(mesh);
+      const bool visible = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+        return rules_.is_visible(*look_, name, vistype);
+      });
+      if (visible) kinds |= kind;
+    }
+    return kinds;
+  }
+
   void check_known(const std::string& material) {
     if (known_.contains(material)) return;
     std::string names;
@@ -75,29 +125,49 @@ class Assigner {
     }
   }
 
+  /// The look that --look means, or the document's default.
+  std::string wanted_look() const {
+    const std::vector<LookGroup> groups = find_look_groups(document_);
+    for (const LookGroup& group : groups) {
+      const bool is_meant =
+          options_.look.empty() ? !group.default_look.empty() : group.name == options_.look;
+      if (!is_meant) continue;
+      if (!group.default_look.empty()) return group.default_look;
+      if (!group.looks.empty()) return group.looks.front();
+    }
+    return options_.look;
+  }
+
   void read_look() {
     const std::vector<Look> looks = find_looks(document_, diagnostics_);
-    if (options_.look.empty()) {
-      if (options_.material.empty() && !looks.empty()) look_ = looks.front().assignments;
+    const std::string wanted = wanted_look();
+    if (options_.look.empty() && (!options_.material.empty() || looks.empty())) return;
+    for (const Look& look : looks) {
+      if (!wanted.empty() && look.name != wanted) continue;
+      look_ = look;
+      warn_of_shared_geometry();
       return;
     }
-    for (const Look& look : looks) {
-      if (look.name == options_.look) {
-        look_ = look.assignments;
-        return;
-      }
-    }
     diagnostics_.error("unknown-look", {document_.files().front(), 0, 0, {}},
-                       "there is no look '" + options_.look + "'");
+                       "there is no look '" + wanted + "'");
+  }
+
+  void warn_of_shared_geometry() {
+    const bool shares = std::any_of(look_->assignments.begin(), look_->assignments.end(),
+                                    [](const Assignment& each) { return !each.exclusive; });
+    if (!shares) return;
+    diagnostics_.warning("not-exclusive", {document_.files().front(), 0, 0, look_->name},
+                         "each mesh gets one material: the last one assigned");
   }
 
   const Document& document_;
   const AssignmentOptions& options_;
   Diagnostics& diagnostics_;
+  GeometryRules rules_;
   std::set<std::string> known_;
   std::string first_;
   std::map<std::string, std::string> assigns_;
-  std::vector<Assignment> look_;
+  std::optional<Look> look_;
 };
 
 }  // namespace
@@ -111,15 +181,22 @@ void AssignmentOptions::add(CLI::App& command) {
       ->type_name("NAME=MATERIAL");
 }
 
-std::vector<std::string> assign_materials(const Document& document, const host::Scene& scene,
-                                          const AssignmentOptions& options,
-                                          Diagnostics& diagnostics) {
-  const Assigner assigner(document, options, diagnostics);
-  std::vector<std::string> materials;
-  for (const Mesh& mesh : scene.meshes) {
-    materials.push_back(mesh.light_radiance ? std::string() : assigner.material_of(mesh));
+std::string MeshAssignment::key() const {
+  std::string text = material;
+  for (const VariantChoice& choice : variants) {
+    text += '\n' + choice.variantset + '=' + choice.variant;
   }
-  return materials;
+  for (const auto& [name, value] : tokens) text += '\n' + name + '<' + value;
+  return text;
+}
+
+std::vector<MeshAssignment> assign_materials(const Document& document, const host::Scene& scene,
+                                             const AssignmentOptions& options,
+                                             Diagnostics& diagnostics) {
+  const Assigner assigner(document, options, diagnostics);
+  std::vector<MeshAssignment> assignments;
+  for (const Mesh& mesh : scene.meshes) assignments.push_back(assigner.assignment_of(mesh));
+  return assignments;
 }
 
 }  // namespace nacre::tool

@@ -1,32 +1,47 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "examples/render/scene.h"
 #include "jit/document/document.h"
+#include "jit/graph/look.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::tool {
 
 /// Which material goes on which mesh.
 struct AssignmentOptions {
-  std::string material;             ///< --material
-  std::string look;                 ///< --look
-  std::vector<std::string> assigns; ///< --assign NAME=MATERIAL
+  std::string material;              ///< --material
+  std::string look;                  ///< --look
+  std::vector<std::string> assigns;  ///< --assign NAME=MATERIAL
 
   void add(CLI::App& command);
 };
 
-/// A material name for every mesh, "" for a neutral grey. In order of strength:
-/// --assign for an object, mesh or material of that name in the scene; the look's
-/// materialassigns; a material of the document called as the mesh's material;
-/// --material, or the document's only material, for what is left. With --material
-/// alone, and neither look nor matching names, it goes on everything but the
-/// built-in scene's ground and base.
-std::vector<std::string> assign_materials(const Document& document, const host::Scene& scene,
-                                          const AssignmentOptions& options,
-                                          Diagnostics& diagnostics);
+/// What goes on a mesh.
+struct MeshAssignment {
+  std::string material;  ///< "": a neutral grey.
+  std::vector<VariantChoice> variants;
+  std::map<std::string, std::string, std::less<>> tokens;  ///< Of its geometry.
+  std::uint32_t visible_to = host::ray_any;                ///< RayKind bits.
+
+  /// The same for assignments that the same kernels serve.
+  std::string key() const;
+};
+
+/// One for every mesh. Materials in order of strength: --assign for an object, mesh
+/// or material of that name in the scene; the look's materialassigns, by the mesh's
+/// path or by its names at the top; a material of the document called as the mesh's
+/// material; --material, or the document's first material, for what is left. With
+/// --material alone, and neither look nor matching names, it goes on everything but
+/// the built-in scene's ground and base. The look is the one named, the default of a
+/// look group of that name, or the first group's default, or the first look.
+std::vector<MeshAssignment> assign_materials(const Document& document, const host::Scene& scene,
+                                             const AssignmentOptions& options,
+                                             Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

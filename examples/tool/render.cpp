@@ -1,5 +1,8 @@
+#include "examples/render/render.h"
+
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -7,7 +10,6 @@
 #include "examples/render/camera.h"
 #include "examples/render/image_io.h"
 #include "examples/render/load_scene.h"
-#include "examples/render/render.h"
 #include "examples/tool/assignment.h"
 #include "examples/tool/kernel_shader.h"
 #include "examples/tool/neutral.h"
@@ -65,18 +67,22 @@ host::Camera camera(const RenderOptions& options, const host::Scene& scene) {
   return result;
 }
 
-/// One shader a material that some mesh uses.
+/// By MeshAssignment::key.
 using Shaders = std::map<std::string, std::unique_ptr<KernelShader>>;
 
 bool compile_shaders(const RenderOptions& options, const Opened& opened,
-                     const std::vector<std::string>& materials, Shaders& shaders,
+                     const std::vector<MeshAssignment>& assignments, Shaders& shaders,
                      Diagnostics& diagnostics) {
-  for (const std::string& material : materials) {
-    if (material.empty() || shaders.contains(material)) continue;
-    auto kernels = opened.system->compile_material(*opened.document, material,
-                                                   options.common.shader_options(), diagnostics);
+  for (const MeshAssignment& assignment : assignments) {
+    if (assignment.material.empty() || shaders.contains(assignment.key())) continue;
+    ShaderOptions shader = options.common.shader_options();
+    shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
+    shader.graph.variants = assignment.variants;
+    shader.graph.geometry_tokens = assignment.tokens;
+    auto kernels =
+        opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
-    shaders.emplace(material, std::make_unique<KernelShader>(std::move(kernels)));
+    shaders.emplace(assignment.key(), std::make_unique<KernelShader>(std::move(kernels)));
   }
   return true;
 }
@@ -98,15 +104,15 @@ int run(RenderOptions& options) {
   options.settings.threads = options.common.threads;
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
-  const host::Scene world = scene(options, diagnostics);
+  host::Scene world = scene(options, diagnostics);
   const auto sky = environment(options, diagnostics);
   if (diagnostics.has_errors() || !sky) return report(diagnostics);
 
-  const std::vector<std::string> materials =
+  const std::vector<MeshAssignment> assignments =
       assign_materials(*opened.document, world, options.assignment, diagnostics);
   Shaders shaders;
   if (diagnostics.has_errors() ||
-      !compile_shaders(options, opened, materials, shaders, diagnostics)) {
+      !compile_shaders(options, opened, assignments, shaders, diagnostics)) {
     return report(diagnostics);
   }
   host::RenderInput input;
@@ -116,8 +122,10 @@ int run(RenderOptions& options) {
   auto grey = neutral_material(*opened.system, options.common.shader_options(), diagnostics);
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey));
-  for (const std::string& material : materials) {
-    input.shaders.push_back(material.empty() ? &neutral : shaders.at(material).get());
+  for (std::size_t i = 0; i < assignments.size(); ++i) {
+    const MeshAssignment& each = assignments[i];
+    world.meshes[i].visible_to = each.visible_to;
+    input.shaders.push_back(each.material.empty() ? &neutral : shaders.at(each.key()).get());
   }
 
   const StopOnSignal stop;
@@ -137,7 +145,8 @@ int run(RenderOptions& options) {
 
 void add_render(CLI::App& app, int& status) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App& command = *app.add_subcommand("render", "Path trace a scene with the document's materials");
+  CLI::App& command =
+      *app.add_subcommand("render", "Path trace a scene with the document's materials");
   options->common.add_document(command);
   options->assignment.add(command);
   host::RenderSettings& settings = options->settings;
@@ -157,20 +166,23 @@ void add_render(CLI::App& app, int& status) {
   command.add_option("--seed", settings.seed, "Of the random numbers")->capture_default_str();
   command.add_option("--frame", settings.frame, "Frame number")->capture_default_str();
   command.add_option("--time", settings.time, "Seconds")->capture_default_str();
-  command.add_option("--environment", options->environment,
-                     "Latitude-longitude image (default: a built-in studio)")
+  command
+      .add_option("--environment", options->environment,
+                  "Latitude-longitude image (default: a built-in studio)")
       ->type_name("FILE");
   command.add_option("--environment-scale", options->environment_scale)->capture_default_str();
   command.add_option("--environment-rotation", options->environment_rotation, "Degrees about +y")
       ->capture_default_str();
   command.add_option("--exposure", options->write.exposure, "Stops; png only")
       ->capture_default_str();
-  command.add_option("--white", options->write.white, "Luminance shown as white; 0: clip; png only")
+  command
+      .add_option("--white", options->write.white, "Luminance shown as white; 0: clip; png only")
       ->capture_default_str();
   command.add_flag("--half", options->write.half, "16-bit floats in .exr");
   command.add_option("--lens-radius", options->lens_radius, "Scene units; 0: all in focus")
       ->capture_default_str();
-  command.add_option("--focus-distance", options->focus_distance, "Scene units (default: the middle)");
+  command.add_option("--focus-distance", options->focus_distance,
+                     "Scene units (default: the middle)");
   options->common.add_compile(command);
   command.callback([options, &status] { status = run(*options); });
 }

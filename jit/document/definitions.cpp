@@ -61,7 +61,21 @@ void Definitions::read_implementations() {
     const bool is_graph = element.category() == "nodegraph";
     if (!is_graph && element.category() != "implementation") continue;
     const std::string_view def_name = element.attribute("nodedef");
-    if (def_name.empty() || !is_for_us(element.attribute("target"))) continue;
+    if (def_name.empty()) continue;
+    const std::string_view targets = element.attribute("target");
+    const bool is_text = element.has_attribute("file") || element.has_attribute("sourcecode");
+    if (is_text && (is_for_us(targets) || is_for_us(targets, source_target))) {
+      const NodeDef* def = resolve_nodedef(def_name, element);
+      if (def == nullptr) continue;
+      // One made for us goes before one made for GLSL, then the first.
+      const auto [place, is_new] = sources_.emplace(def, &element);
+      const bool is_ours = !targets.empty() && is_for_us(targets);
+      if (!is_new && is_ours && !is_for_us(place->second->attribute("target"))) {
+        place->second = &element;
+      }
+      continue;
+    }
+    if (!is_for_us(targets)) continue;
     const NodeDef* def = resolve_nodedef(def_name, element);
     const Element* graph = &element;
     if (!is_graph) {
@@ -118,6 +132,12 @@ const Element* Definitions::graph_of(const NodeDef& def) const {
   return found == graphs_.end() ? nullptr : found->second;
 }
 
+const Element* Definitions::source_of(const NodeDef& def) const {
+  const auto found = sources_.find(&def);
+  if (found != sources_.end()) return found->second;
+  return base_ == nullptr ? nullptr : base_->source_of(def);
+}
+
 const Element* Definitions::geompropdef(std::string_view name) const {
   const auto found = geompropdefs_.find(name);
   if (found != geompropdefs_.end()) return found->second;
@@ -149,10 +169,10 @@ const NodeDef* Definitions::resolve_nodedef(std::string_view name, const Element
   return nodedef(name);
 }
 
-bool is_for_us(std::string_view targets) {
+bool is_for_us(std::string_view targets, std::string_view target) {
   if (targets.empty()) return true;
   const std::vector<std::string_view> list = split_list(targets);
-  return std::find(list.begin(), list.end(), own_target) != list.end();
+  return std::find(list.begin(), list.end(), target) != list.end();
 }
 
 }  // namespace nacre

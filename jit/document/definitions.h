@@ -15,6 +15,8 @@ namespace nacre {
 /// The target whose nodedefs and implementations are taken: those that name no
 /// target, and those that name this one.
 inline constexpr std::string_view own_target = "nacre";
+/// The target whose implementations by text are in a language that runs here.
+inline constexpr std::string_view source_target = "genglsl";
 
 /// What a document declares for others to use, found by name. A user document's
 /// definitions stand on the library's, which are searched first (Document::
@@ -35,6 +37,11 @@ class Definitions {
   /// The <nodegraph> that implements a nodedef, named by the graph's `nodedef`
   /// or by an <implementation>; null if there is none.
   const Element* graph_of(const NodeDef& def) const;
+
+  /// The <implementation> that gives a nodedef by text: an attribute `file` with
+  /// a function of the GLSL subset, or `sourcecode`, for our target, for none, or
+  /// for MaterialX's own GLSL generator. Null if there is none.
+  const Element* source_of(const NodeDef& def) const;
 
   /// The <geompropdef> of that name, or null.
   const Element* geompropdef(std::string_view name) const;
@@ -63,11 +70,12 @@ class Definitions {
   std::unordered_map<std::string_view, NodeDef*> by_name_;
   std::unordered_map<std::string_view, std::vector<const NodeDef*>> by_category_;
   std::unordered_map<const NodeDef*, const Element*> graphs_;
+  std::unordered_map<const NodeDef*, const Element*> sources_;
   std::unordered_map<std::string_view, const Element*> geompropdefs_;
   std::unordered_map<std::string_view, Unit> units_;
 };
 
-/// True if a target list is empty or holds our own.
-bool is_for_us(std::string_view targets);
+/// True if a target list is empty or holds `target`.
+bool is_for_us(std::string_view targets, std::string_view target = own_target);
 
 }  // namespace nacre

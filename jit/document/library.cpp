@@ -10,7 +10,7 @@ namespace {
 
 bool is_other_target(const fs::path& folder) {
   const std::string name = folder.filename().string();
-  return name.starts_with("gen") || name == "targets";
+  return (name.starts_with("gen") && name != source_target) || name == "targets";
 }
 
 // Overloads that match equally are told apart by document order, and the

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "jit/document/read.h"
 #include "jit/document/value_text.h"
 
@@ -83,6 +85,43 @@ NodeDefOutput read_output(const Element& element, Diagnostics& diagnostics) {
 }
 
 }  // namespace
+
+InputUi ui_of(const NodeDefInput& input) {
+  InputUi ui;
+  if (input.element == nullptr) return ui;
+  const auto value = [&](std::string_view attribute) {
+    if (!input.element->has_attribute(attribute)) return Value{};
+    return parse_value(input.type, input.element->attribute(attribute)).value_or(Value{});
+  };
+  ui.label = input.element->attribute("uiname");
+  ui.folder = input.element->attribute("uifolder");
+  ui.doc = input.element->attribute("doc");
+  ui.min = value("uimin");
+  ui.max = value("uimax");
+  ui.soft_min = value("uisoftmin");
+  ui.soft_max = value("uisoftmax");
+  ui.step = value("uistep");
+  ui.advanced = input.element->attribute("uiadvanced") == "true";
+  return ui;
+}
+
+std::vector<EnumChoice> enum_choices(const NodeDefInput& input) {
+  // Values of several components stand one after another, separated by commas too.
+  const std::vector<std::string_view> numbers = split_list(input.enum_values);
+  const auto count = static_cast<std::size_t>(std::max(1, component_count(input.type)));
+  std::vector<EnumChoice> choices;
+  for (std::size_t i = 0; i < input.enums.size(); ++i) {
+    EnumChoice& choice = choices.emplace_back();
+    choice.label = input.enums[i];
+    std::string text;
+    for (std::size_t k = i * count; k < (i + 1) * count && k < numbers.size(); ++k) {
+      text += (text.empty() ? "" : ", ") + std::string(numbers[k]);
+    }
+    if (numbers.empty()) text = choice.label;
+    choice.value = parse_value(input.type, text).value_or(Value{});
+  }
+  return choices;
+}
 
 const NodeDefInput* NodeDef::input(std::string_view wanted) const {
   for (const NodeDefInput& candidate : inputs) {

@@ -31,6 +31,27 @@ struct NodeDefInput {
   const Element* element = nullptr;
 };
 
+/// What a host shows of an input (Specification, "Standard UI Attributes"). Texts are
+/// "" and values of type none where the nodedef says nothing.
+struct InputUi {
+  std::string_view label;   ///< uiname
+  std::string_view folder;  ///< uifolder: "Base/Diffuse"
+  std::string_view doc;
+  Value min, max;            ///< uimin, uimax: what makes sense.
+  Value soft_min, soft_max;  ///< uisoftmin, uisoftmax: what a slider shows.
+  Value step;                ///< uistep
+  bool advanced = false;     ///< uiadvanced
+};
+InputUi ui_of(const NodeDefInput& input);
+
+/// The choices of an input: labels, each with the value it stands for, which is the
+/// label itself where the nodedef gives no enumvalues. Empty without an enumeration.
+struct EnumChoice {
+  std::string_view label;
+  Value value;
+};
+std::vector<EnumChoice> enum_choices(const NodeDefInput& input);
+
 struct NodeDefOutput {
   std::string_view name;
   Type type = Type::none;

@@ -33,7 +33,9 @@ class GraphBuild {
              Diagnostics& diagnostics)
       : document_(document),
         diagnostics_(diagnostics),
-        resolver_(document, definitions, options, diagnostics) {}
+        resolver_(document, definitions, options, diagnostics) {
+    for (const VariantChoice& choice : options.variants) check_variant(choice);
+  }
 
   void add_output(const std::string& name) {
     const Element* element = find_element(document_, name);
@@ -99,6 +101,18 @@ class GraphBuild {
       context = resolver_.compound_context(**graph, context);
     }
     return context;
+  }
+
+  void check_variant(const VariantChoice& choice) {
+    const Element* set = document_.root().child(choice.variantset);
+    const bool is_set = set != nullptr && set->category() == "variantset";
+    const Element* variant = is_set ? set->child(choice.variant) : nullptr;
+    if (variant != nullptr && variant->category() == "variant") return;
+    diagnostics_.error(
+        "unknown-variant", at_root(document_, choice.variantset),
+        is_set ? "the variantset has no such variant" : "the document has no such variantset",
+        is_set ? "the name of a <variant>" : "the name of a <variantset>",
+        fmt::format("'{}'", is_set ? choice.variant : choice.variantset));
   }
 
   void report_several(const Element& element) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,23 +13,45 @@
 #include "jit/document/document.h"
 #include "jit/document/library.h"
 #include "jit/graph/graph.h"
+#include "jit/graph/look.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre {
 
+/// Which implementation of a nodedef is taken where it has several.
+enum class Preference : std::uint8_t {
+  body,    ///< Our body or the host's, else the node graph, else the text.
+  graph,   ///< The node graph, else as above.
+  source,  ///< The text of an <implementation>, else as above.
+};
+
 struct GraphOptions {
   /// True for nodedefs that have a body of ours: they become nodes even where
   /// the library has a graph for them. Empty: those without a graph are taken to
-  /// have one. A nodedef with neither passes its `defaultinput` or `default`
-  /// through, with a warning.
+  /// have one. A nodedef with neither, and no implementation by text, passes its
+  /// `defaultinput` or `default` through, with a warning.
   std::function<bool(std::string_view nodedef)> is_native;
-  /// Colour space that the graph computes in. The library's transforms all lead
-  /// to the default.
+  Preference prefer = Preference::body;
+  /// Colour space that the graph computes in, by any name that
+  /// `canonical_colorspace` knows; "": what the document's root says, or lin_rec709.
+  /// "none": nothing is converted.
   std::string working_space = "lin_rec709";
   /// What one unit of scene length is; lengths are converted to it.
   std::string distance_unit = "meter";
-  /// Replaces "{frame}" and "{0Nframe}" in file names. Kept as they are without.
+  /// Chooses the file of a sequence: replaces "{frame}" and "{0Nframe}" in file names
+  /// as the texture node's framerange, frameoffset and frameendaction say. Without,
+  /// they are kept.
   std::optional<int> frame;
+  /// Replace "{NAME}" in file names; names that are not here are kept.
+  std::map<std::string, std::string, std::less<>> host_attributes;
+  /// Replace "<NAME>" in file names: the tokens of the geometry that the graph is
+  /// for (Geometry Extensions, "Additional Filename Substitutions").
+  std::map<std::string, std::string, std::less<>> geometry_tokens;
+  /// Variants to apply, the last one first where two name the same input. A variant's
+  /// inputs replace those of the document's shader nodes, and of other nodes that write
+  /// an input of that name; its tokens replace all of that name (Specification,
+  /// "Material Variants").
+  std::vector<VariantChoice> variants;
   /// A graph with more nodes is refused.
   std::size_t max_nodes = 1'000'000;
 };

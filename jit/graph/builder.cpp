@@ -82,6 +82,9 @@ Element* GraphBuilder::input_element(Node node, std::string_view input, Type typ
   if (row.def == nullptr) return nullptr;
   const std::string path = row.path + '/' + std::string(input);
   const NodeDefInput* port = row.def->input(input);
+  if (port == nullptr && input == "disable" && type == Type::boolean) {
+    return &add_element(*row.element, "input", std::string(input), type_name(type));
+  }
   if (port == nullptr) {
     fail("unknown-input", path, fmt::format("'{}' has no such input", row.def->name));
     return nullptr;

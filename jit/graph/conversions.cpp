@@ -1,6 +1,7 @@
 // Colour spaces and units: nodes put between a value and who reads it.
 #include <fmt/format.h>
 
+#include "jit/document/read.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/colorspace.h"
 #include "jit/graph/resolver.h"
@@ -17,19 +18,44 @@ std::optional<Resolver::Key> Resolver::convert_colour(const Source& source, Type
   if (type != Type::color3 && type != Type::color4) return std::nullopt;
   if (source.kind == Source::Kind::unconnected) return std::nullopt;
   const std::string_view from = canonical_colorspace(space);
-  const std::string_view to = canonical_colorspace(options_.working_space);
-  if (from.empty() || from == to) return std::nullopt;
-  const std::string transform = fmt::format("{}_to_{}", from, to);
-  const NodeDef* def = definitions_.nodedef(fmt::format("ND_{}_{}", transform, type_name(type)));
-  if (def == nullptr || def->inputs.empty() || def->outputs.size() != 1) {
-    warning("unknown-colorspace", user,
-            "there is no transform from this colour space, so the values are used as they are",
-            fmt::format("a space with a transform to {}", to), fmt::format("'{}'", space));
+  const std::string_view to = working_space();
+  if (from.empty() || to.empty() || from == to) return std::nullopt;
+  const NodeDef* def = find_transform(from, to, type);
+  if (def == nullptr) {
+    error("unknown-colorspace", user, "there is no transform from this colour space",
+          fmt::format("a space with a transform to {}", to), fmt::format("'{}'", space));
     return std::nullopt;
   }
-  Instance& instance = add_instance(*def, path + ':' + transform, &user);
+  Instance& instance = add_instance(*def, fmt::format("{}:{}_to_{}", path, from, to), &user);
   instance.inputs.emplace_back(def->inputs[0].name, source);
   return Key{Kind::output, 0, &instance, nullptr};
+}
+
+// What the host asks for; without, the document's own (Specification, "Color Spaces
+// and Color Management Systems"), or else what the library's transforms lead to.
+std::string_view Resolver::working_space() const {
+  std::string_view name = options_.working_space;
+  if (name.empty()) name = document_.root().attribute("colorspace");
+  return name.empty() ? "lin_rec709" : canonical_colorspace(name);
+}
+
+// The library's transform, or one made from what the spaces are.
+const NodeDef* Resolver::find_transform(std::string_view from, std::string_view to, Type type) {
+  const std::string transform = fmt::format("{}_to_{}", from, to);
+  const std::string name = fmt::format("ND_{}_{}", transform, type_name(type));
+  if (const NodeDef* def = definitions_.nodedef(name)) {
+    return def->inputs.empty() || def->outputs.size() != 1 ? nullptr : def;
+  }
+  const auto [place, is_new] = transforms_.try_emplace(transform);
+  Transform& made = place->second;
+  if (is_new) {
+    const std::string text = color_transform_text(from, to);
+    if (text.empty()) return nullptr;
+    Diagnostics none;
+    made.document = read_document_text(text, transform, {}, none);
+    made.definitions = std::make_unique<Definitions>(*made.document, &definitions_, none);
+  }
+  return made.definitions == nullptr ? nullptr : made.definitions->nodedef(name);
 }
 
 // From the unit a value is given in to the one its reader wants. A literal is

@@ -1,8 +1,5 @@
 #include "jit/graph/find.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <string_view>
 #include <unordered_set>
 
@@ -56,24 +53,6 @@ Type shader_type(const Element& node, const Definitions& definitions) {
   return Type::none;
 }
 
-void add_assignments(const Element& look, std::vector<Assignment>& assignments) {
-  for (const Element& child : look.children()) {
-    if (child.category() != "materialassign") continue;
-    Assignment assignment;
-    assignment.material = child.attribute("material");
-    assignment.collection = child.attribute("collection");
-    assignment.exclusive = child.attribute("exclusive") != "false";
-    const std::string_view prefix = child.inherited_attribute("geomprefix");
-    // A prefix goes before each name of the list.
-    for (std::string_view geom : split_list(child.attribute("geom"))) {
-      if (!assignment.geom.empty()) assignment.geom += ',';
-      assignment.geom += prefix;
-      assignment.geom += geom;
-    }
-    assignments.push_back(std::move(assignment));
-  }
-}
-
 }  // namespace
 
 std::vector<FoundOutput> find_outputs(const Document& document) {
@@ -121,34 +100,6 @@ std::vector<FoundOutput> find_loose_shaders(const Document& document,
     if (is_shader(type)) shaders.push_back({std::string(child.name()), type, location(child)});
   }
   return shaders;
-}
-
-std::vector<Look> find_looks(const Document& document, Diagnostics& diagnostics) {
-  std::vector<Look> looks;
-  for (const Element& element : document.root().children()) {
-    if (element.category() != "look") continue;
-    std::vector<const Element*> chain{&element};
-    while (chain.back()->has_attribute("inherit")) {
-      const Element& last = *chain.back();
-      const std::string_view name = last.attribute("inherit");
-      const Element* base = document.root().child(qualified_name(last, name));
-      if (base == nullptr) base = document.root().child(name);
-      const bool is_look = base != nullptr && base->category() == "look";
-      if (!is_look || std::find(chain.begin(), chain.end(), base) != chain.end()) {
-        diagnostics.error(is_look ? "inherit-cycle" : "unknown-look", location(last),
-                          is_look ? "the look inherits from itself, directly or not"
-                                  : "the look to inherit from does not exist",
-                          "the name of another look", fmt::format("'{}'", name));
-        break;
-      }
-      chain.push_back(base);
-    }
-    Look& look = looks.emplace_back();
-    look.name = element.name();
-    for (auto at = chain.rbegin(); at != chain.rend(); ++at)
-      add_assignments(**at, look.assignments);
-  }
-  return looks;
 }
 
 }  // namespace nacre

@@ -5,6 +5,7 @@
 
 #include "jit/document/definitions.h"
 #include "jit/document/document.h"
+#include "jit/graph/look.h"
 #include "runtime/diagnostic.h"
 #include "runtime/type.h"
 
@@ -36,22 +37,5 @@ std::vector<FoundMaterial> find_materials(const Document& document);
 /// Names of root nodes of a shader type that nothing at the root reads.
 std::vector<FoundOutput> find_loose_shaders(const Document& document,
                                             const Definitions& definitions);
-
-struct Assignment {
-  std::string material;
-  std::string geom;        ///< Geometry expression, geomprefix applied; "" if only a collection.
-  std::string collection;  ///< Name of a <collection>; "" if none.
-  bool exclusive = true;
-};
-
-struct Look {
-  std::string name;
-  /// Inherited ones first; where two match, the later one wins.
-  std::vector<Assignment> assignments;
-};
-
-/// All looks with what they inherit. Reports looks that inherit from nowhere or
-/// in a circle.
-std::vector<Look> find_looks(const Document& document, Diagnostics& diagnostics);
 
 }  // namespace nacre

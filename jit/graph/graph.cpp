@@ -11,4 +11,11 @@ const GraphInput* GraphNode::input(std::string_view wanted) const {
   return nullptr;
 }
 
+Parameter* find_parameter(Graph& graph, std::string_view path) {
+  for (Parameter& parameter : graph.parameters) {
+    if (parameter.path == path) return &parameter;
+  }
+  return nullptr;
+}
+
 }  // namespace nacre

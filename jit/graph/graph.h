@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/diagnostic.h"
@@ -84,6 +85,20 @@ struct GraphOutput {
   Source source;
 };
 
+/// What implements a nodedef by text: MaterialX's <implementation> with `file`
+/// or `sourcecode`, in the GLSL subset of jit/glsl.
+struct NodeSource {
+  std::string nodedef;
+  std::string file;      ///< With `function`; relative to `document`.
+  std::string text;      ///< Instead of a file: an expression, "{{in1}} + {{in2}}", or with
+                         ///< `function` the text of one.
+  std::string function;  ///< Called with the inputs, then the outputs, in the nodedef's order.
+  std::string document;  ///< The file that names it.
+  /// Allowed values of string inputs; a text gets the index of one.
+  std::vector<std::pair<std::string, std::vector<std::string>>> enums;
+  SourceLocation where;
+};
+
 /// Typed nodes and connections, and nothing else: nodedefs resolved, node graphs
 /// inlined, defaults filled in, geometric defaults, unit and colour-space
 /// conversions inserted as nodes, unreachable parts gone, no cycles. A node
@@ -93,7 +108,13 @@ struct Graph {
   std::vector<GraphNode> nodes;
   std::vector<Parameter> parameters;
   std::vector<GraphOutput> outputs;
+  /// For nodes whose nodedef has neither a body nor a graph; each nodedef once.
+  std::vector<NodeSource> sources;
 };
+
+/// The parameter of that path, to be read or given another value, or null. Graphs that
+/// differ in values only have the same topology_hash, and live kernels in common.
+Parameter* find_parameter(Graph& graph, std::string_view path);
 
 /// Canonical text, one line per parameter, node and output:
 ///

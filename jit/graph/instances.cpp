@@ -1,8 +1,11 @@
 // Instances of nodes and the contexts they stand in.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
+#include "jit/graph/node_source.h"
 #include "jit/graph/resolver.h"
 
 namespace nacre {
@@ -39,14 +42,44 @@ std::string join(const Context* context, std::string_view name) {
 bool Resolver::is_native(const NodeDef& def) const {
   // What a material consists of is asked of the node itself, never of a graph.
   if (def.category == "surfacematerial" || def.category == "volumematerial") return true;
-  if (options_.is_native) return options_.is_native(def.name);
-  return definitions_.graph_of(def) == nullptr;
+  return has_body(def) || runs_source(def);
+}
+
+bool Resolver::has_body(const NodeDef& def) const {
+  const bool has_graph = graph_of(def) != nullptr;
+  if (options_.prefer == Preference::graph && has_graph) return false;
+  return options_.is_native ? options_.is_native(def.name) : !has_graph;
+}
+
+/// Whether the text of an <implementation> stands for the nodedef.
+bool Resolver::runs_source(const NodeDef& def) const {
+  if (definitions_.source_of(def) == nullptr) return false;
+  if (options_.prefer == Preference::source) return true;
+  return !has_body(def) && graph_of(def) == nullptr;
+}
+
+void Resolver::add_source(const NodeDef& def) {
+  const auto same = [&](const NodeSource& known) { return known.nodedef == def.name; };
+  if (std::any_of(graph_.sources.begin(), graph_.sources.end(), same)) return;
+  graph_.sources.push_back(node_source(def, *definitions_.source_of(def)));
+}
+
+// Colour transforms made here have definitions of their own.
+const Definitions& Resolver::definitions_of(const Element& element) const {
+  for (const auto& [name, transform] : transforms_) {
+    if (transform.document.get() == &element.document()) return *transform.definitions;
+  }
+  return definitions_;
+}
+
+const Element* Resolver::graph_of(const NodeDef& def) const {
+  return definitions_of(*def.element).graph_of(def);
 }
 
 const NodeDef* Resolver::nodedef_of(const Element& node) {
   const auto known = nodedefs_.find(&node);
   if (known != nodedefs_.end()) return known->second;
-  const NodeDef* def = find_nodedef(node, definitions_, diagnostics_);
+  const NodeDef* def = find_nodedef(node, definitions_of(node), diagnostics_);
   nodedefs_.emplace(&node, def);
   return def;
 }
@@ -115,7 +148,37 @@ const Context* Resolver::functional_context(const Instance& instance, const Elem
   return &context;
 }
 
+// What the chosen variants say of an input or token of that name; null if nothing. Of
+// those that do, the last one chosen counts.
+const Element* Resolver::variant_child(std::string_view category, std::string_view name,
+                                       const Instance* instance) const {
+  const auto fits = [&](std::string_view wanted, std::string_view own, std::string_view other) {
+    return wanted.empty() || wanted == own || wanted == other;
+  };
+  for (auto choice = options_.variants.rbegin(); choice != options_.variants.rend(); ++choice) {
+    const Element* set = document_.root().child(choice->variantset);
+    const Element* variant = set == nullptr ? nullptr : set->child(choice->variant);
+    const Element* child = variant == nullptr ? nullptr : variant->child(name);
+    if (child == nullptr || child->category() != category) continue;
+    if (instance == nullptr) return child;
+    const Element& node = *instance->element;
+    if (fits(set->attribute("node"), node.name(), node.category()) &&
+        fits(set->attribute("nodedef"), instance->def->name, {})) {
+      return child;
+    }
+  }
+  return nullptr;
+}
+
 const Element* Resolver::input_element(const Instance& instance, std::string_view name) const {
+  if (!options_.variants.empty() && instance.element != nullptr &&
+      &instance.element->document() == &document_) {
+    const Type type = instance.def->outputs.empty() ? Type::none : instance.def->outputs[0].type;
+    const bool is_shader = type >= Type::surfaceshader && type <= Type::lightshader;
+    if (is_shader || instance.element->child(name) != nullptr) {
+      if (const Element* input = variant_child("input", name, &instance)) return input;
+    }
+  }
   // An instance may inherit inputs from another of its class (Specification,
   // "Shader Nodes"); the chain is bounded in case it is a circle.
   const Element* element = instance.element;

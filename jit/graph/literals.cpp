@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
@@ -107,9 +108,51 @@ Source Resolver::filename_source(const Element& carrier, const Value& value,
   std::string& text = source.value.texts[0];
   if (text.empty()) return source;
   text.insert(0, carrier.inherited_attribute("fileprefix"));
-  const auto token = [&](std::string_view name) { return find_token(name, carrier, context); };
-  text = substitute_filename(text, token, options_.frame);
+  const auto in = [](const std::map<std::string, std::string, std::less<>>& map) {
+    return [&map](std::string_view name) -> std::optional<std::string> {
+      const auto found = map.find(name);
+      if (found == map.end()) return std::nullopt;
+      return found->second;
+    };
+  };
+  text = substitute_filename(
+      text, {.token = [&](std::string_view name) { return find_token(name, carrier, context); },
+             .attribute = in(options_.host_attributes),
+             .geometry = in(options_.geometry_tokens)});
   return source;
+}
+
+// Which file of a sequence a texture node reads is its own business (Standard Nodes,
+// "Texture Node Notes"): the frame plus `frameoffset`, taken into `framerange`.
+void Resolver::choose_frame(GraphNode& node, const Element& user) {
+  const auto text_of = [&](std::string_view name) -> std::string_view {
+    const GraphInput* input = node.input(name);
+    return input == nullptr || input->source.value.texts.empty()
+               ? std::string_view{}
+               : std::string_view(input->source.value.texts[0]);
+  };
+  for (GraphInput& input : node.inputs) {
+    if (input.type != Type::filename || input.source.value.texts.empty()) continue;
+    std::string& file = input.source.value.texts[0];
+    if (!options_.frame || !has_frame_token(file)) continue;
+    const GraphInput* offset = node.input("frameoffset");
+    const bool has_offset = offset != nullptr && !offset->source.value.ints.empty();
+    // In 64 bits, and back into range at the ends: no sum of two frames overflows.
+    const std::int64_t sum =
+        std::int64_t{*options_.frame} + (has_offset ? offset->source.value.ints[0] : 0);
+    std::optional<int> frame = static_cast<int>(std::clamp<std::int64_t>(
+        sum, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+    const std::string_view range_text = text_of("framerange");
+    const auto range = parse_frame_range(range_text);
+    if (range) {
+      frame = frame_in_range(*frame, *range, text_of("frameendaction"));
+    } else if (!range_text.empty()) {
+      warning("bad-frame-range", user, "this is no range of frames, so all frames are taken",
+              "FIRST-LAST", fmt::format("'{}'", range_text.substr(0, 200)));
+    }
+    // No name: the node's default.
+    file = frame ? substitute_frame(file, *frame) : std::string();
+  }
 }
 
 // From the element outwards; out of a graph that implements a node, to that
@@ -120,6 +163,9 @@ std::optional<std::string> Resolver::find_token(std::string_view name, const Ele
     const Element* token = scope.child(name);
     return token != nullptr && token->category() == "token" ? token : nullptr;
   };
+  if (const Element* token = variant_child("token", name, nullptr)) {
+    return std::string(token->attribute("value"));
+  }
   const Element* at = &user;
   while (at != nullptr) {
     if (const Element* token = token_of(*at)) {

@@ -89,6 +89,14 @@ std::string print_nodes(const Graph& graph) {
   for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
     print_node(std::back_inserter(text), graph, i);
   }
+  for (const NodeSource& source : graph.sources) {
+    fmt::format_to(std::back_inserter(text), "source {} ", source.nodedef);
+    print_text(std::back_inserter(text), source.file.empty() ? source.text : source.file);
+    if (!source.function.empty()) {
+      fmt::format_to(std::back_inserter(text), " {}", source.function);
+    }
+    text += '\n';
+  }
   return text;
 }
 

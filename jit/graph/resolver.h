@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -106,6 +107,8 @@ class Resolver {
   std::optional<Key> step_node(Frame& frame);
   std::optional<Key> step_output(Frame& frame);
   std::optional<Key> start_output(Frame& frame, const Instance& instance);
+  std::optional<Key> start_enabled_output(Frame& frame, const Instance& instance);
+  std::optional<Key> pass_through(Frame& frame, const Instance& instance);
   std::optional<Key> finish_native_output(Frame& frame, const Instance& instance);
   std::optional<Key> step_input(Frame& frame);
   std::optional<Key> start_input(Frame& frame, const Instance& instance, const NodeDefInput& input);
@@ -122,15 +125,23 @@ class Resolver {
   Instance& add_instance(const NodeDef& def, std::string path, const Element* origin);
   const Instance* geomprop_instance(std::string_view name, const Element& user);
   const Element* input_element(const Instance& instance, std::string_view name) const;
+  const Element* variant_child(std::string_view category, std::string_view name,
+                               const Instance* instance) const;
   std::optional<std::uint32_t> output_index(const NodeDef& def, std::string_view name,
                                             const Element& user);
   bool is_native(const NodeDef& def) const;
+  bool has_body(const NodeDef& def) const;
+  bool runs_source(const NodeDef& def) const;
+  void add_source(const NodeDef& def);
+  const Definitions& definitions_of(const Element& element) const;
+  const Element* graph_of(const NodeDef& def) const;
 
   // Literals (literals.cpp).
   std::optional<Key> take_literal(Frame& frame, const Element& carrier, Type type,
                                   const Context* context);
   Source literal_or_parameter(const Element& carrier, Value value, std::string_view unit);
   Source filename_source(const Element& carrier, const Value& value, const Context* context);
+  void choose_frame(GraphNode& node, const Element& user);
   std::optional<std::string> find_token(std::string_view name, const Element& user,
                                         const Context* context) const;
   bool check_enum(const NodeDefInput& input, const Result& result);
@@ -140,6 +151,8 @@ class Resolver {
   // when there is nothing to convert.
   std::optional<Key> convert_colour(const Source& source, Type type, std::string_view space,
                                     const std::string& path, const Element& user);
+  std::string_view working_space() const;
+  const NodeDef* find_transform(std::string_view from, std::string_view to, Type type);
   std::optional<Key> convert_unit(Result& result, const NodeDefInput& input,
                                   const std::string& path, const Element& user);
   std::optional<double> unit_factor(std::string_view from, const NodeDefInput* input,
@@ -167,6 +180,12 @@ class Resolver {
   std::unordered_map<const Element*, const NodeDef*> nodedefs_;
   std::map<std::string_view, const Instance*> geomprops_;
   std::unordered_map<const Element*, std::uint32_t> parameters_;
+  /// Colour transforms that the library lacks, by "from_to_to"; null: not known.
+  struct Transform {
+    std::unique_ptr<Document> document;
+    std::unique_ptr<Definitions> definitions;
+  };
+  std::map<std::string, Transform, std::less<>> transforms_;
   std::unordered_map<std::string, bool> reported_;  // warnings given once
   bool too_large_ = false;
 };

@@ -15,8 +15,20 @@ namespace {
 constexpr std::uint32_t start = 0;
 constexpr std::uint32_t received = 1;   // the source is known, still to be checked
 constexpr std::uint32_t converted = 2;  // what was waited for is the result
+constexpr std::uint32_t switched = 3;   // whether the node is disabled is known
 
 const Instance& instance_in(const void* subject) { return *static_cast<const Instance*>(subject); }
+
+const NodeDefInput& disable_input() {
+  static const NodeDefInput input = [] {
+    NodeDefInput made;
+    made.name = "disable";
+    made.type = Type::boolean;
+    made.uniform = true;
+    return made;
+  }();
+  return input;
+}
 
 bool may_be_string(Type wanted, Type found) {
   return wanted == Type::filename && found == Type::string;
@@ -44,9 +56,11 @@ std::optional<Resolver::Key> Resolver::step_node(Frame& frame) {
                             output.has_default ? output.default_value : Value{}});
   }
   if (frame.result.failed) return std::nullopt;
+  choose_frame(node, *instance.origin);
   frame.result.source.kind = Source::Kind::link;
   frame.result.source.node = static_cast<std::uint32_t>(graph_.nodes.size());
   graph_.nodes.push_back(std::move(node));
+  if (runs_source(def)) add_source(def);
   return std::nullopt;
 }
 
@@ -55,6 +69,15 @@ std::optional<Resolver::Key> Resolver::step_output(Frame& frame) {
   switch (frame.stage) {
     case start: return start_output(frame, instance);
     case received: return finish_native_output(frame, instance);
+    case switched: {
+      Result disable = waited(frame);
+      if (!disable.failed) make_uniform(disable, disable_input(), *instance.origin);
+      frame.result.failed = disable.failed;
+      if (disable.failed) return std::nullopt;
+      const std::vector<std::int32_t>& value = disable.source.value.ints;
+      if (value.empty() || value[0] == 0) return start_enabled_output(frame, instance);
+      return pass_through(frame, instance);
+    }
     default: {
       const Type type = instance.def->outputs[frame.key.index].type;
       frame.result = waited(frame);
@@ -70,10 +93,22 @@ std::optional<Resolver::Key> Resolver::step_output(Frame& frame) {
   }
 }
 
+// A node may be disabled by an input that its nodedef need not name (Specification,
+// "Standard Node Inputs").
 std::optional<Resolver::Key> Resolver::start_output(Frame& frame, const Instance& instance) {
+  const Element* disable = input_element(instance, "disable");
+  if (disable == nullptr || disable->attribute("type") != "boolean") {
+    return start_enabled_output(frame, instance);
+  }
+  frame.stage = switched;
+  return Key{Kind::port, 0, disable, instance.context};
+}
+
+std::optional<Resolver::Key> Resolver::start_enabled_output(Frame& frame,
+                                                            const Instance& instance) {
   const NodeDef& def = *instance.def;
   const NodeDefOutput& output = def.outputs[frame.key.index];
-  const Element* graph = definitions_.graph_of(def);
+  const Element* graph = graph_of(def);
   if (is_native(def)) {
     frame.stage = received;
     return Key{Kind::node, 0, &instance, nullptr};
@@ -94,8 +129,19 @@ std::optional<Resolver::Key> Resolver::start_output(Frame& frame, const Instance
     frame.result.failed = true;
     return std::nullopt;
   }
-  warning("no-implementation", *instance.origin,
-          fmt::format("nothing implements '{}': its default is used", def.name));
+  // Passing its input through is all that `dot` does.
+  if (def.category != "dot") {
+    warning("no-implementation", *instance.origin,
+            fmt::format("nothing implements '{}': its default is used", def.name));
+  }
+  return pass_through(frame, instance);
+}
+
+// What stands for an output of a node that is disabled, or that nothing implements.
+std::optional<Resolver::Key> Resolver::pass_through(Frame& frame, const Instance& instance) {
+  const NodeDef& def = *instance.def;
+  const NodeDefOutput& output = def.outputs[frame.key.index];
+  frame.stage = converted;
   for (std::uint32_t i = 0; i < def.inputs.size(); ++i) {
     if (!output.defaultinput.empty() && def.inputs[i].name == output.defaultinput) {
       return Key{Kind::input, i, &instance, nullptr};

@@ -36,6 +36,15 @@ Bodies::Bodies(const Definitions& library) {
   }
 }
 
+bool Bodies::add(const std::string& nodedef, std::function<void(NodeCall&)> record,
+                 const Definitions& library) {
+  const NodeDef* def = library.nodedef(nodedef);
+  if (def == nullptr) return false;
+  added_.push_back({def->category, std::move(record), true});
+  by_nodedef_[nodedef] = &added_.back();
+  return true;
+}
+
 const NodeBody* Bodies::find(std::string_view nodedef) const {
   const auto found = by_nodedef_.find(std::string(nodedef));
   return found == by_nodedef_.end() ? nullptr : found->second;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -16,12 +18,17 @@ class Bodies {
  public:
   explicit Bodies(const Definitions& library);
 
+  /// Adds or replaces the body of one nodedef. False if there is no such nodedef.
+  bool add(const std::string& nodedef, std::function<void(NodeCall&)> record,
+           const Definitions& library);
+
   /// Null: no native body, use the graph.
   const NodeBody* find(std::string_view nodedef) const;
   bool contains(std::string_view nodedef) const { return find(nodedef) != nullptr; }
 
  private:
   std::unordered_map<std::string, const NodeBody*> by_nodedef_;
+  std::deque<NodeBody> added_;
 };
 
 }  // namespace nacre

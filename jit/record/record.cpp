@@ -1,7 +1,10 @@
 #include "jit/record/record.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
+
+#include "jit/record/branches.h"
 
 namespace nacre {
 
@@ -21,6 +24,18 @@ Scalar scalar_of(Type type) {
   return Scalar::f32;
 }
 
+/// A branch that costs less is computed for all lanes: testing the mask, and what the
+/// compiler cannot move across the test, cost about as much.
+constexpr double worth_a_test = 30;
+
+BranchPlan all_at_once(const Graph& graph) {
+  BranchPlan plan;
+  plan.branches.resize(1);
+  plan.of_node.resize(graph.nodes.size());
+  for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) plan.branches[0].nodes.push_back(i);
+  return plan;
+}
+
 class GraphRecorder {
  public:
   GraphRecorder(const Graph& graph, const Bodies& bodies, const RecordOptions& options,
@@ -29,19 +44,12 @@ class GraphRecorder {
         bodies_(bodies),
         options_(options),
         recorder_(recorder),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics),
+        plan_(options.lazy ? plan_branches(graph) : all_at_once(graph)) {}
 
   std::optional<std::vector<Recorded>> run() {
-    for (const GraphNode& node : graph_.nodes) {
-      const NodeBody* body = bodies_.find(node.nodedef);
-      if (body == nullptr) {
-        diagnostics_.error("no-implementation", node.where,
-                           "nothing implements node '" + node.category + "'",
-                           "a nodedef with a native body or a node graph", node.nodedef);
-        return std::nullopt;
-      }
-      outputs_.push_back(record(node, *body));
-    }
+    outputs_.resize(graph_.nodes.size());
+    if (!record_branch(BranchPlan::whole)) return std::nullopt;
     std::vector<Recorded> results;
     for (const GraphOutput& output : graph_.outputs) {
       results.push_back(value_of(output.source, output.type));
@@ -52,19 +60,146 @@ class GraphRecorder {
  private:
   using Ports = std::vector<NodeCall::Port>;
 
-  Ports record(const GraphNode& node, const NodeBody& body) {
+  /// All nodes of one branch, in order. False, with a diagnostic, where one cannot
+  /// be recorded.
+  bool record_branch(std::uint32_t branch) {
+    for (const std::uint32_t number : plan_.branches[branch].nodes) {
+      if (!record_node(number)) return false;
+    }
+    return true;
+  }
+
+  bool record_node(std::uint32_t number) {
+    const GraphNode& node = graph_.nodes[number];
+    const NodeSource* source = source_of(node);
+    const NodeBody* body = source == nullptr ? bodies_.find(node.nodedef) : nullptr;
+    if (source == nullptr && body == nullptr) {
+      diagnostics_.error("no-implementation", node.where,
+                         "nothing implements node '" + node.category + "'",
+                         "a nodedef with a body, a node graph or a text", node.nodedef);
+      return false;
+    }
+    const auto [first, second] = plan_.of_node[number];
+    if (first != BranchPlan::whole) {
+      if (body != nullptr) return record_choice(number, *body);
+      if (!record_branch(first) || !record_branch(second)) return false;
+    }
     Ports inputs;
     for (const GraphInput& input : node.inputs) {
       inputs.push_back({input.name, value_of(input.source, input.type)});
     }
     Ports outputs;
     for (const GraphNodeOutput& output : node.outputs) {
-      NodeCall::Port port{output.name, {}};
-      port.value.type = output.type;
-      outputs.push_back(std::move(port));
+      outputs.push_back(unset(output.name, output.type));
     }
-    NodeCall call(recorder_, node.category, node.nodedef, std::move(inputs), std::move(outputs),
-                  options_.accuracy, options_.textures, diagnostics_, node.where);
+    if (body != nullptr) {
+      outputs_[number] = record(node, *body, std::move(inputs), std::move(outputs));
+      return true;
+    }
+    NodeCall call = make_call(node, std::move(inputs), std::move(outputs));
+    if (!options_.sources->record(*source, call)) return false;
+    outputs_[number] = call.outputs();
+    return true;
+  }
+
+  const NodeSource* source_of(const GraphNode& node) const {
+    const auto found =
+        std::find_if(graph_.sources.begin(), graph_.sources.end(),
+                     [&](const NodeSource& source) { return source.nodedef == node.nodedef; });
+    return found == graph_.sources.end() || options_.sources == nullptr ? nullptr : &*found;
+  }
+
+  /// The condition alone, and then the branches: a side that a constant excludes not at
+  /// all, and an expensive one only where some lane takes it. The result has the bits
+  /// that selecting between both sides would give.
+  bool record_choice(std::uint32_t number, const NodeBody& body) {
+    const GraphNode& node = graph_.nodes[number];
+    Ports compared;
+    for (const char* name : {"value1", "value2"}) {
+      const GraphInput* input = node.input(name);
+      compared.push_back({input->name, value_of(input->source, input->type)});
+    }
+    const Ports asked = record(node, body, std::move(compared), {unset("out", Type::boolean)});
+    const Bool holds(asked[0].value.parts[0]);
+    const auto [first, second] = plan_.of_node[number];
+    Recorded& out =
+        outputs_[number].emplace_back(unset(node.outputs[0].name, node.outputs[0].type)).value;
+
+    if (holds.is_constant()) {
+      const bool taken = holds.is_constant(true);
+      if (!record_branch(taken ? first : second)) return false;
+      out = side(node, taken ? "in1" : "in2");
+      return true;
+    }
+    const bool first_apart = plan_.branches[first].cost >= worth_a_test;
+    const bool second_apart = plan_.branches[second].cost >= worth_a_test;
+    if (!first_apart && !record_branch(first)) return false;
+    if (!second_apart && !record_branch(second)) return false;
+    const Recorded zero = zero_of(out.type);
+    if (first_apart) {
+      const auto taken =
+          record_where(holds, first, node, "in1", second_apart ? zero : side(node, "in2"));
+      if (!taken) return false;
+      out = *taken;
+    }
+    if (second_apart) {
+      const auto taken =
+          record_where(!holds, second, node, "in2", first_apart ? out : side(node, "in1"));
+      if (!taken) return false;
+      out = *taken;
+    }
+    if (!first_apart && !second_apart) {
+      const Recorded a = side(node, "in1"), b = side(node, "in2");
+      for (std::size_t i = 0; i < a.parts.size(); ++i) {
+        out.parts.push_back(nacre::record(Op::select, {holds.ref(), a.parts[i], b.parts[i]}));
+      }
+    }
+    return true;
+  }
+
+  /// The branch's side of a choice in the lanes where `mask` holds, `otherwise` in others.
+  std::optional<Recorded> record_where(Bool mask, std::uint32_t branch, const GraphNode& node,
+                                       std::string_view input, const Recorded& otherwise) {
+    recorder_.begin_if(mask.ref());
+    const bool done = record_branch(branch);
+    Recorded result;
+    result.type = otherwise.type;
+    if (done) {
+      const Recorded inside = side(node, input);
+      for (std::size_t i = 0; i < inside.parts.size(); ++i) {
+        result.parts.push_back(recorder_.merge(inside.parts[i], otherwise.parts[i]));
+      }
+    }
+    recorder_.end_if();
+    return done ? std::optional(result) : std::nullopt;
+  }
+
+  Recorded side(const GraphNode& node, std::string_view name) {
+    const GraphInput& input = *node.input(name);
+    return value_of(input.source, input.type);
+  }
+
+  static Recorded zero_of(Type type) {
+    Recorded zero;
+    zero.type = type;
+    zero.parts.assign(static_cast<std::size_t>(component_count(type)),
+                      Ref{nullptr, 0, scalar_of(type)});
+    return zero;
+  }
+
+  static NodeCall::Port unset(const std::string& name, Type type) {
+    NodeCall::Port port{name, {}};
+    port.value.type = type;
+    return port;
+  }
+
+  NodeCall make_call(const GraphNode& node, Ports inputs, Ports outputs) {
+    return NodeCall(recorder_, node.category, node.nodedef, std::move(inputs), std::move(outputs),
+                    options_.accuracy, options_.textures, diagnostics_, node.where);
+  }
+
+  Ports record(const GraphNode& node, const NodeBody& body, Ports inputs, Ports outputs) {
+    NodeCall call = make_call(node, std::move(inputs), std::move(outputs));
     body.record(call);
     return call.outputs();
   }
@@ -123,6 +258,7 @@ class GraphRecorder {
   const RecordOptions& options_;
   Recorder& recorder_;
   Diagnostics& diagnostics_;
+  BranchPlan plan_;
   std::vector<Ports> outputs_;  ///< By node.
 };
 

@@ -7,6 +7,7 @@
 
 #include "jit/graph/graph.h"
 #include "jit/record/bodies.h"
+#include "jit/record/source_bodies.h"
 #include "runtime/node/recorded.h"
 #include "runtime/node/texture_source.h"
 #include "runtime/program/recorder.h"
@@ -24,12 +25,17 @@ struct RecordOptions {
   Accuracy accuracy = Accuracy::standard;
   ParameterMode parameters = ParameterMode::frozen;
   TextureProvider* textures = nullptr;
+  /// Runs the graph's `sources`; null: nodes that need one are errors.
+  SourceBodies* sources = nullptr;
+  /// Compute what only one side of a conditional node needs only where it is taken;
+  /// false changes no result, only what it costs.
+  bool lazy = true;
   /// The file that a name written in `document` stands for; the name itself if null.
   std::function<std::string(const std::string& name, const std::string& document)> resolve_file;
 };
 
-/// Records every node of a graph, in order, and returns the values of its
-/// outputs. Nothing, with a diagnostic, for a node that has no body.
+/// Records the nodes of a graph that its outputs may need, and returns the values of
+/// the outputs. Nothing, with a diagnostic, for a node that has no body.
 std::optional<std::vector<Recorded>> record_graph(const Graph& graph, const Bodies& bodies,
                                                   const RecordOptions& options, Recorder& recorder,
                                                   Diagnostics& diagnostics);

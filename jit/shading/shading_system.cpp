@@ -6,6 +6,7 @@
 
 #include "jit/graph/check.h"
 #include "jit/graph/find.h"
+#include "jit/graph/node_source.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
 #include "runtime/program/fix_inputs.h"
@@ -31,9 +32,9 @@ std::string find_file(const std::string& name, const std::string& document,
   std::error_code ignored;
   for (const fs::path& folder : folders) {
     const fs::path candidate = (folder / path).lexically_normal();
-    if (is_pattern ? fs::is_directory(candidate.parent_path().empty() ? fs::path(".")
-                                                                      : candidate.parent_path(),
-                                      ignored)
+    if (is_pattern ? fs::is_directory(
+                         candidate.parent_path().empty() ? fs::path(".") : candidate.parent_path(),
+                         ignored)
                    : fs::exists(candidate, ignored)) {
       return candidate.string();
     }
@@ -44,10 +45,11 @@ std::string find_file(const std::string& name, const std::string& document,
 /// One graph being made into kernels.
 class Compilation {
  public:
-  Compilation(const ShaderOptions& options, const Bodies& bodies, TextureStore& store,
-              CompileService* service, Diagnostics& diagnostics)
+  Compilation(const ShaderOptions& options, const Bodies& bodies, SourceBodies& sources,
+              TextureStore& store, CompileService* service, Diagnostics& diagnostics)
       : options_(options),
         bodies_(bodies),
+        sources_(sources),
         service_(service),
         diagnostics_(diagnostics),
         textures_(std::make_shared<RecordedTextures>(store, recorder_, diagnostics)) {}
@@ -57,6 +59,8 @@ class Compilation {
         .accuracy = options_.compile.accuracy,
         .parameters = options_.parameters,
         .textures = textures_.get(),
+        .sources = &sources_,
+        .lazy = options_.lazy,
         .resolve_file = [this](const std::string& name, const std::string& document) {
           return find_file(name, document, options_.search_paths);
         }};
@@ -92,11 +96,22 @@ class Compilation {
  private:
   const ShaderOptions& options_;
   const Bodies& bodies_;
+  SourceBodies& sources_;
   CompileService* service_;
   Diagnostics& diagnostics_;
   Recorder recorder_;
   std::shared_ptr<RecordedTextures> textures_;
 };
+
+/// Where a node pack's texts may include from: the library folders.
+std::vector<fs::path> source_roots(const std::vector<fs::path>& libraries) {
+  std::vector<fs::path> roots;
+  std::error_code ignored;
+  for (const fs::path& path : libraries) {
+    roots.push_back(fs::is_directory(path, ignored) ? path : path.parent_path());
+  }
+  return roots;
+}
 
 std::vector<SliceOutput> channels(const std::string& name, const Recorded& value) {
   std::vector<SliceOutput> list;
@@ -117,6 +132,13 @@ std::unique_ptr<ShadingSystem> ShadingSystem::create(const SystemOptions& option
   system->library_ = load_library(options.libraries, diagnostics);
   if (system->library_ == nullptr) return nullptr;
   system->bodies_ = std::make_unique<Bodies>(system->library_->definitions());
+  for (const HostBody& body : options.bodies) {
+    if (system->bodies_->add(body.nodedef, body.record, system->library_->definitions())) continue;
+    diagnostics.error("unknown-nodedef", {}, "the host has a body for a nodedef that no library declares",
+                      "the name of a nodedef", body.nodedef);
+    return nullptr;
+  }
+  system->sources_ = std::make_unique<SourceBodies>(source_roots(options.libraries));
   system->textures_ = std::make_unique<TextureStore>(options.textures);
   system->service_ = CompileService::create(
       {.threads = options.compile_threads, .cache = options.cache, .session = {}}, diagnostics);
@@ -138,12 +160,19 @@ GraphOptions ShadingSystem::graph_options(const ShaderOptions& options) const {
 void ShadingSystem::check(const Document& document, const ShaderOptions& options,
                           Diagnostics& diagnostics) {
   if (!check_document(document, *library_, graph_options(options), diagnostics)) return;
+  Diagnostics known;
+  const Definitions definitions(document, &library_->definitions(), known);
+  for (const NodeDef* def : definitions.all()) {
+    const Element* source = definitions.source_of(*def);
+    if (source == nullptr || &source->document() != &document) continue;
+    sources_->check(node_source(*def, *source), *def, diagnostics);
+  }
   // What only recording finds: images that cannot be read, nodes without a body.
   const auto try_recording = [&](const GraphRequest& request) {
     Diagnostics already_known;
     const auto graph = build(document, request, options, already_known);
     if (!graph) return;
-    Compilation(options, *bodies_, *textures_, service_.get(), diagnostics).record(*graph);
+    Compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics).record(*graph);
   };
   for (const FoundOutput& output : find_outputs(document)) {
     try_recording({.outputs = {output.name}, .material = {}});
@@ -154,8 +183,8 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
 }
 
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(
-    const Document& document, const std::vector<std::string>& outputs,
-    const ShaderOptions& options, Diagnostics& diagnostics) {
+    const Document& document, const std::vector<std::string>& outputs, const ShaderOptions& options,
+    Diagnostics& diagnostics) {
   const auto graph = build(document, {.outputs = outputs, .material = {}}, options, diagnostics);
   return graph ? compile_outputs(*graph, options, diagnostics) : nullptr;
 }
@@ -163,7 +192,7 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
                                                              const ShaderOptions& options,
                                                              Diagnostics& diagnostics) {
-  Compilation compilation(options, *bodies_, *textures_, service_.get(), diagnostics);
+  Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics);
   const auto values = compilation.record(graph);
   if (!values) return nullptr;
   std::vector<SliceOutput> slices;
@@ -181,8 +210,8 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
     }
   }
   std::vector<StageReport> stages;
-  auto kernel =
-      std::move(compilation.compile({compilation.entry("outputs", slices, Keeps::pass)}, stages)[0]);
+  auto kernel = std::move(
+      compilation.compile({compilation.entry("outputs", slices, Keeps::pass)}, stages)[0]);
   if (!kernel) return nullptr;
   return std::make_unique<OutputKernel>(
       OutputKernel{std::move(*kernel), std::move(outputs), std::move(stages)});
@@ -199,14 +228,14 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& graph,
                                                                  const ShaderOptions& options,
                                                                  Diagnostics& diagnostics) {
-  const auto found = std::find_if(
-      graph.outputs.begin(), graph.outputs.end(),
-      [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
+  const auto found =
+      std::find_if(graph.outputs.begin(), graph.outputs.end(),
+                   [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
   if (found == graph.outputs.end()) {
     diagnostics.error("no-surface", {}, "the material has no surface shader");
     return nullptr;
   }
-  Compilation compilation(options, *bodies_, *textures_, service_.get(), diagnostics);
+  Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics);
   const auto values = compilation.record(graph);
   if (!values) return nullptr;
   const auto index = static_cast<std::size_t>(found - graph.outputs.begin());
@@ -215,8 +244,8 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
     diagnostics.error("no-surface", {}, "the material's surface shader is not connected");
     return nullptr;
   }
-  const SurfaceKernels recorded = record_kernels(compilation.recorder(), *surface,
-                                                 options.compile.accuracy, options.kernels);
+  const SurfaceKernels recorded =
+      record_kernels(compilation.recorder(), *surface, options.compile.accuracy, options.kernels);
   auto kernels = std::make_unique<MaterialKernels>();
   std::vector<Program> programs;
   std::vector<std::optional<BoundKernel>*> places;

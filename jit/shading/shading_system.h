@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,9 +17,18 @@
 
 namespace nacre {
 
+/// A node implemented by the host: `record` reads the inputs of the call and
+/// sets its outputs by recording, as the bodies in nodes/ do.
+struct HostBody {
+  std::string nodedef;  ///< "ND_my_noise_float", declared by one of the libraries.
+  std::function<void(NodeCall& call)> record;
+};
+
 struct SystemOptions {
   /// The MaterialX data library first, then node packs: files or folders.
   std::vector<std::filesystem::path> libraries;
+  /// Used in place of whatever else implements those nodedefs.
+  std::vector<HostBody> bodies = {};
   TextureOptions textures = {};
   /// Where compiled kernels are kept between runs; empty: nowhere.
   std::filesystem::path cache = {};
@@ -30,6 +40,7 @@ struct ShaderOptions {
   ParameterMode parameters = ParameterMode::frozen;
   KernelRequest kernels;
   GraphOptions graph;  ///< `is_native` is filled in.
+  bool lazy = true;    ///< See RecordOptions.
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;
 };
@@ -110,6 +121,7 @@ class ShadingSystem {
 
   std::shared_ptr<const Library> library_;
   std::unique_ptr<Bodies> bodies_;
+  std::unique_ptr<SourceBodies> sources_;
   std::unique_ptr<TextureStore> textures_;
   std::unique_ptr<CompileService> service_;
 };

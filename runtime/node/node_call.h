@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -89,7 +90,7 @@ class NodeCall {
 /// A native implementation of every nodedef of one category.
 struct NodeBody {
   std::string_view category;
-  void (*record)(NodeCall& call);
+  std::function<void(NodeCall& call)> record;
   /// Also in place of nodedefs for which the data library has a node graph.
   bool replaces_graphs = false;
 };

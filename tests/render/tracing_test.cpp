@@ -57,6 +57,27 @@ TEST(Bvh, OcclusionAgreesWithTheNearestHit) {
   EXPECT_GT(hit_count, 500);
 }
 
+TEST(Bvh, RaysPassThroughMeshesThatAreHiddenFromThem) {
+  Scene scene;
+  scene.meshes.push_back(make_sphere("far", {0.f, 0.f, -9.f}, 1.f, 16));
+  scene.meshes.push_back(make_sphere("near", {0.f, 0.f, -4.f}, 1.f, 16));
+  scene.meshes[1].visible_to = ray_shadow | ray_secondary;
+  Diagnostics diagnostics;
+  const Bvh bvh(scene, diagnostics);
+  std::vector<Ray> rays(3, Ray{{0.f, 0.f, 0.f}, {0.f, 0.f, -1.f}});
+  rays[0].kind = ray_camera, rays[1].kind = ray_secondary, rays[2].kind = ray_any;
+  std::vector<Hit> hits(rays.size());
+  bvh.intersect(rays, hits, false);
+  EXPECT_EQ(hits[0].mesh, 0u);
+  EXPECT_EQ(hits[1].mesh, 1u);
+  EXPECT_EQ(hits[2].mesh, 1u);
+  for (Ray& ray : rays) ray.far = 6.f;
+  std::vector<std::uint8_t> blocked(rays.size());
+  rays[1].kind = ray_shadow;
+  bvh.occluded(rays, blocked);
+  EXPECT_EQ(blocked, (std::vector<std::uint8_t>{0, 1, 1}));
+}
+
 TEST(Offset, LeavingRaysDoNotMeetTheirOwnTriangle) {
   std::mt19937 random(4);
   std::uniform_real_distribution<float> unit(0.f, 1.f);

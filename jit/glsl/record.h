@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "jit/glsl/syntax.h"
+#include "jit/glsl/value.h"
+#include "runtime/program/recorder.h"
+
+namespace nacre::glsl {
+
+struct RecordLimits {
+  int loop_iterations = 1024;  ///< A loop ends after as many, whatever its condition says.
+  std::size_t operations = 2'000'000;
+  std::size_t steps = 4'000'000;  ///< Expressions walked, what folds away included.
+  int call_depth = 64;
+};
+
+/// Reads an image: four floats. The derivatives of uv are null where the text
+/// leaves them to the footprint.
+using TextureLookup = std::function<std::optional<Value>(const std::string& image, const Value& uv,
+                                                         const Value* ddx, const Value* ddy)>;
+
+struct RecordContext {
+  const Sources& sources;
+  const Syntax& syntax;
+  Recorder& recorder;
+  Diagnostics& diagnostics;
+  RecordLimits limits = {};
+  TextureLookup texture = {};  ///< Null: reading images is an error.
+};
+
+struct CallResult {
+  Value value;
+  std::vector<Value> outputs;  ///< By parameter; empty values for those that are not out.
+};
+
+/// Records a call of a function, one argument a parameter (those that are only
+/// out are ignored). What branches do not change is shared; a branch that costs
+/// more than a few operations is skipped where no lane takes it; loops of few
+/// literal iterations are unrolled; large functions are outlined. Throws Failure.
+CallResult record_call(const RecordContext& context, const Function& function,
+                       std::vector<Value> arguments);
+
+/// Records an expression in which `names` stand for values. Throws Failure.
+Value record_expression(const RecordContext& context, const Expression& expression,
+                        const std::vector<std::pair<std::string_view, Value>>& names);
+
+}  // namespace nacre::glsl

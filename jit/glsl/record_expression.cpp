@@ -1,0 +1,571 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "jit/glsl/builtins.h"
+#include "jit/glsl/operators.h"
+#include "jit/glsl/recording.h"
+
+namespace nacre::glsl {
+
+namespace {
+
+constexpr std::string_view component_sets[] = {"xyzw", "rgba", "stpq"};
+
+/// Component numbers of a swizzle, all letters of one set; empty if it is none.
+std::vector<std::size_t> swizzle(std::string_view text, int rows) {
+  for (const std::string_view set : component_sets) {
+    std::vector<std::size_t> parts;
+    for (const char letter : text) {
+      const std::size_t at = set.find(letter);
+      if (at < static_cast<std::size_t>(rows)) parts.push_back(at);
+    }
+    if (parts.size() == text.size() && parts.size() <= 4) return parts;
+  }
+  return {};
+}
+
+/// Where member `text` of a structure starts among its scalars.
+std::optional<std::pair<std::size_t, Type>> find_member(const Type& type, std::string_view text) {
+  std::size_t at = 0;
+  for (const Struct::Member& member : type.structure->members) {
+    if (member.name == text) return std::pair(at, member.type);
+    at += static_cast<std::size_t>(part_count(member.type));
+  }
+  return std::nullopt;
+}
+
+/// What [] gives: an array's element, a matrix's column, a vector's component.
+std::optional<Type> element_type(const Type& type) {
+  if (type.is_array()) return type.element();
+  if (type.is_matrix()) return type.with_rows(type.rows);
+  if (type.is_vector()) return type.with_rows(1);
+  return std::nullopt;
+}
+
+int element_count(const Type& type) {
+  if (type.is_array()) return type.length;
+  return type.is_matrix() ? type.columns : type.rows;
+}
+
+std::string type_list(const std::vector<Value>& values) {
+  std::string text;
+  for (const Value& value : values) {
+    if (!text.empty()) text += ", ";
+    text += to_string(value.type);
+  }
+  return fmt::format("({})", text);
+}
+
+Value slice(const Value& value, std::size_t first, const Type& type) {
+  Value result{type, {}, {}};
+  const auto begin = value.parts.begin() + static_cast<std::ptrdiff_t>(first);
+  result.parts.assign(begin, begin + part_count(type));
+  return result;
+}
+
+}  // namespace
+
+Value Recording::evaluate(const Expression& expression) {
+  using Kind = Expression::Kind;
+  count_step(expression.place);
+  switch (expression.kind) {
+    case Kind::literal: {
+      Ref part = Ref::literal(static_cast<std::int32_t>(expression.bits));
+      if (expression.type == float_type) part.type = Scalar::f32;
+      if (expression.type == bool_type) part.type = Scalar::b1;
+      return {expression.type, {part}, {}};
+    }
+    case Kind::name: return name(expression);
+    case Kind::member: return member(expression);
+    case Kind::index: return index(expression);
+    case Kind::call: return call_named(expression);
+    case Kind::construct: return construct(expression);
+    case Kind::unary: return unary_value(expression);
+    case Kind::binary: return binary_value(expression);
+    case Kind::assign: return assign(expression);
+    case Kind::step_before: return step(expression, false);
+    case Kind::step_after: return step(expression, true);
+    case Kind::conditional: return conditional(expression);
+    case Kind::sequence:
+      evaluate(*expression.operands[0]);
+      return evaluate(*expression.operands[1]);
+    case Kind::list: break;
+  }
+  error(expression.place, "glsl-syntax", "a list stands only where a variable is declared");
+}
+
+Value Recording::expect(Value value, const Type& type, Place place) {
+  if (!converts(value.type, type)) {
+    error(place, "glsl-type", "the types do not agree", to_string(type), to_string(value.type));
+  }
+  return convert(value, type);
+}
+
+Value Recording::name(const Expression& expression) {
+  if (const Variable* variable = find(expression.text)) return variable->value;
+  for (const Statement::Variable& global : context_.syntax.globals) {
+    if (global.name != expression.text) continue;
+    if (!global.initial || std::find(reading_globals_.begin(), reading_globals_.end(),
+                                     global.name) != reading_globals_.end()) {
+      error(expression.place, "glsl-undefined",
+            fmt::format("the global '{}' has no value", expression.text));
+    }
+    // Its initializer sees other globals, not the variables around this use.
+    Frame alone;
+    alone.first = variables_.size();
+    frames_.push_back(alone);
+    reading_globals_.push_back(global.name);
+    Value value = initial_value(*global.initial, global.type);
+    reading_globals_.pop_back();
+    frames_.pop_back();
+    return value;
+  }
+  error(expression.place, "glsl-undefined", fmt::format("there is no '{}'", expression.text));
+}
+
+Value Recording::member(const Expression& expression) {
+  const Value whole = evaluate(*expression.operands[0]);
+  if (whole.type.base == Base::structure && !whole.type.is_array()) {
+    if (const auto found = find_member(whole.type, expression.text)) {
+      return slice(whole, found->first, found->second);
+    }
+  } else if (whole.type.is_plain() && !whole.type.is_matrix()) {
+    const std::vector<std::size_t> parts = swizzle(expression.text, whole.type.rows);
+    if (!parts.empty()) {
+      Value result{whole.type.with_rows(static_cast<int>(parts.size())), {}, {}};
+      for (const std::size_t part : parts) result.parts.push_back(whole.parts[part]);
+      return result;
+    }
+  }
+  error(expression.place, "glsl-member",
+        fmt::format("{} has no member '{}'", to_string(whole.type), expression.text));
+}
+
+Value Recording::index(const Expression& expression) {
+  const Value whole = evaluate(*expression.operands[0]);
+  return element(whole, evaluate(*expression.operands[1]), expression.place);
+}
+
+/// An index that is not literal chooses among all elements; outside of the
+/// range it means the nearest.
+Value Recording::element(const Value& whole, const Value& index, Place place) {
+  const std::optional<Type> type = element_type(whole.type);
+  if (!type || !index.type.is_whole() || !index.type.is_scalar()) {
+    error(place, "glsl-index", fmt::format("a {} cannot be indexed", to_string(whole.type)),
+          "an array, a matrix or a vector, and a whole number");
+  }
+  const int count = element_count(whole.type);
+  const auto size = static_cast<std::size_t>(part_count(*type));
+  const Int at = index.whole(0);
+  if (at.is_constant()) {
+    if (at.constant() < 0 || at.constant() >= count) {
+      error(place, "glsl-index", "the index is outside of the range",
+            fmt::format("0 to {}", count - 1), std::to_string(at.constant()));
+    }
+    return slice(whole, static_cast<std::size_t>(at.constant()) * size, *type);
+  }
+  Value result = slice(whole, 0, *type);
+  for (int i = 1; i < count; ++i) {
+    const Bool here = at >= Int(i);
+    for (std::size_t k = 0; k < size; ++k) {
+      const Ref part = whole.parts[static_cast<std::size_t>(i) * size + k];
+      result.parts[k] = record(Op::select, {here.ref(), part, result.parts[k]});
+    }
+  }
+  return result;
+}
+
+Value Recording::unary_value(const Expression& expression) {
+  const Value operand = evaluate(*expression.operands[0]);
+  if (std::optional<Value> result = unary(expression.text, operand)) return *result;
+  error(expression.place, "glsl-type",
+        fmt::format("'{}' does not work on {}", expression.text, to_string(operand.type)));
+}
+
+Value Recording::binary_value(const Expression& expression) {
+  const bool is_lazy = expression.text == "&&" || expression.text == "||";
+  if (is_lazy &&
+      (expression.operands[1]->has_effect || expression.operands[1]->cost >= cheap_branch)) {
+    return look_ahead(expression);
+  }
+  const Value a = evaluate(*expression.operands[0]);
+  const Value b = evaluate(*expression.operands[1]);
+  if (std::optional<Value> result = binary(expression.text, a, b)) return *result;
+  error(expression.place, "glsl-type",
+        fmt::format("'{}' does not work on {} and {}", expression.text, to_string(a.type),
+                    to_string(b.type)));
+}
+
+/// && and || whose right side is evaluated only where the left leaves it open.
+Value Recording::look_ahead(const Expression& expression) {
+  const bool is_and = expression.text == "&&";
+  const Value left = expect(evaluate(*expression.operands[0]), bool_type, expression.place);
+  Value result;
+  scoped([&] {
+    const Slot slot = push("", left);
+    branch(
+        is_and ? left.truth(0) : !left.truth(0), expression.operands[1]->cost,
+        [&] {
+          variables_[slot].value =
+              expect(evaluate(*expression.operands[1]), bool_type, expression.place);
+        },
+        [] {});
+    result = variables_[slot].value;
+  });
+  return result;
+}
+
+/// Both sides are computed; what they assign holds in the lanes that take them.
+Value Recording::conditional(const Expression& expression) {
+  const Value condition = expect(evaluate(*expression.operands[0]), bool_type, expression.place);
+  if (condition.parts[0].is_constant()) {
+    return evaluate(*expression.operands[condition.parts[0].is_constant(1u) ? 1 : 2]);
+  }
+  Value a;
+  Value b;
+  branch(
+      condition.truth(0), 0, [&] { a = evaluate(*expression.operands[1]); },
+      [&] { b = evaluate(*expression.operands[2]); });
+  if (converts(a.type, b.type)) {
+    a = convert(a, b.type);
+  } else {
+    b = expect(b, a.type, expression.place);
+  }
+  for (std::size_t i = 0; i < a.parts.size(); ++i) {
+    if (is_same(a.parts[i], b.parts[i])) continue;
+    a.parts[i] = record(Op::select, {condition.parts[0], a.parts[i], b.parts[i]});
+  }
+  return a;
+}
+
+// -- Constructors
+
+Value Recording::construct(const Expression& expression) {
+  std::vector<Value> arguments;
+  for (const ExpressionPtr& operand : expression.operands) arguments.push_back(evaluate(*operand));
+  const Type& type = expression.type;
+  if (type.is_plain()) return construct_plain(expression, arguments);
+  // A structure from its members, an array from its elements.
+  std::vector<Type> wanted;
+  if (type.is_array()) {
+    wanted.assign(static_cast<std::size_t>(type.length), type.element());
+  } else if (type.base == Base::structure) {
+    for (const Struct::Member& part : type.structure->members) wanted.push_back(part.type);
+  }
+  if (wanted.size() != arguments.size() || wanted.empty()) {
+    error(expression.place, "glsl-constructor",
+          fmt::format("a {} cannot be made of this many values", to_string(type)),
+          std::to_string(wanted.size()), std::to_string(arguments.size()));
+  }
+  Value result{type, {}, {}};
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Value part = expect(arguments[i], wanted[i], expression.operands[i]->place);
+    result.parts.insert(result.parts.end(), part.parts.begin(), part.parts.end());
+  }
+  return result;
+}
+
+Value Recording::construct_plain(const Expression& expression,
+                                 const std::vector<Value>& arguments) {
+  const Type& type = expression.type;
+  const auto wanted = static_cast<std::size_t>(part_count(type));
+  if (type.is_matrix() && arguments.size() == 1 && arguments[0].type.is_plain() &&
+      !arguments[0].type.is_vector()) {
+    return construct_matrix(type, arguments[0]);
+  }
+  Value result{type, {}, {}};
+  for (const Value& argument : arguments) {
+    if (!argument.type.is_plain() || result.parts.size() >= wanted) {
+      error(expression.place, "glsl-constructor",
+            fmt::format("a {} cannot be made of {}", to_string(type), type_list(arguments)));
+    }
+    for (const Ref part : argument.parts) {
+      if (result.parts.size() == wanted) break;  // vec3(vec4): the rest is dropped.
+      result.parts.push_back(convert(part, argument.type.base, type.base));
+    }
+  }
+  if (arguments.size() == 1 && result.parts.size() == 1) {
+    result.parts.resize(wanted, result.parts[0]);
+  }
+  if (result.parts.size() != wanted) {
+    error(expression.place, "glsl-constructor",
+          fmt::format("a {} cannot be made of {}", to_string(type), type_list(arguments)));
+  }
+  return result;
+}
+
+/// From a scalar its multiple of the identity, from a matrix its upper left,
+/// filled up with the identity.
+Value Recording::construct_matrix(const Type& type, const Value& argument) const {
+  Value result{type, {}, {}};
+  for (int column = 0; column < type.columns; ++column) {
+    for (int row = 0; row < type.rows; ++row) {
+      Ref part = Ref::literal(row == column ? 1.0f : 0.0f);
+      if (argument.type.is_matrix() && row < argument.type.rows && column < argument.type.columns) {
+        part = argument.parts[static_cast<std::size_t>(column * argument.type.rows + row)];
+      } else if (argument.type.is_scalar() && row == column) {
+        part = convert(argument.parts[0], argument.type.base, Base::number);
+      }
+      result.parts.push_back(part);
+    }
+  }
+  return result;
+}
+
+Value Recording::initial_value(const Expression& expression, const Type& type) {
+  if (expression.kind != Expression::Kind::list) {
+    Value value = evaluate(expression);
+    if (type.length < 0 && value.type.is_array() && value.type.element() == type.element()) {
+      return value;
+    }
+    return expect(std::move(value), type, expression.place);
+  }
+  Expression made;
+  made.kind = Expression::Kind::construct;
+  made.place = expression.place;
+  made.type = type;
+  if (type.length < 0) made.type.length = static_cast<int>(expression.operands.size());
+  Value result{made.type, {}, {}};
+  // { ... } stands for the constructor of what is declared, at every level.
+  const bool of_structure = type.base == Base::structure && !type.is_array();
+  const std::optional<Type> each = of_structure ? std::nullopt : element_type(made.type);
+  const std::size_t wanted = of_structure
+                                 ? type.structure->members.size()
+                                 : static_cast<std::size_t>(each ? element_count(made.type) : 0);
+  if (wanted != expression.operands.size()) {
+    error(expression.place, "glsl-constructor",
+          fmt::format("the list does not fit a {}", to_string(made.type)), std::to_string(wanted),
+          std::to_string(expression.operands.size()));
+  }
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const Type& part = of_structure ? type.structure->members[i].type : *each;
+    const Value value = initial_value(*expression.operands[i], part);
+    result.parts.insert(result.parts.end(), value.parts.begin(), value.parts.end());
+  }
+  return result;
+}
+
+// -- Assignments
+
+Recording::Target Recording::target(const Expression& expression) {
+  if (expression.kind == Expression::Kind::member) return target_member(expression);
+  if (expression.kind == Expression::Kind::index) return target_index(expression);
+  if (expression.kind == Expression::Kind::name) {
+    Variable* variable = find(expression.text);
+    if (variable != nullptr && !variable->constant) {
+      Target result;
+      result.slot = static_cast<Slot>(variable - variables_.data());
+      result.type = variable->value.type;
+      std::vector<std::size_t> parts(variable->value.parts.size());
+      for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = i;
+      result.alternatives.push_back({true, std::move(parts)});
+      return result;
+    }
+    if (variable == nullptr) name(expression);  // Complains about what does not exist.
+  }
+  error(expression.place, "glsl-assignment", "this cannot be assigned to", "a variable");
+}
+
+Recording::Target Recording::target_member(const Expression& expression) {
+  Target result = target(*expression.operands[0]);
+  std::vector<std::size_t> parts;
+  if (result.type.base == Base::structure && !result.type.is_array()) {
+    if (const auto found = find_member(result.type, expression.text)) {
+      for (int i = 0; i < part_count(found->second); ++i) {
+        parts.push_back(found->first + static_cast<std::size_t>(i));
+      }
+      result.type = found->second;
+    }
+  } else if (result.type.is_plain() && !result.type.is_matrix()) {
+    parts = swizzle(expression.text, result.type.rows);
+    std::vector<std::size_t> sorted = parts;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+      error(expression.place, "glsl-assignment", "a component is assigned to twice");
+    }
+    result.type = result.type.with_rows(static_cast<int>(parts.size()));
+  }
+  if (parts.empty()) {
+    error(expression.place, "glsl-member", fmt::format("there is no member '{}'", expression.text));
+  }
+  for (Target::Parts& alternative : result.alternatives) {
+    std::vector<std::size_t> chosen;
+    for (const std::size_t part : parts) chosen.push_back(alternative.parts[part]);
+    alternative.parts = std::move(chosen);
+  }
+  return result;
+}
+
+Recording::Target Recording::target_index(const Expression& expression) {
+  Target whole = target(*expression.operands[0]);
+  const Value index = evaluate(*expression.operands[1]);
+  const std::optional<Type> type = element_type(whole.type);
+  if (!type || !index.type.is_whole() || !index.type.is_scalar()) {
+    error(expression.place, "glsl-index",
+          fmt::format("a {} cannot be indexed", to_string(whole.type)));
+  }
+  const int count = element_count(whole.type);
+  const auto size = static_cast<std::size_t>(part_count(*type));
+  const Int at = index.whole(0);
+  if (at.is_constant() && (at.constant() < 0 || at.constant() >= count)) {
+    error(expression.place, "glsl-index", "the index is outside of the range",
+          fmt::format("0 to {}", count - 1), std::to_string(at.constant()));
+  }
+  Target result;
+  result.slot = whole.slot;
+  result.type = *type;
+  for (const Target::Parts& alternative : whole.alternatives) {
+    for (int i = 0; i < count; ++i) {
+      if (at.is_constant() && at.constant() != i) continue;
+      const auto first = alternative.parts.begin() +
+                         static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * size);
+      result.alternatives.push_back(
+          {alternative.where & (at == Int(i)),
+           std::vector<std::size_t>(first, first + static_cast<std::ptrdiff_t>(size))});
+    }
+  }
+  return result;
+}
+
+Value Recording::read(const Target& target) const {
+  const std::vector<Ref>& parts = variables_[target.slot].value.parts;
+  Value result = zero(target.type);
+  for (const Target::Parts& alternative : target.alternatives) {
+    for (std::size_t i = 0; i < alternative.parts.size(); ++i) {
+      const Ref part = parts[alternative.parts[i]];
+      result.parts[i] = record(Op::select, {alternative.where.ref(), part, result.parts[i]});
+    }
+  }
+  return result;
+}
+
+void Recording::write(const Target& target, const Value& value) {
+  std::vector<Ref>& parts = variables_[target.slot].value.parts;
+  for (const Target::Parts& alternative : target.alternatives) {
+    for (std::size_t i = 0; i < alternative.parts.size(); ++i) {
+      Ref& part = parts[alternative.parts[i]];
+      part = record(Op::select, {alternative.where.ref(), value.parts[i], part});
+    }
+  }
+}
+
+Value Recording::assign(const Expression& expression) {
+  Value value = evaluate(*expression.operands[1]);
+  const Target to = target(*expression.operands[0]);
+  if (expression.text != "=") {
+    const std::string_view op = expression.text.substr(0, expression.text.size() - 1);
+    const Value before = read(to);
+    const std::optional<Value> result = binary(op, before, value);
+    if (!result) {
+      error(expression.place, "glsl-type",
+            fmt::format("'{}' does not work on {} and {}", expression.text, to_string(before.type),
+                        to_string(value.type)));
+    }
+    value = *result;
+  }
+  value = expect(std::move(value), to.type, expression.place);
+  write(to, value);
+  return value;
+}
+
+Value Recording::step(const Expression& expression, bool value_before) {
+  const Target to = target(*expression.operands[0]);
+  const Value before = read(to);
+  const Value one = before.type.base == Base::number ? make(Float(1.0f)) : make(Int(1));
+  const std::optional<Value> after =
+      binary(expression.text == "++" ? "+" : "-", before, convert(one, before.type.with_rows(1)));
+  if (!after || before.type.base == Base::boolean) {
+    error(expression.place, "glsl-type",
+          fmt::format("'{}' does not work on {}", expression.text, to_string(before.type)));
+  }
+  write(to, *after);
+  return value_before ? before : *after;
+}
+
+// -- Calls
+
+Value Recording::call_named(const Expression& expression) {
+  std::vector<Value> arguments;
+  for (const ExpressionPtr& operand : expression.operands) arguments.push_back(evaluate(*operand));
+  const Function* function = select_overload(expression, arguments);
+  if (function == nullptr) {
+    if (expression.text.starts_with("texture")) return call_texture(expression, arguments);
+    const BuiltinResult result = call_builtin(expression.text, arguments);
+    if (result.value) return *result.value;
+    error(expression.place, "glsl-call",
+          fmt::format("there is no function {}{}", expression.text, type_list(arguments)));
+  }
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (function->parameters[i].in)
+      arguments[i] = convert(arguments[i], function->parameters[i].type);
+  }
+  const CallResult result = call(*function, std::move(arguments), expression.place);
+  for (std::size_t i = 0; i < function->parameters.size(); ++i) {
+    const Function::Parameter& parameter = function->parameters[i];
+    if (!parameter.out) continue;
+    const Target to = target(*expression.operands[i]);
+    write(to, expect(result.outputs[i], to.type, expression.operands[i]->place));
+  }
+  return result.value;
+}
+
+/// The overload with these types, or the only one that they convert to.
+const Function* Recording::select_overload(const Expression& expression,
+                                           const std::vector<Value>& arguments) {
+  const auto found = context_.syntax.by_name.find(expression.text);
+  if (found == context_.syntax.by_name.end()) return nullptr;
+  const Function* best = nullptr;
+  int best_conversions = 0;
+  bool ambiguous = false;
+  for (const Function* candidate : found->second) {
+    if (candidate->parameters.size() != arguments.size()) continue;
+    int conversions = 0;
+    bool fits = true;
+    for (std::size_t i = 0; i < arguments.size() && fits; ++i) {
+      const Function::Parameter& parameter = candidate->parameters[i];
+      fits = (!parameter.in || converts(arguments[i].type, parameter.type)) &&
+             (!parameter.out || converts(parameter.type, arguments[i].type));
+      if (arguments[i].type != parameter.type) ++conversions;
+    }
+    if (!fits) continue;
+    ambiguous = best != nullptr && conversions == best_conversions;
+    if (best == nullptr || conversions < best_conversions) {
+      best = candidate;
+      best_conversions = conversions;
+    }
+  }
+  if (ambiguous) {
+    error(expression.place, "glsl-call",
+          fmt::format("several functions fit {}{}", expression.text, type_list(arguments)));
+  }
+  if (best == nullptr && !is_builtin(expression.text)) {
+    error(expression.place, "glsl-call",
+          fmt::format("no function '{}' takes {}", expression.text, type_list(arguments)));
+  }
+  return best;
+}
+
+Value Recording::call_texture(const Expression& expression, const std::vector<Value>& arguments) {
+  const bool with_gradient = expression.text == "textureGrad";
+  const std::size_t count = with_gradient ? 4 : 2;
+  const Type vec2 = float_type.with_rows(2);
+  bool fits = (expression.text == "texture" || with_gradient) && arguments.size() == count &&
+              arguments[0].type.base == Base::sampler;
+  for (std::size_t i = 1; i < count && fits; ++i) fits = arguments[i].type == vec2;
+  if (!fits) {
+    error(expression.place, "glsl-call",
+          fmt::format("there is no function {}{}", expression.text, type_list(arguments)),
+          "texture(sampler2D, vec2) or textureGrad(sampler2D, vec2, vec2, vec2)");
+  }
+  std::optional<Value> result;
+  if (context_.texture) {
+    result =
+        context_.texture(arguments[0].text, arguments[1], with_gradient ? &arguments[2] : nullptr,
+                         with_gradient ? &arguments[3] : nullptr);
+  }
+  if (!result) error(expression.place, "glsl-texture", "images cannot be read here");
+  return *result;
+}
+
+}  // namespace nacre::glsl

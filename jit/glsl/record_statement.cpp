@@ -1,0 +1,236 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "jit/glsl/recording.h"
+
+namespace nacre::glsl {
+
+namespace {
+
+constexpr int max_unrolled_trips = 64;
+constexpr int max_unrolled_cost = 8192;
+constexpr int max_variable_parts = 65536;
+
+}  // namespace
+
+/// The lanes that neither returned nor left the loop that is being recorded.
+Bool Recording::running() {
+  Bool left = variables_[frame().returned].value.truth(0);
+  if (frame().broke != 0) left = left | variables_[frame().broke].value.truth(0);
+  if (frame().continued != 0) left = left | variables_[frame().continued].value.truth(0);
+  return !left;
+}
+
+void Recording::execute(const Statement& statement) {
+  switch (statement.kind) {
+    case Statement::Kind::block: scoped([&] { execute_list(statement, 0); }); break;
+    case Statement::Kind::declare: declare(statement); break;
+    case Statement::Kind::expression: evaluate(*statement.condition); break;
+    case Statement::Kind::if_: if_statement(statement); break;
+    case Statement::Kind::loop: scoped([&] { loop_statement(statement); }); break;
+    case Statement::Kind::do_loop: do_loop(statement); break;
+    case Statement::Kind::return_: return_statement(statement); break;
+    case Statement::Kind::break_: variables_[frame().broke].value = make(Bool(true)); break;
+    case Statement::Kind::continue_: variables_[frame().continued].value = make(Bool(true)); break;
+  }
+}
+
+/// After a statement that some lanes may leave by, the rest is a branch.
+void Recording::execute_list(const Statement& block, std::size_t from) {
+  for (std::size_t i = from; i < block.body.size(); ++i) {
+    execute(*block.body[i]);
+    if (!block.body[i]->may_leave) continue;
+    const Bool go_on = running();
+    if (go_on.is_constant(true)) continue;
+    if (go_on.is_constant(false) || i + 1 == block.body.size()) return;
+    int cost = 0;
+    for (std::size_t k = i + 1; k < block.body.size(); ++k) cost += block.body[k]->cost;
+    branch(go_on, cost, [&] { execute_list(block, i + 1); }, [] {});
+    return;
+  }
+}
+
+void Recording::declare(const Statement& statement) {
+  for (const Statement::Variable& variable : statement.variables) {
+    if (variable.type.length < 0 && !variable.initial) {
+      error(variable.place, "glsl-array-size", "the size of an array must be given");
+    }
+    Value value;
+    if (variable.initial) {
+      value = initial_value(*variable.initial, variable.type);
+    } else {
+      if (part_count(variable.type) > max_variable_parts) {
+        error(variable.place, "glsl-too-large", "the variable is too large");
+      }
+      value = zero(variable.type);
+    }
+    push(variable.name, std::move(value), variable.constant);
+  }
+}
+
+void Recording::if_statement(const Statement& statement) {
+  const Value condition = expect(evaluate(*statement.condition), bool_type, statement.place);
+  int cost = 0;
+  for (const StatementPtr& side : statement.body) cost = std::max(cost, side->cost);
+  branch(
+      condition.truth(0), cost, [&] { execute(*statement.body[0]); },
+      [&] {
+        if (statement.body.size() > 1) execute(*statement.body[1]);
+      });
+}
+
+void Recording::return_statement(const Statement& statement) {
+  const Type type = frame().function != nullptr ? frame().function->type : void_type;
+  if (statement.condition) {
+    Value value = expect(evaluate(*statement.condition), type, statement.place);
+    variables_[frame().returned + 1].value = std::move(value);
+  }
+  variables_[frame().returned].value = make(Bool(true));
+}
+
+Bool Recording::loop_condition(const Expression* condition) {
+  if (condition == nullptr) return true;
+  return expect(evaluate(*condition), bool_type, condition->place).truth(0);
+}
+
+/// One pass through a body, its `continue`s ended at its end.
+void Recording::run_body(const Statement& body) {
+  variables_[frame().continued].value = make(Bool(false));
+  scoped([&] { execute(body); });
+  variables_[frame().continued].value = make(Bool(false));
+}
+
+void Recording::loop_statement(const Statement& statement) {
+  if (statement.body[0]) execute(*statement.body[0]);
+  const Slot outer_broke = frame().broke;
+  const Slot outer_continued = frame().continued;
+  const Slot broke = push("", make(Bool(false)));
+  push("", make(Bool(false)));
+  frame().broke = broke;
+  frame().continued = broke + 1;
+  if (const std::optional<int> trips = literal_trips(statement)) {
+    unroll(statement, *trips);
+  } else {
+    iterate(statement, *statement.body[1]);
+  }
+  frame().broke = outer_broke;
+  frame().continued = outer_continued;
+}
+
+/// How often a loop runs whose condition is literal throughout; nothing if
+/// another way to record it is better.
+std::optional<int> Recording::literal_trips(const Statement& statement) {
+  if (!statement.condition || !statement.step) return std::nullopt;
+  // What the condition reads must not be changed by the body.
+  std::vector<const Expression*> pending{statement.condition.get(), statement.step.get()};
+  while (!pending.empty()) {
+    const Expression* at = pending.back();
+    pending.pop_back();
+    if (at->kind == Expression::Kind::name && statement.body[1]->assigned.contains(at->text)) {
+      return std::nullopt;
+    }
+    if (at->kind == Expression::Kind::call) return std::nullopt;
+    for (const ExpressionPtr& operand : at->operands) pending.push_back(operand.get());
+  }
+  const auto before = snapshot();
+  int trips = 0;
+  Bool go_on = loop_condition(statement.condition.get());
+  while (go_on.is_constant(true) && trips <= max_unrolled_trips) {
+    ++trips;
+    evaluate(*statement.step);
+    go_on = loop_condition(statement.condition.get());
+  }
+  restore(before);
+  const bool small = trips <= max_unrolled_trips &&
+                     (trips <= 4 || trips * statement.body[1]->cost <= max_unrolled_cost);
+  return go_on.is_constant(false) && small ? std::optional(trips) : std::nullopt;
+}
+
+void Recording::unroll(const Statement& statement, int trips) {
+  const Statement& body = *statement.body[1];
+  // A counter that ends with the loop may go on in lanes that left, and so
+  // stays literal.
+  const bool own_counter = statement.body[0] && statement.body[0]->kind == Statement::Kind::declare;
+  for (int i = 0; i < trips; ++i) {
+    const Bool go_on = running();
+    if (go_on.is_constant(false)) return;
+    branch(go_on, body.cost, [&] { run_body(body); }, [] {});
+    branch(own_counter ? Bool(true) : running(), 0, [&] { evaluate(*statement.step); }, [] {});
+  }
+}
+
+/// Records a loop: every variable that it may assign is carried.
+void Recording::iterate(const Statement& loop, const Statement& body) {
+  Recorder& recorder = context_.recorder;
+  const Bool active = mask_ & running() & loop_condition(loop.condition.get());
+  if (active.is_constant(false)) return;
+  std::vector<Slot> carried;
+  for (Slot i = frame().first; i < variables_.size(); ++i) {
+    if (loop.assigned.contains(variables_[i].name)) carried.push_back(i);
+  }
+  carried.push_back(frame().returned);
+  carried.push_back(frame().returned + 1);
+
+  const Bool mask = mask_;
+  recorder.begin_loop(active.ref(), static_cast<std::uint32_t>(context_.limits.loop_iterations));
+  std::vector<std::vector<Ref>> carries;
+  for (const Slot slot : carried) {
+    std::vector<Ref>& made = carries.emplace_back();
+    for (Ref& part : variables_[slot].value.parts) {
+      part = recorder.carry(part);
+      made.push_back(part);
+    }
+  }
+  mask_ = true;
+  // Lanes that returned or left are not here.
+  variables_[frame().returned].value = make(Bool(false));
+  variables_[frame().broke].value = make(Bool(false));
+  run_body(body);
+  const Bool stays = running();
+  Bool go_on = stays;
+  if (!stays.is_constant(false)) {
+    branch(
+        stays, 0,
+        [&] {
+          if (loop.step) evaluate(*loop.step);
+        },
+        [] {});
+    go_on = go_on & loop_condition(loop.condition.get());
+  }
+  std::vector<std::vector<Ref>> finals;
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    std::vector<Ref>& made = finals.emplace_back();
+    const std::vector<Ref>& parts = variables_[carried[i]].value.parts;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      made.push_back(recorder.next(carries[i][k], parts[k]));
+    }
+  }
+  recorder.again(go_on.ref());
+  recorder.end_loop();
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    variables_[carried[i]].value.parts = finals[i];
+  }
+  variables_[frame().broke].value = make(Bool(false));
+  variables_[frame().continued].value = make(Bool(false));
+  mask_ = mask;
+  check_size(loop.place);
+}
+
+/// do body while (condition): the body once, then a loop of it.
+void Recording::do_loop(const Statement& statement) {
+  const Slot outer_broke = frame().broke;
+  const Slot outer_continued = frame().continued;
+  scoped([&] {
+    const Slot broke = push("", make(Bool(false)));
+    push("", make(Bool(false)));
+    frame().broke = broke;
+    frame().continued = broke + 1;
+    run_body(*statement.body[0]);
+    branch(running(), cheap_branch, [&] { iterate(statement, *statement.body[0]); }, [] {});
+  });
+  frame().broke = outer_broke;
+  frame().continued = outer_continued;
+}
+
+}  // namespace nacre::glsl

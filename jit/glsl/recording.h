@@ -1,0 +1,178 @@
+#pragma once
+
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "jit/glsl/record.h"
+
+namespace nacre::glsl {
+
+/// The walk over a syntax tree that records it; the implementation of record.h.
+/// Variables live on one stack, so that a branch can note what it changed.
+class Recording {
+ public:
+  explicit Recording(const RecordContext& context) : context_(context) {}
+
+  CallResult call(const Function& function, std::vector<Value> arguments, Place place);
+  Value evaluate(const Expression& expression);
+  void bind(std::string_view name, Value value);
+
+ private:
+  struct Variable {
+    std::string_view name;
+    Value value;
+    bool constant = false;
+  };
+  using Slot = std::size_t;
+
+  /// Where an assignment goes: scalars of a variable, in the lanes where
+  /// `where` holds (several targets for an index that is not literal).
+  struct Target {
+    struct Parts {
+      Bool where;
+      std::vector<std::size_t> parts;
+    };
+    Slot slot = 0;
+    Type type;
+    std::vector<Parts> alternatives;
+  };
+
+  struct Frame {
+    const Function* function = nullptr;
+    Slot first = 0;     ///< Its variables start here.
+    Slot returned = 0;  ///< Flag; the slot after it holds what is returned.
+    Slot broke = 0;     ///< Flags of the innermost loop; 0: in none.
+    Slot continued = 0;
+    int depth = 0;
+  };
+
+  // Expressions (record_expression.cpp).
+  Value name(const Expression& expression);
+  Value member(const Expression& expression);
+  Value index(const Expression& expression);
+  Value element(const Value& whole, const Value& index, Place place);
+  Value construct(const Expression& expression);
+  Value construct_plain(const Expression& expression, const std::vector<Value>& arguments);
+  Value construct_matrix(const Type& type, const Value& argument) const;
+  Value unary_value(const Expression& expression);
+  Value binary_value(const Expression& expression);
+  Value look_ahead(const Expression& expression);
+  Value assign(const Expression& expression);
+  Value step(const Expression& expression, bool value_before);
+  Value conditional(const Expression& expression);
+  Value call_named(const Expression& expression);
+  Value call_texture(const Expression& expression, const std::vector<Value>& arguments);
+  Value initial_value(const Expression& expression, const Type& type);
+  const Function* select_overload(const Expression& expression,
+                                  const std::vector<Value>& arguments);
+  Target target(const Expression& expression);
+  Target target_member(const Expression& expression);
+  Target target_index(const Expression& expression);
+  Value read(const Target& target) const;
+  void write(const Target& target, const Value& value);
+  Value expect(Value value, const Type& type, Place place);
+
+  // Statements (record_statement.cpp).
+  void execute(const Statement& statement);
+  void execute_list(const Statement& block, std::size_t from);
+  void declare(const Statement& statement);
+  void if_statement(const Statement& statement);
+  void loop_statement(const Statement& statement);
+  void do_loop(const Statement& statement);
+  void return_statement(const Statement& statement);
+  std::optional<int> literal_trips(const Statement& statement);
+  void unroll(const Statement& statement, int trips);
+  void iterate(const Statement& loop, const Statement& body);
+  void run_body(const Statement& body);
+  Bool loop_condition(const Expression* condition);
+  Bool running();
+
+  // Control flow (recording.cpp).
+  template <class Then, class Otherwise>
+  void branch(Bool condition, int cost, Then&& then, Otherwise&& otherwise);
+  using Parts = std::vector<std::vector<Ref>>;  ///< Of all variables.
+  template <class Body>
+  void region(Bool where, const Parts& before, const Parts& outside, Body&& body);
+  template <class Body>
+  void scoped(Body&& body);
+  Parts snapshot() const;
+  void restore(const Parts& parts);
+  void choose(Bool condition, const Parts& taken);
+  static bool is_same(Ref a, Ref b) { return a.recorder == b.recorder && a.id == b.id; }
+
+  // Calls (recording.cpp).
+  CallResult call_inline(const Function& function, std::vector<Value> arguments);
+  CallResult call_outlined(const Function& function, const std::vector<Value>& arguments);
+
+  Slot push(std::string_view name, Value value, bool constant = false);
+  Variable* find(std::string_view name);
+  Frame& frame() { return frames_.back(); }
+  [[noreturn]] void error(Place place, std::string code, std::string message,
+                          std::string expected = {}, std::string found = {}) const;
+  void count_step(Place place);
+  void check_size(Place place) const;
+
+  const RecordContext& context_;
+  std::vector<Variable> variables_;
+  std::vector<Frame> frames_;
+  std::vector<const Function*> calling_;
+  std::vector<std::string_view> reading_globals_;
+  std::size_t steps_ = 0;
+  Slot base_ = 0;     ///< Variables below are of the function around an outlined one.
+  Bool mask_ = true;  ///< Lanes for which the current branch is taken.
+};
+
+/// A branch below this cost is computed in every lane and selected from.
+inline constexpr int cheap_branch = 24;
+
+/// Runs `body` and drops the variables that it declared.
+template <class Body>
+void Recording::scoped(Body&& body) {
+  const Slot size = variables_.size();
+  body();
+  variables_.resize(size);
+}
+
+/// Records both sides, each seeing the variables as they are now, and gives every
+/// variable the value of the side that a lane takes.
+template <class Then, class Otherwise>
+void Recording::branch(Bool condition, int cost, Then&& then, Otherwise&& otherwise) {
+  if (condition.is_constant(true)) return scoped(then);
+  if (condition.is_constant(false)) return scoped(otherwise);
+  const Bool mask = mask_;
+  const auto before = snapshot();
+  if (cost < cheap_branch) {
+    mask_ = mask & condition;
+    scoped(then);
+    const auto taken = snapshot();
+    restore(before);
+    mask_ = mask & !condition;
+    scoped(otherwise);
+    choose(condition, taken);
+  } else {
+    mask_ = mask & condition;
+    region(condition, before, before, then);
+    const auto after = snapshot();
+    restore(before);
+    mask_ = mask & !condition;
+    region(!condition, before, after, otherwise);
+  }
+  mask_ = mask;
+}
+
+template <class Body>
+void Recording::region(Bool where, const Parts& before, const Parts& outside, Body&& body) {
+  context_.recorder.begin_if(where.ref());
+  scoped(body);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    std::vector<Ref>& parts = variables_[base_ + i].value.parts;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const bool changed = !is_same(parts[k], before[i][k]);
+      parts[k] = changed ? context_.recorder.merge(parts[k], outside[i][k]) : outside[i][k];
+    }
+  }
+  context_.recorder.end_if();
+}
+
+}  // namespace nacre::glsl

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "jit/glsl/token.h"
+#include "jit/glsl/type.h"
+
+namespace nacre::glsl {
+
+struct Expression {
+  enum class Kind : std::uint8_t {
+    literal,      ///< `type`, `bits`
+    name,         ///< `text`
+    member,       ///< operands[0] . `text`: a member, or components as in v.xyz
+    index,        ///< operands[0] [ operands[1] ]
+    call,         ///< `text` ( operands... )
+    construct,    ///< `type` ( operands... )
+    unary,        ///< `text` operands[0]: + - ! ~
+    binary,       ///< operands[0] `text` operands[1]; && and || look at the left first.
+    assign,       ///< operands[0] `text` operands[1]: = += ...
+    step_before,  ///< `text` operands[0]: ++ --
+    step_after,   ///< operands[0] `text`
+    conditional,  ///< operands[0] ? operands[1] : operands[2]
+    sequence,     ///< operands[0] , operands[1]
+    list,         ///< { operands... }, as an initializer
+  };
+  Kind kind = Kind::literal;
+  Place place;
+  std::string_view text;
+  Type type;
+  std::uint32_t bits = 0;
+  std::vector<std::unique_ptr<Expression>> operands;
+  /// Operations in it, functions that it calls included: for what to skip.
+  int cost = 1;
+  /// May change a variable.
+  bool has_effect = false;
+};
+using ExpressionPtr = std::unique_ptr<Expression>;
+
+struct Statement {
+  enum class Kind : std::uint8_t {
+    block,       ///< { body... }
+    declare,     ///< `variables`
+    expression,  ///< `condition`
+    if_,         ///< if (condition) body[0] else body[1]
+    loop,        ///< for / while: init body[0] or null; condition; step; body[1]
+    do_loop,     ///< do body[0] while (condition)
+    return_,     ///< condition or null
+    break_,
+    continue_,
+  };
+  struct Variable {
+    std::string_view name;
+    Type type;
+    bool constant = false;
+    ExpressionPtr initial;  ///< May be null.
+    Place place;
+  };
+  Kind kind = Kind::block;
+  Place place;
+  ExpressionPtr condition;
+  ExpressionPtr step;
+  std::vector<std::unique_ptr<Statement>> body;
+  std::vector<Variable> variables;
+  int cost = 0;
+  /// Holds a return, break or continue.
+  bool may_leave = false;
+  /// Names of variables that may be assigned in it.
+  std::set<std::string_view> assigned;
+};
+using StatementPtr = std::unique_ptr<Statement>;
+
+struct Function {
+  struct Parameter {
+    std::string_view name;
+    Type type;
+    bool in = true;
+    bool out = false;
+  };
+  std::string_view name;
+  Type type;
+  std::vector<Parameter> parameters;
+  StatementPtr body;  ///< Null: declared only.
+  Place place;
+  int cost = 1;
+  /// Uses derivatives or textures, here or in what it calls: stays in line.
+  bool stays_inline = false;
+};
+
+/// A text that was read.
+struct Syntax {
+  std::vector<std::unique_ptr<Struct>> structs;
+  std::vector<std::unique_ptr<Function>> functions;
+  std::vector<Statement::Variable> globals;
+  std::map<std::string_view, std::vector<const Function*>> by_name;
+};
+
+}  // namespace nacre::glsl

@@ -1,0 +1,23 @@
+#include "jit/graph/node_source.h"
+
+#include "jit/document/document.h"
+
+namespace nacre {
+
+NodeSource node_source(const NodeDef& def, const Element& implementation) {
+  NodeSource source;
+  source.nodedef = def.name;
+  source.file = implementation.attribute("file");
+  source.text = implementation.attribute("sourcecode");
+  source.function = implementation.attribute("function");
+  source.document = implementation.document().file_of(implementation);
+  source.where = location(implementation);
+  for (const NodeDefInput& input : def.inputs) {
+    if (!is_text(input.type) || input.enums.empty()) continue;
+    source.enums.emplace_back(input.name,
+                              std::vector<std::string>(input.enums.begin(), input.enums.end()));
+  }
+  return source;
+}
+
+}  // namespace nacre

@@ -1,0 +1,279 @@
+#include "jit/record/source_bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "nodes/texture2d/sampler.h"
+
+namespace nacre {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t max_file_bytes = std::uintmax_t{4} << 20;
+
+bool is_below(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const fs::path inner = fs::weakly_canonical(path, error);
+  const fs::path outer = fs::weakly_canonical(folder.empty() ? "." : folder, error);
+  const auto [end, ignored] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
+  return end == outer.end();
+}
+
+std::optional<std::string> read_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > max_file_bytes) {
+    return std::nullopt;
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+/// Looks for `name` in the folders, in order, and reads it; only below `allowed`.
+std::optional<glsl::Sources::File> find_source(const std::string& name,
+                                               const std::vector<fs::path>& folders,
+                                               const std::vector<fs::path>& allowed) {
+  for (const fs::path& folder : folders) {
+    const fs::path path = (folder / name).lexically_normal();
+    const bool may_read = std::any_of(allowed.begin(), allowed.end(),
+                                      [&](const fs::path& root) { return is_below(path, root); });
+    if (!may_read) continue;
+    if (std::optional<std::string> text = read_file(path)) {
+      return glsl::Sources::File{path.string(), std::move(*text)};
+    }
+  }
+  return std::nullopt;
+}
+
+/// "{{in1}}" as the name "__in1__", of one length, so that columns stay right.
+std::string with_names(std::string text) {
+  for (std::size_t at = text.find("{{"); at != std::string::npos; at = text.find("{{", at)) {
+    const std::size_t end = text.find("}}", at);
+    if (end == std::string::npos) break;
+    text.replace(at, 2, "__");
+    text.replace(end, 2, "__");
+  }
+  return text;
+}
+
+// -- Values of ports
+
+glsl::Type glsl_type(Type type) {
+  const auto vector = [](int rows) { return glsl::float_type.with_rows(rows); };
+  switch (type) {
+    case Type::boolean: return glsl::bool_type;
+    case Type::integer: return glsl::int_type;
+    case Type::float_: return glsl::float_type;
+    case Type::vector2: return vector(2);
+    case Type::color3:
+    case Type::vector3: return vector(3);
+    case Type::color4:
+    case Type::vector4: return vector(4);
+    case Type::matrix33: return {glsl::Base::number, 3, 3};
+    case Type::matrix44: return {glsl::Base::number, 4, 4};
+    case Type::filename: return {glsl::Base::sampler};
+    case Type::string:
+    case Type::geomname: return glsl::int_type;
+    default: return glsl::void_type;
+  }
+}
+
+int enum_index(const NodeSource& source, std::string_view input, const std::string& text) {
+  for (const auto& [name, values] : source.enums) {
+    const auto found = std::find(values.begin(), values.end(), text);
+    if (name == input && found != values.end()) return static_cast<int>(found - values.begin());
+  }
+  return 0;
+}
+
+glsl::Value argument(const NodeSource& source, const NodeCall::Port& port) {
+  glsl::Value value{glsl_type(port.value.type), port.value.parts, {}};
+  if (port.value.type == Type::filename) {
+    value.text = port.value.text;
+  } else if (is_text(port.value.type)) {
+    value.parts = {Ref::literal(enum_index(source, port.name, port.value.text))};
+  }
+  return value;
+}
+
+glsl::TextureLookup texture_lookup(NodeCall& call) {
+  return [&call](const std::string& image, const glsl::Value& uv, const glsl::Value* ddx,
+                 const glsl::Value*) -> std::optional<glsl::Value> {
+    // Footprints are derived from uv itself; others cannot be given.
+    if (ddx != nullptr) return std::nullopt;
+    const ImageLookup lookup{.uv = {uv.number(0), uv.number(1)}};
+    const TextureSources images =
+        call.textures() == nullptr ? TextureSources{} : call.textures()->find(image, "");
+    const Float4 texel = sample_images(call.recorder(), images, lookup);
+    return glsl::Value{glsl::float_type.with_rows(4),
+                       {texel.x.ref(), texel.y.ref(), texel.z.ref(), texel.w.ref()},
+                       {}};
+  };
+}
+
+std::string type_text(Type type) { return std::string(type_name(type)); }
+
+bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string message,
+            std::string expected, std::string found) {
+  diagnostics.error("source-misfit", source.where, std::move(message), std::move(expected),
+                    std::move(found));
+  return false;
+}
+
+bool record_expression(const NodeSource& source, const glsl::Module& module, NodeCall& call) {
+  std::vector<std::string> names;
+  for (const NodeCall::Port& port : call.inputs()) names.push_back(fmt::format("__{}__", port.name));
+  std::vector<std::pair<std::string_view, glsl::Value>> values;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    values.emplace_back(names[i], argument(source, call.inputs()[i]));
+  }
+  const auto result = module.record_expression(values, call.recorder(), call.diagnostics());
+  if (!result) return false;
+  const glsl::Type wanted = glsl_type(call.out_type());
+  if (!glsl::converts(result->type, wanted)) {
+    return misfit(source, call.diagnostics(), "the expression has another type than the output",
+                  to_string(wanted) + " for " + type_text(call.out_type()),
+                  to_string(result->type));
+  }
+  call.set(glsl::convert(*result, wanted).parts);
+  return true;
+}
+
+/// A function may also return its only output.
+bool record_function(const NodeSource& source, const glsl::Module& module, NodeCall& call) {
+  const glsl::Function* function = module.function(source.function);
+  if (function == nullptr) {
+    return misfit(source, call.diagnostics(), "the text does not define the function",
+                  "'" + source.function + "'", "no such function");
+  }
+  const bool returns = !function->type.is_void();
+  const std::size_t inputs = call.inputs().size();
+  const std::size_t wanted = inputs + (returns ? 0 : call.outputs().size());
+  if (function->parameters.size() != wanted) {
+    return misfit(
+        source, call.diagnostics(),
+        "function '" + source.function + "' must take the node's inputs, then its outputs",
+        fmt::format("{} parameters", wanted), fmt::format("{}", function->parameters.size()));
+  }
+  std::vector<glsl::Value> arguments;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const bool is_input = i < inputs;
+    const NodeCall::Port& port = is_input ? call.inputs()[i] : call.outputs()[i - inputs];
+    const glsl::Function::Parameter& parameter = function->parameters[i];
+    const glsl::Type type = glsl_type(port.value.type);
+    const bool fits = is_input ? parameter.in && glsl::converts(type, parameter.type)
+                               : parameter.out && parameter.type == type;
+    if (!fits) {
+      return misfit(source, call.diagnostics(),
+                    fmt::format("parameter {} of function '{}' does not fit {} '{}'", i + 1,
+                                source.function, is_input ? "input" : "output", port.name),
+                    (is_input ? "" : "out ") + to_string(type),
+                    (parameter.out ? "out " : "") + to_string(parameter.type));
+    }
+    arguments.push_back(is_input ? glsl::convert(argument(source, port), parameter.type)
+                                 : glsl::zero(type));
+  }
+  const auto result = module.record(*function, std::move(arguments), call.recorder(),
+                                    call.diagnostics(), texture_lookup(call));
+  if (!result) return false;
+  if (returns) {
+    const glsl::Type type = glsl_type(call.out_type());
+    if (result->value.type != type || call.outputs().size() != 1) {
+      return misfit(source, call.diagnostics(), "the function returns another type than the output",
+                    to_string(type), to_string(result->value.type));
+    }
+    call.set(result->value.parts);
+    return true;
+  }
+  for (std::size_t i = 0; i < call.outputs().size(); ++i) {
+    call.set(call.outputs()[i].name, result->outputs[inputs + i].parts);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool SourceBodies::record(const NodeSource& source, NodeCall& call) {
+  const std::shared_ptr<const glsl::Module> module = module_of(source, call.diagnostics());
+  if (module == nullptr) return false;
+  return source.function.empty() ? record_expression(source, *module, call)
+                                 : record_function(source, *module, call);
+}
+
+bool SourceBodies::check(const NodeSource& source, const NodeDef& def, Diagnostics& diagnostics) {
+  Recorder recorder;
+  std::vector<NodeCall::Port> inputs;
+  for (const NodeDefInput& input : def.inputs) {
+    NodeCall::Port port{std::string(input.name), {}};
+    port.value.type = input.type;
+    const Scalar scalar = input.type == Type::integer   ? Scalar::i32
+                          : input.type == Type::boolean ? Scalar::b1
+                                                        : Scalar::f32;
+    for (int i = 0; i < component_count(input.type); ++i) {
+      port.value.parts.push_back(recorder.input(fmt::format("{}.{}", port.name, i), scalar));
+    }
+    inputs.push_back(std::move(port));
+  }
+  std::vector<NodeCall::Port> outputs;
+  for (const NodeDefOutput& output : def.outputs) {
+    outputs.push_back({std::string(output.name), {}});
+    outputs.back().value.type = output.type;
+  }
+  NodeCall call(recorder, def.category, def.name, std::move(inputs), std::move(outputs),
+                Accuracy::standard, nullptr, diagnostics, source.where);
+  return record(source, call);
+}
+
+std::shared_ptr<const glsl::Module> SourceBodies::module_of(const NodeSource& source,
+                                                            Diagnostics& diagnostics) {
+  const std::string key = source.document + '\n' + source.file + '\n' + source.text;
+  const std::lock_guard lock(mutex_);
+  const auto found = modules_.find(key);
+  if (found != modules_.end()) return found->second;
+  std::shared_ptr<const glsl::Module> module = read(source, diagnostics);
+  // A faulty text is read again, to complain again.
+  if (module != nullptr) modules_.emplace(key, module);
+  return module;
+}
+
+std::shared_ptr<const glsl::Module> SourceBodies::read(const NodeSource& source,
+                                                       Diagnostics& diagnostics) {
+  const fs::path home = fs::path(source.document).parent_path();
+  std::vector<fs::path> allowed{home};
+  allowed.insert(allowed.end(), roots_.begin(), roots_.end());
+  glsl::PreprocessOptions options;
+  options.find_include = [&](const std::string& name, const std::string& from) {
+    std::vector<fs::path> folders{fs::path(from).parent_path()};
+    folders.insert(folders.end(), allowed.begin(), allowed.end());
+    return find_source(name, folders, allowed);
+  };
+  const std::string name = fmt::format("{}:{}", source.where.file, source.where.line);
+  if (source.file.empty()) {
+    if (source.function.empty()) {
+      return glsl::Module::read_expression(name, with_names(source.text), diagnostics);
+    }
+    return glsl::Module::read(name, source.text, options, diagnostics);
+  }
+  if (source.function.empty()) {
+    misfit(source, diagnostics, "the implementation names a file but no function",
+           "an attribute 'function'", "none");
+    return nullptr;
+  }
+  std::optional<glsl::Sources::File> file = find_source(source.file, allowed, allowed);
+  if (!file) {
+    diagnostics.error("missing-source", source.where,
+                      "the file of the implementation was not found",
+                      "a file below the document's folder or a library's", source.file);
+    return nullptr;
+  }
+  return glsl::Module::read(file->name, std::move(file->text), options, diagnostics);
+}
+
+}  // namespace nacre

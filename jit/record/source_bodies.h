@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "jit/document/nodedef.h"
+#include "jit/glsl/module.h"
+#include "jit/graph/graph.h"
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+/// Runs nodes whose implementation is a text of the GLSL subset. Each text is
+/// read once; may be used from any thread.
+///
+/// How a node becomes a call follows MaterialX's GLSL generator: the inputs in
+/// the nodedef's order, then the outputs; colours and vectors as vecN, matrices
+/// as matN whose columns are MaterialX's rows, a string as the index of its
+/// value among those allowed (else 0), a file name as sampler2D.
+class SourceBodies {
+ public:
+  /// `roots`: folders in which included files are looked for after the folder of
+  /// the including file and that of the document. Nothing outside the roots and
+  /// the document's folder is read.
+  explicit SourceBodies(std::vector<std::filesystem::path> roots = {}) : roots_(std::move(roots)) {}
+
+  /// Records the node and sets its outputs. False, with a diagnostic, for a
+  /// text that cannot be read or does not fit the node.
+  bool record(const NodeSource& source, NodeCall& call);
+
+  /// Records the node on its own, every number unknown, to find what is wrong
+  /// with the text.
+  bool check(const NodeSource& source, const NodeDef& def, Diagnostics& diagnostics);
+
+ private:
+  std::shared_ptr<const glsl::Module> module_of(const NodeSource& source, Diagnostics& diagnostics);
+  std::shared_ptr<const glsl::Module> read(const NodeSource& source, Diagnostics& diagnostics);
+
+  std::vector<std::filesystem::path> roots_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const glsl::Module>> modules_;
+};
+
+}  // namespace nacre

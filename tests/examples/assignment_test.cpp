@@ -1,0 +1,74 @@
+#include "examples/tool/assignment.h"
+
+#include <gtest/gtest.h>
+
+#include "jit/document/read.h"
+
+namespace nacre::tool {
+namespace {
+
+constexpr std::string_view text = R"(<materialx version="1.39">
+  <surfacematerial name="M1" type="material"/>
+  <surfacematerial name="M2" type="material"/>
+  <surfacematerial name="M3" type="material"/>
+  <collection name="doors" includegeom="/car//door_{left,right}" excludegeom="/car/wreck"/>
+  <geominfo name="g" geom="/car"><token name="id" type="string" value="red"/></geominfo>
+  <look name="first"><materialassign name="a" material="M1" geom="/"/></look>
+  <look name="second" inherit="first">
+    <materialassign name="a" material="M2" collection="doors"/>
+    <materialassign name="b" material="M3" geom="Glass">
+      <variantassign name="v" variantset="tint" variant="dark"/>
+    </materialassign>
+    <visibility name="c" geom="/car/body" vistype="camera" visible="false"/>
+    <visibility name="d" geom="/car/wreck" visible="false"/>
+  </look>
+  <lookgroup name="looks" looks="first, second" default="second"/>
+</materialx>)";
+
+class AssignMaterials : public ::testing::Test {
+ protected:
+  MeshAssignment assign(const std::string& path, const std::string& material_name,
+                        const AssignmentOptions& options = {}) {
+    const auto document = read_document_text(text, "test.mtlx", {}, diagnostics_);
+    host::Scene scene;
+    host::Mesh& mesh = scene.meshes.emplace_back();
+    mesh.path = path;
+    mesh.object_name = mesh.mesh_name = path.substr(path.rfind('/') + 1);
+    mesh.material_name = material_name;
+    return assign_materials(*document, scene, options, diagnostics_).at(0);
+  }
+
+  Diagnostics diagnostics_;
+};
+
+TEST_F(AssignMaterials, ByTheDefaultLooksCollectionsAndNames) {
+  EXPECT_EQ(assign("/car/body", "").material, "M1");
+  EXPECT_EQ(assign("/car/front/door_left", "").material, "M2");
+  EXPECT_EQ(assign("/car/wreck/door_left", "").material, "M1");
+  EXPECT_EQ(assign("/bus/window", "Glass").material, "M3");
+  EXPECT_EQ(assign("/bus/window", "Glass").variants.at(0).variant, "dark");
+  EXPECT_TRUE(diagnostics_.all().empty()) << diagnostics_.to_string();
+}
+
+TEST_F(AssignMaterials, OptionsAreStrongerThanLooks) {
+  AssignmentOptions options;
+  options.look = "first";
+  EXPECT_EQ(assign("/car/front/door_left", "", options).material, "M1");
+  options.look = "looks";
+  options.assigns = {"door_left=M3"};
+  EXPECT_EQ(assign("/car/front/door_left", "", options).material, "M3");
+  options.look = "third";
+  assign("/car", "", options);
+  EXPECT_EQ(diagnostics_.error_count(), 1u);
+}
+
+TEST_F(AssignMaterials, LooksHideMeshesAndGiveTokens) {
+  EXPECT_EQ(assign("/car/body", "").visible_to, host::ray_shadow | host::ray_secondary);
+  EXPECT_EQ(assign("/car/wreck/door_left", "").visible_to, 0u);
+  EXPECT_EQ(assign("/bus", "").visible_to, host::ray_any);
+  EXPECT_EQ(assign("/car/body", "").tokens.at("id"), "red");
+  EXPECT_NE(assign("/car/body", "").key(), assign("/bus", "").key());
+}
+
+}  // namespace
+}  // namespace nacre::tool
