@@ -128,6 +128,7 @@ int run(const BakeOptions& options) {
   if (options.document.empty()) {
     bake_outputs(options, opened, settings, shader, stop.token(), diagnostics);
   } else {
+    shader.graph.working_space = "lin_rec709";  // What the textures are tagged with.
     const DocumentBake bake{options.document,
                             wanted_materials(options, *opened.document, diagnostics),
                             options.out,

@@ -1,5 +1,6 @@
 #include <optional>
 #include <string>
+#include <unordered_set>
 
 #include "jit/document/upgrade/scope.h"
 #include "jit/document/upgrade/steps.h"
@@ -74,10 +75,11 @@ void make_shader(const Upgrade& upgrade, Element& reference, const ShaderNode& s
   make_bindings_inputs(reference);
 }
 
-void connect_shader(const Upgrade& upgrade, Element& material, const Element& shader) {
+void connect_shader(const Upgrade& upgrade, Element& material, const Element& shader,
+                    std::unordered_set<std::string_view>& connected) {
   const std::string_view type = shader.attribute("type");
   if (type == "volumeshader") Document::set_category(material, "volumematerial");
-  if (input_of(material, type) != nullptr) return;  // The first one stays.
+  if (!connected.insert(type).second) return;  // The first one stays.
   Element& input = add_input(upgrade.document, material, type, type, shader);
   upgrade.document.set_attribute(input, "nodename", shader.name());
 }
@@ -89,6 +91,7 @@ void replace_material(const Upgrade& upgrade, Scope& scope, Element& material) {
   const std::vector<Element*> children = children_of(material);
   remove_children(document, material,
                   [](const Element& child) { return child.category() == "shaderref"; });
+  std::unordered_set<std::string_view> connected;
   for (Element* reference : children) {
     if (reference->category() != "shaderref") continue;
     const std::optional<ShaderNode> shader = shader_of(upgrade, *reference);
@@ -100,7 +103,7 @@ void replace_material(const Upgrade& upgrade, Scope& scope, Element& material) {
     const std::string name = scope.free_name(reference->name());
     make_shader(upgrade, *reference, *shader, name);
     scope.adopt(*reference, material);
-    connect_shader(upgrade, material, *reference);
+    connect_shader(upgrade, material, *reference, connected);
   }
 }
 

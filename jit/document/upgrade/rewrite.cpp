@@ -24,6 +24,15 @@ void Upgrade::find_nodedefs() {
   }
 }
 
+bool Upgrade::spend(std::size_t steps, const Element& where) const {
+  constexpr std::size_t most = 10'000'000;
+  if (spent_ > most) return false;
+  spent_ += steps;
+  if (spent_ <= most) return true;
+  cannot_upgrade(*this, where, "the upgrade takes too many steps");
+  return false;
+}
+
 std::vector<Element*> elements_of(Element& root) {
   std::vector<Element*> all{&root};
   for (std::size_t i = 0; i < all.size(); ++i) {

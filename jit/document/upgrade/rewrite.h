@@ -25,6 +25,12 @@ struct Upgrade {
       : document(document_), root(root_), diagnostics(diagnostics_) {}
   /// Looks for the nodedefs again.
   void find_nodedefs();
+  /// Counts steps whose number may be the square of the file's size. False, with
+  /// an error at `where` the first time, once there were too many.
+  bool spend(std::size_t steps, const Element& where) const;
+
+ private:
+  mutable std::size_t spent_ = 0;
 };
 
 /// All elements of the file, parents before children, as they are now.

@@ -9,10 +9,6 @@ namespace nacre::upgrading {
 
 namespace {
 
-// Visits of closures below films, in one file: a film over everything is common,
-// films over films over films are a way to exhaust the machine.
-constexpr std::size_t most_visits = 1'000'000;
-
 bool has_film_inputs(const Element& node) {
   return node.category() == "dielectric_bsdf" || node.category() == "conductor_bsdf" ||
          node.category() == "generalized_schlick_bsdf";
@@ -21,8 +17,8 @@ bool has_film_inputs(const Element& node) {
 /// A film of one graph on its way into the closures that it covers.
 class Films {
  public:
-  Films(const Upgrade& upgrade, Scope& scope, std::size_t& visits)
-      : upgrade_(upgrade), document_(upgrade.document), scope_(scope), visits_(visits) {}
+  Films(const Upgrade& upgrade, Scope& scope)
+      : upgrade_(upgrade), document_(upgrade.document), scope_(scope) {}
 
   void replace_all() {
     for (Element* node : scope_.children()) {
@@ -56,10 +52,8 @@ class Films {
     while (!open.empty()) {
       Element& node = *open.back();
       open.pop_back();
-      if (++visits_ > most_visits) {
-        cannot_upgrade(upgrade_, layer, "too many closures lie below thin films");
-        return;
-      }
+      // Films over films over films are a way to exhaust the machine.
+      if (!upgrade_.spend(1 + node.child_count() + film.child_count(), layer)) return;
       if (has_film_inputs(node)) apply(film, node);
       for (const Element* input : children_of(node)) {
         if (input->category() != "input") continue;
@@ -118,7 +112,6 @@ class Films {
   const Upgrade& upgrade_;
   Document& document_;
   Scope& scope_;
-  std::size_t& visits_;
   std::unordered_map<std::string_view, std::string_view> bypass_;  // layer to base
   std::unordered_set<Element*> films_;
 };
@@ -136,10 +129,9 @@ void report_the_rest(const Upgrade& upgrade, Element& graph) {
 }  // namespace
 
 void replace_thin_film(const Upgrade& upgrade) {
-  std::size_t visits = 0;
   for (Element* graph : graphs_of(upgrade.root)) {
     Scope scope(upgrade.document, *graph);
-    Films(upgrade, scope, visits).replace_all();
+    Films(upgrade, scope).replace_all();
     scope.finish();
     report_the_rest(upgrade, *graph);
   }

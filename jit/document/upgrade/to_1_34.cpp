@@ -76,6 +76,7 @@ void bind_graphs(const Upgrade& upgrade, Element& material) {
     if (reference->category() != "shaderref") continue;
     Element* nodedef = nodedef_of_shaderref(upgrade, *reference);
     if (nodedef == nullptr) continue;
+    if (!upgrade.spend(nodedef->child_count(), *reference)) return;
     const std::unordered_set<std::string_view> bound = names_of(*reference);
     for (const Element* input : children_of(*nodedef)) {
       if (!input->has_attribute("opgraph") || !input->has_attribute("graphoutput")) continue;

@@ -39,6 +39,7 @@ void apply_overrides(const Upgrade& upgrade, Element& material) {
     if (reference->category() != "shaderref") continue;
     Element* nodedef = nodedef_of_shaderref(upgrade, *reference);
     if (nodedef == nullptr) continue;
+    if (!upgrade.spend(nodedef->child_count(), *reference)) return;
     const std::unordered_set<std::string_view> bound = names_of(*reference);
     for (const Element* input : children_of(*nodedef)) {
       const auto found = overrides.find(input->attribute("publicname"));
