@@ -9,6 +9,7 @@
 
 #include "jit/document/document.h"
 #include "jit/document/nodedef.h"
+#include "jit/document/struct_type.h"
 
 namespace nacre {
 
@@ -36,6 +37,9 @@ class Definitions {
   /// or by an <implementation>; null if there is none.
   const Element* graph_of(const NodeDef& def) const;
 
+  /// The <typedef> of that name if it has members, or null.
+  const StructType* struct_type(std::string_view name) const;
+
   /// The <geompropdef> of that name, or null.
   const Element* geompropdef(std::string_view name) const;
 
@@ -51,6 +55,10 @@ class Definitions {
   const Element* resolve(std::string_view name, const Element& user) const;
 
  private:
+  void read_structs(Diagnostics& diagnostics);
+  bool add_leaves(const Element& definition, const std::string& path, int depth,
+                  StructType& type) const;
+  void expand_structs(NodeDef& def, Diagnostics& diagnostics);
   void read_nodedefs(Diagnostics& diagnostics);
   void apply_inheritance(Diagnostics& diagnostics);
   void read_implementations();
@@ -60,6 +68,8 @@ class Definitions {
   const Document& document_;
   const Definitions* base_;
   std::deque<NodeDef> nodedefs_;
+  std::deque<std::string> texts_;  ///< Names and types of leaves.
+  std::unordered_map<std::string_view, StructType> structs_;
   std::unordered_map<std::string_view, NodeDef*> by_name_;
   std::unordered_map<std::string_view, std::vector<const NodeDef*>> by_category_;
   std::unordered_map<const NodeDef*, const Element*> graphs_;
