@@ -48,6 +48,11 @@ void CommonOptions::add_compile(CLI::App& command) {
   command.add_option("--threads", threads, "Threads (default: all)")->check(CLI::NonNegativeNumber);
   command.add_option("--cache", cache, "Folder of compiled kernels (default: in the user's cache)")
       ->type_name("DIR");
+  command
+      .add_option("--working-space", working_space,
+                  "Colour space to compute in; \"\": the one the document's root names")
+      ->type_name("NAME")
+      ->capture_default_str();
   command.add_flag("--no-cache", no_cache, "Neither read nor write compiled kernels");
 }
 
@@ -66,6 +71,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.accuracy = parsed_accuracy();
   options.compile.backend = parsed_backend();
   options.compile.lanes = lanes;
+  options.graph.working_space = working_space;
   for (const std::string& path : search_paths) options.search_paths.emplace_back(path);
   return options;
 }

@@ -152,18 +152,22 @@ void Definitions::apply_inheritance(Diagnostics& diagnostics) {
 }
 
 void Definitions::read_implementations() {
-  for (const Element& element : document_.root().children()) {
-    const bool is_graph = element.category() == "nodegraph";
-    if (!is_graph && element.category() != "implementation") continue;
-    const std::string_view def_name = element.attribute("nodedef");
-    if (def_name.empty() || !is_for_us(element.attribute("target"))) continue;
-    const NodeDef* def = resolve_nodedef(def_name, element);
-    const Element* graph = &element;
-    if (!is_graph) {
-      graph = resolve(element.attribute("nodegraph"), element);
-      if (graph == nullptr || graph->category() != "nodegraph") continue;
+  // Those for this target come before those for all.
+  for (const bool targeted : {true, false}) {
+    for (const Element& element : document_.root().children()) {
+      const bool is_graph = element.category() == "nodegraph";
+      if (!is_graph && element.category() != "implementation") continue;
+      const std::string_view target = element.attribute("target");
+      const std::string_view def_name = element.attribute("nodedef");
+      if (def_name.empty() || target.empty() == targeted || !is_for_us(target)) continue;
+      const NodeDef* def = resolve_nodedef(def_name, element);
+      const Element* graph = &element;
+      if (!is_graph) {
+        graph = resolve(element.attribute("nodegraph"), element);
+        if (graph == nullptr || graph->category() != "nodegraph") continue;
+      }
+      if (def != nullptr) graphs_.emplace(def, graph);
     }
-    if (def != nullptr) graphs_.emplace(def, graph);
   }
 }
 
