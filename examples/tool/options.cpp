@@ -90,6 +90,11 @@ void CommonOptions::add_compile(CLI::App& command) {
   command.add_option("--threads", threads, "Threads (default: all)")->check(CLI::NonNegativeNumber);
   command.add_option("--cache", cache, "Folder of compiled kernels (default: in the user's cache)")
       ->type_name("DIR");
+  command
+      .add_option("--working-space", working_space,
+                  "Colour space to compute in; \"\": the one the document's root names")
+      ->type_name("NAME")
+      ->capture_default_str();
   command.add_flag("--no-cache", no_cache, "Neither read nor write compiled kernels");
 }
 
@@ -113,6 +118,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.graph.prefer = graph_limits.prefer;
   options.graph.max_nodes = graph_limits.max_nodes;
   options.graph.max_inputs = graph_limits.max_inputs;
+  options.graph.working_space = working_space;
   for (const std::string& path : search_paths) options.search_paths.emplace_back(path);
   return options;
 }

@@ -22,6 +22,7 @@ struct CommonOptions {
   std::vector<std::string> search_paths;
   std::string accuracy = "standard";
   std::string backend = "jit";
+  std::string working_space = "lin_rec709";
   int lanes = 0;
   int threads = 0;
   bool no_cache = false;

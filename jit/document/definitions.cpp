@@ -5,21 +5,116 @@
 #include <algorithm>
 #include <charconv>
 
+#include "jit/document/value_text.h"
+
 namespace nacre {
 
 Definitions::Definitions(const Document& document, const Definitions* base,
                          Diagnostics& diagnostics)
     : document_(document), base_(base) {
+  read_structs(diagnostics);
   read_nodedefs(diagnostics);
   apply_inheritance(diagnostics);
   read_implementations();
   read_units();
 }
 
+void Definitions::read_structs(Diagnostics& diagnostics) {
+  for (const Element& element : document_.root().children()) {
+    if (element.category() != "typedef") continue;
+    StructType type{element.name(), {}};
+    if (!add_leaves(element, "", 0, type)) {
+      diagnostics.error("bad-typedef", location(element),
+                        "a member has no type, or the structure contains itself or too much",
+                        "members of known types");
+    } else if (!type.leaves.empty()) {
+      structs_.emplace(type.name, std::move(type));
+    }
+  }
+}
+
+// Members that are structures may be declared later, or in the library: by name.
+bool Definitions::add_leaves(const Element& definition, const std::string& path, int depth,
+                             StructType& type) const {
+  constexpr int max_depth = 16;
+  constexpr std::size_t max_leaves = 4096;
+  for (const Element& member : definition.children()) {
+    if (member.category() != "member") continue;
+    const std::string_view type_name = member.attribute("type");
+    const std::string member_path = path + '.' + std::string(member.name());
+    if (const auto known = parse_type(type_name)) {
+      type.leaves.push_back({member_path, *known, std::string(member.attribute("value"))});
+    } else {
+      const Element* inner = resolve(type_name, member);
+      if (inner == nullptr || inner->category() != "typedef" || depth == max_depth) return false;
+      const std::size_t first = type.leaves.size();
+      if (!add_leaves(*inner, member_path, depth + 1, type)) return false;
+      // What the member says of the whole is stronger than what its type says.
+      const auto values = split_struct_value(member.attribute("value"));
+      for (std::size_t i = 0; values && first + i < type.leaves.size() && i < values->size(); ++i) {
+        type.leaves[first + i].default_text = (*values)[i];
+      }
+    }
+    if (type.leaves.size() > max_leaves) return false;
+  }
+  return true;
+}
+
+void Definitions::expand_structs(NodeDef& def, Diagnostics& diagnostics) {
+  const auto expand = [&](auto& ports, std::string_view value_attribute) {
+    auto old = std::move(ports);
+    ports.clear();
+    for (auto& port : old) {
+      const StructType* type = port.type == Type::none ? struct_type(port.type_text) : nullptr;
+      if (type == nullptr) {
+        ports.push_back(std::move(port));
+        continue;
+      }
+      const std::string_view text = port.element->attribute(value_attribute);
+      const auto values = split_struct_value(text);
+      if (!text.empty() && (!values || values->size() != type->leaves.size())) {
+        diagnostics.error(
+            "bad-value", location(*port.element),
+            fmt::format("the {} does not fit the type {}", value_attribute, type->name),
+            fmt::format("{} members", type->leaves.size()), fmt::format("'{}'", text));
+      }
+      for (std::uint32_t i = 0; i < type->leaves.size(); ++i) {
+        const StructType::Leaf& leaf = type->leaves[i];
+        auto part = port;
+        part.name = texts_.emplace_back(std::string(port.name) + leaf.path);
+        part.type = leaf.type;
+        part.type_text = type_name(leaf.type);
+        part.member = {port.name, type->name, i + 1};
+        const std::string_view part_text =
+            values && i < values->size() ? (*values)[i] : std::string_view(leaf.default_text);
+        part.default_value = zero_value(leaf.type);
+        if (auto value = parse_value(leaf.type, part_text)) part.default_value = std::move(*value);
+        part.has_default = true;
+        ports.push_back(std::move(part));
+      }
+    }
+  };
+  const auto is_struct = [&](const auto& port) {
+    return port.type == Type::none && struct_type(port.type_text) != nullptr;
+  };
+  if (std::any_of(def.inputs.begin(), def.inputs.end(), is_struct)) expand(def.inputs, "value");
+  if (std::any_of(def.outputs.begin(), def.outputs.end(), is_struct))
+    expand(def.outputs, "default");
+}
+
+const StructType* Definitions::struct_type(std::string_view name) const {
+  if (base_ != nullptr) {
+    if (const StructType* type = base_->struct_type(name)) return type;
+  }
+  const auto found = structs_.find(name);
+  return found == structs_.end() ? nullptr : &found->second;
+}
+
 void Definitions::read_nodedefs(Diagnostics& diagnostics) {
   for (const Element& element : document_.root().children()) {
     if (element.category() == "nodedef" && !element.name().empty()) {
       NodeDef& def = nodedefs_.emplace_back(read_nodedef(element, diagnostics));
+      expand_structs(def, diagnostics);
       by_name_.emplace(def.name, &def);
     } else if (element.category() == "geompropdef") {
       geompropdefs_.emplace(element.name(), &element);
@@ -57,34 +152,39 @@ void Definitions::apply_inheritance(Diagnostics& diagnostics) {
 }
 
 void Definitions::read_implementations() {
-  for (const Element& element : document_.root().children()) {
-    const bool is_graph = element.category() == "nodegraph";
-    if (!is_graph && element.category() != "implementation") continue;
-    const std::string_view def_name = element.attribute("nodedef");
-    if (def_name.empty()) continue;
-    const std::string_view targets = element.attribute("target");
-    const bool is_text = element.has_attribute("file") || element.has_attribute("sourcecode");
-    if (is_text && (is_for_us(targets) || is_for_us(targets, source_target))) {
-      const NodeDef* def = resolve_nodedef(def_name, element);
-      if (def == nullptr) continue;
-      // One made for us goes before one made for GLSL, then the first.
-      const auto [place, is_new] = sources_.emplace(def, &element);
-      const bool is_ours = !targets.empty() && is_for_us(targets);
-      if (!is_new && is_ours && !is_for_us(place->second->attribute("target"))) {
-        place->second = &element;
-      }
-      continue;
+  // Those for this target come before those for all.
+  for (const bool targeted : {true, false}) {
+    for (const Element& element : document_.root().children()) {
+      const bool is_graph = element.category() == "nodegraph";
+      if (!is_graph && element.category() != "implementation") continue;
+      const std::string_view target = element.attribute("target");
+      if (target.empty() != targeted) read_implementation(element);
     }
-    const NodeDef* def = resolve_nodedef(def_name, element);
-    const Element* graph = &element;
-    if (!is_graph) {
-      graph = resolve(element.attribute("nodegraph"), element);
-      if (graph == nullptr || graph->category() != "nodegraph") continue;
-    }
-    if (def == nullptr) continue;
-    implemented_.emplace(graph, def);
-    if (is_for_us(element.attribute("target"))) graphs_.emplace(def, graph);
   }
+}
+
+void Definitions::read_implementation(const Element& element) {
+  const std::string_view def_name = element.attribute("nodedef");
+  const std::string_view targets = element.attribute("target");
+  const NodeDef* def = def_name.empty() ? nullptr : resolve_nodedef(def_name, element);
+  if (def == nullptr) return;
+  if (element.has_attribute("file") || element.has_attribute("sourcecode")) {
+    if (!is_for_us(targets) && !is_for_us(targets, source_target)) return;
+    // One made for us goes before one made for GLSL, then the first.
+    const auto [place, is_new] = sources_.emplace(def, &element);
+    const bool is_ours = !targets.empty() && is_for_us(targets);
+    if (!is_new && is_ours && !is_for_us(place->second->attribute("target"))) {
+      place->second = &element;
+    }
+    return;
+  }
+  const Element* graph = &element;
+  if (element.category() != "nodegraph") {
+    graph = resolve(element.attribute("nodegraph"), element);
+    if (graph == nullptr || graph->category() != "nodegraph") return;
+  }
+  implemented_.emplace(graph, def);
+  if (is_for_us(targets)) graphs_.emplace(def, graph);
 }
 
 void Definitions::read_units() {

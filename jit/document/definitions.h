@@ -9,6 +9,7 @@
 
 #include "jit/document/document.h"
 #include "jit/document/nodedef.h"
+#include "jit/document/struct_type.h"
 
 namespace nacre {
 
@@ -47,6 +48,9 @@ class Definitions {
   /// for whatever target; null for a compound graph.
   const NodeDef* implemented_by(const Element& graph) const;
 
+  /// The <typedef> of that name if it has members, or null.
+  const StructType* struct_type(std::string_view name) const;
+
   /// The <geompropdef> of that name, or null.
   const Element* geompropdef(std::string_view name) const;
 
@@ -62,15 +66,22 @@ class Definitions {
   const Element* resolve(std::string_view name, const Element& user) const;
 
  private:
+  void read_structs(Diagnostics& diagnostics);
+  bool add_leaves(const Element& definition, const std::string& path, int depth,
+                  StructType& type) const;
+  void expand_structs(NodeDef& def, Diagnostics& diagnostics);
   void read_nodedefs(Diagnostics& diagnostics);
   void apply_inheritance(Diagnostics& diagnostics);
   void read_implementations();
+  void read_implementation(const Element& element);
   void read_units();
   const NodeDef* resolve_nodedef(std::string_view name, const Element& user) const;
 
   const Document& document_;
   const Definitions* base_;
   std::deque<NodeDef> nodedefs_;
+  std::deque<std::string> texts_;  ///< Names and types of leaves.
+  std::unordered_map<std::string_view, StructType> structs_;
   std::unordered_map<std::string_view, NodeDef*> by_name_;
   std::unordered_map<std::string_view, std::vector<const NodeDef*>> by_category_;
   std::unordered_map<const NodeDef*, const Element*> graphs_;

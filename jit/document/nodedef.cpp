@@ -41,6 +41,7 @@ NodeDefInput read_input(const Element& element, Diagnostics& diagnostics) {
   NodeDefInput input;
   input.element = &element;
   input.name = element.name();
+  input.member.port = input.name;
   for (const Attribute& attribute : element.attributes()) {
     if (attribute.name == "type")
       input.type_text = attribute.value;
@@ -69,6 +70,7 @@ NodeDefOutput read_output(const Element& element, Diagnostics& diagnostics) {
   NodeDefOutput output;
   output.element = &element;
   output.name = element.name();
+  output.member.port = output.name;
   output.type_text = element.attribute("type");
   output.defaultinput = element.attribute("defaultinput");
   output.type = parse_type(output.type_text).value_or(Type::none);
@@ -137,7 +139,22 @@ const NodeDefOutput* NodeDef::output(std::string_view wanted) const {
   return nullptr;
 }
 
+std::string_view NodeDef::input_type(std::string_view port) const {
+  for (const NodeDefInput& input : inputs) {
+    if (input.member.port == port) {
+      return input.member.leaf == 0 ? input.type_text : input.member.struct_type;
+    }
+  }
+  return {};
+}
+
 std::string_view NodeDef::instance_type() const {
+  // The leaves of one structure are one output.
+  const bool is_one = !outputs.empty() && outputs.front().member.leaf != 0 &&
+                      std::all_of(outputs.begin(), outputs.end(), [&](const NodeDefOutput& each) {
+                        return each.member.port == outputs.front().member.port;
+                      });
+  if (is_one) return outputs.front().member.struct_type;
   return outputs.size() == 1 ? outputs.front().type_text : "multioutput";
 }
 

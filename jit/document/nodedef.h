@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,13 @@
 #include "runtime/value.h"
 
 namespace nacre {
+
+/// The leaf of a structure that a port is; for other ports `port` is the port's name.
+struct PortMember {
+  std::string_view port;  ///< "in" of the port "in.ss".
+  std::string_view struct_type;
+  std::uint32_t leaf = 0;  ///< 1 + its number among the leaves; 0: the port is no leaf.
+};
 
 struct NodeDefInput {
   std::string_view name;
@@ -27,6 +35,7 @@ struct NodeDefInput {
   std::string_view unit;
   std::string_view unit_type;
   std::string_view colorspace;  ///< Of the default: nearest up the tree.
+  PortMember member;
   /// For `doc`, `uiname`, `uimin`, `uisoftmax`, `uifolder` and the like.
   const Element* element = nullptr;
 };
@@ -60,6 +69,7 @@ struct NodeDefOutput {
   bool has_default = false;
   std::string_view default_geomprop;  ///< The default is this geometric property; "" if not.
   std::string_view defaultinput;  ///< Input that passes through when nothing implements the node.
+  PortMember member;
   const Element* element = nullptr;
 };
 
@@ -78,6 +88,9 @@ struct NodeDef {
 
   const NodeDefInput* input(std::string_view wanted) const;
   const NodeDefOutput* output(std::string_view wanted) const;
+  /// Type that an instance's input of that name has, structures included; "" if there
+  /// is no such input.
+  std::string_view input_type(std::string_view port) const;
   /// Type of an instance: that of the only output, else "multioutput".
   std::string_view instance_type() const;
 };

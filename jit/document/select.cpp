@@ -57,11 +57,11 @@ bool version_agrees(const NodeDef& def, std::string_view version) {
 const Element* first_misfit(const Element& instance, const NodeDef& def) {
   for (const Element& child : instance.children()) {
     if (child.category() != "input" || child.name().empty()) continue;
-    const NodeDefInput* input = def.input(child.name());
+    const std::string_view type = def.input_type(child.name());
     // Every node may be disabled, whether its nodedef says so or not.
     const bool disables = child.name() == "disable" && child.attribute("type") == "boolean";
-    if (input == nullptr && disables) continue;
-    if (input == nullptr || input->type_text != child.attribute("type")) return &child;
+    if (type.empty() && disables) continue;
+    if (type.empty() || type != child.attribute("type")) return &child;
   }
   return nullptr;
 }

@@ -36,6 +36,7 @@ class GraphBuild {
   GraphBuild(const Document& document, const Definitions& definitions, const GraphOptions& options,
              Diagnostics& diagnostics)
       : document_(document),
+        definitions_(definitions),
         diagnostics_(diagnostics),
         resolver_(document, definitions, options, diagnostics) {
     for (const VariantChoice& choice : options.variants) check_variant(choice);
@@ -59,6 +60,13 @@ class GraphBuild {
       if (only != nullptr) element = only;
     }
     if (element->category() == "output") {
+      if (const StructType* type = definitions_.struct_type(element->attribute("type"))) {
+        for (std::uint32_t i = 0; i < type->leaves.size(); ++i) {
+          add(name + type->leaves[i].path,
+              resolver_.resolve_port(*element, context_around(*element), i + 1));
+        }
+        return;
+      }
       add(name, resolver_.resolve_port(*element, context_around(*element)));
     } else if (is_node(*element) && element->parent() == &document_.root()) {
       add_node(name, *element);
@@ -180,6 +188,7 @@ class GraphBuild {
   }
 
   const Document& document_;
+  const Definitions& definitions_;
   Diagnostics& diagnostics_;
   Resolver resolver_;
 };

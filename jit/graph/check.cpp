@@ -310,13 +310,13 @@ class Checker {
 
   void check_outputs(const Element& graph, const NodeDef& def) {
     for (const NodeDefOutput& output : def.outputs) {
-      const Element* port = graph.child(output.name);
+      const Element* port = graph.child(output.member.port);
       if (port == nullptr || port->category() != "output") {
         error("missing-output", graph,
               fmt::format("the graph lacks an output of the nodedef '{}' that it implements",
                           def.name),
               fmt::format("output '{}'", output.name));
-      } else if (port->attribute("type") != output.type_text) {
+      } else if (output.member.leaf == 0 && port->attribute("type") != output.type_text) {
         error("type-mismatch", *port, "the output has another type than in the nodedef",
               std::string(output.type_text), std::string(port->attribute("type")));
       }

@@ -197,16 +197,21 @@ const Element* Resolver::input_element(const Instance& instance, std::string_vie
 }
 
 std::optional<std::uint32_t> Resolver::output_index(const NodeDef& def, std::string_view name,
-                                                    const Element& user) {
+                                                    const Element& user, std::uint32_t leaf) {
   if (name.empty()) {
     if (def.outputs.size() == 1) return 0;
+    // The leaves of one structure are one output.
+    if (leaf != 0 && leaf <= def.outputs.size() && def.instance_type() != "multioutput") {
+      return leaf - 1;
+    }
     error("output-required", user,
           fmt::format("'{}' has several outputs and none is named", def.category),
           "output=\"NAME\"");
     return std::nullopt;
   }
   for (std::uint32_t i = 0; i < def.outputs.size(); ++i) {
-    if (def.outputs[i].name == name) return i;
+    const PortMember& member = def.outputs[i].member;
+    if (member.port == name && member.leaf == leaf) return i;
   }
   std::string names;
   for (const NodeDefOutput& output : def.outputs) {

@@ -68,6 +68,36 @@ std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element&
                         element_path(carrier), carrier);
 }
 
+// One leaf of a structure that is written as a value, or of one that is not written.
+std::optional<Resolver::Key> Resolver::take_leaf(Frame& frame, const Element& carrier) {
+  Result& result = frame.result;
+  const StructType* type = definitions_of(carrier).struct_type(carrier.attribute("type"));
+  const std::size_t number = frame.key.index - 1;
+  const std::string_view text = carrier.attribute("value");
+  const auto values = split_struct_value(text);
+  const bool fits = type != nullptr && number < type->leaves.size() &&
+                    (text.empty() || (values && values->size() == type->leaves.size()));
+  std::optional<Value> value;
+  if (fits) {
+    const StructType::Leaf& leaf = type->leaves[number];
+    result.type = leaf.type;
+    value = parse_value(leaf.type,
+                        text.empty() ? std::string_view(leaf.default_text) : (*values)[number]);
+    if (!value && text.empty()) value = zero_value(leaf.type);
+  }
+  if (!value) {
+    error("bad-value", carrier,
+          fmt::format("the value does not fit the type {}", carrier.attribute("type")),
+          "a structure's members between braces", fmt::format("'{}'", text.substr(0, 200)));
+    result.failed = true;
+    return std::nullopt;
+  }
+  result.source.kind = Source::Kind::literal;
+  result.source.value = std::move(*value);
+  result.carrier = &carrier;
+  return std::nullopt;
+}
+
 Source Resolver::literal_or_parameter(const Element& carrier, Value value, std::string_view unit) {
   Source source;
   const bool is_live = is_numeric(value.type) && &carrier.document() == &document_ &&

@@ -114,8 +114,9 @@ void Resolver::report_cycle(const std::vector<Frame>& stack, const Key& again) {
   error("cycle", *where, "the connections form a cycle", "", path);
 }
 
-Resolver::Result Resolver::resolve_port(const Element& port, const Context* context) {
-  return run({Kind::port, 0, &port, context});
+Resolver::Result Resolver::resolve_port(const Element& port, const Context* context,
+                                        std::uint32_t leaf) {
+  return run({Kind::port, leaf, &port, context});
 }
 
 Resolver::Result Resolver::resolve_node(const Element& node, std::string_view output,

@@ -61,7 +61,7 @@ class Resolver {
   };
 
   /// What an <output> or an unowned <input> in a context comes to.
-  Result resolve_port(const Element& port, const Context* context);
+  Result resolve_port(const Element& port, const Context* context, std::uint32_t leaf = 0);
   /// An output of a node that stands in `context`, null at the root; "" for its only one.
   Result resolve_node(const Element& node, std::string_view output,
                       const Context* context = nullptr);
@@ -131,7 +131,7 @@ class Resolver {
   const Element* variant_child(std::string_view category, std::string_view name,
                                const Instance* instance) const;
   std::optional<std::uint32_t> output_index(const NodeDef& def, std::string_view name,
-                                            const Element& user);
+                                            const Element& user, std::uint32_t leaf = 0);
   bool is_native(const NodeDef& def) const;
   bool has_body(const NodeDef& def) const;
   bool runs_source(const NodeDef& def) const;
@@ -142,6 +142,7 @@ class Resolver {
   // Literals (literals.cpp).
   std::optional<Key> take_literal(Frame& frame, const Element& carrier, Type type,
                                   const Context* context);
+  std::optional<Key> take_leaf(Frame& frame, const Element& carrier);
   Source literal_or_parameter(const Element& carrier, Value value, std::string_view unit);
   Source filename_source(const Element& carrier, const Value& value, const Context* context);
   void choose_frame(GraphNode& node, const Element& user);

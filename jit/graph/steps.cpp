@@ -115,10 +115,10 @@ std::optional<Resolver::Key> Resolver::start_enabled_output(Frame& frame,
   }
   frame.stage = converted;
   if (graph != nullptr) {
-    const Element* port = graph->child(output.name);
+    const Element* port = graph->child(output.member.port);
     const Context* context = functional_context(instance, *graph);
     if (context != nullptr && port != nullptr && port->category() == "output") {
-      return Key{Kind::port, 0, port, context};
+      return Key{Kind::port, output.member.leaf, port, context};
     }
     if (context != nullptr) {
       error(
@@ -219,9 +219,9 @@ std::optional<Resolver::Key> Resolver::start_input(Frame& frame, const Instance&
     result.source = source;
     return std::nullopt;
   }
-  if (const Element* element = input_element(instance, input.name)) {
+  if (const Element* element = input_element(instance, input.member.port)) {
     frame.stage = received;
-    return Key{Kind::port, 0, element, instance.context};
+    return Key{Kind::port, input.member.leaf, element, instance.context};
   }
   if (!input.defaultgeomprop.empty()) {
     const Instance* geomprop = geomprop_instance(input.defaultgeomprop, *instance.origin);
@@ -252,7 +252,7 @@ std::optional<Resolver::Key> Resolver::check_input(Frame& frame, const Instance&
                                                    const NodeDefInput& input) {
   Result& result = frame.result;
   if (result.failed) return std::nullopt;
-  const Element& element = *input_element(instance, input.name);
+  const Element& element = *input_element(instance, input.member.port);
   if (may_be_string(input.type, result.type)) {
     result.type = input.type;
     result.source.value.type = input.type;
@@ -272,9 +272,11 @@ std::optional<Resolver::Key> Resolver::check_input(Frame& frame, const Instance&
 std::optional<Resolver::Key> Resolver::step_port(Frame& frame) {
   const Element& port = *static_cast<const Element*>(frame.key.subject);
   const Context* context = frame.key.context;
+  // Of a port whose type is a structure, one leaf: 1 + its number.
+  const std::uint32_t leaf = frame.key.index;
   if (frame.stage == received) {
     frame.result = waited(frame);
-    check_port_type(frame, port);
+    if (leaf == 0) check_port_type(frame, port);
     return std::nullopt;
   }
   if (frame.stage == converted) {
@@ -294,18 +296,19 @@ std::optional<Resolver::Key> Resolver::step_port(Frame& frame) {
       const Instance* instance = instance_of(*connection.target, context);
       const auto index = instance == nullptr
                              ? std::nullopt
-                             : output_index(*instance->def, connection.output, port);
+                             : output_index(*instance->def, connection.output, port, leaf);
       frame.result.failed = !index;
       if (!index) return std::nullopt;
       return Key{Kind::output, *index, instance, nullptr};
     }
     case Connection::Kind::output: {
       const Element& owner = *connection.target->parent();
-      if (owner.parent() == nullptr) return Key{Kind::port, 0, connection.target, nullptr};
+      if (owner.parent() == nullptr) return Key{Kind::port, leaf, connection.target, nullptr};
       const Context* outside = owner.parent()->parent() == nullptr ? nullptr : context;
-      return Key{Kind::port, 0, connection.target, compound_context(owner, outside)};
+      return Key{Kind::port, leaf, connection.target, compound_context(owner, outside)};
     }
     case Connection::Kind::value: {
+      if (leaf != 0) return take_leaf(frame, port);
       const auto type = parse_type(port.attribute("type"));
       if (!type) {
         error("unsupported-type", port, "the type is not supported", "a standard type",
@@ -328,13 +331,16 @@ std::optional<Resolver::Key> Resolver::follow_interface(Frame& frame, const Elem
   if (context != nullptr && context->instance != nullptr) {
     const std::vector<NodeDefInput>& inputs = context->def->inputs;
     for (std::uint32_t i = 0; i < inputs.size(); ++i) {
-      if (inputs[i].name == name) return Key{Kind::input, i, context->instance, nullptr};
+      if (inputs[i].member.port == name && inputs[i].member.leaf == frame.key.index) {
+        return Key{Kind::input, i, context->instance, nullptr};
+      }
     }
   } else {
     const Element& graph = context == nullptr ? port.document().root() : *context->graph;
     const Element* input = graph.child(name);
     if (input != nullptr && input->category() == "input") {
-      return Key{Kind::port, 0, input, context == nullptr ? nullptr : context->parent};
+      return Key{Kind::port, frame.key.index, input,
+                 context == nullptr ? nullptr : context->parent};
     }
   }
   error("unknown-interface", port, "the graph around it has no such input",
@@ -355,6 +361,7 @@ std::optional<Resolver::Key> Resolver::port_without_source(Frame& frame, const E
     frame.result.failed = true;
     return std::nullopt;
   }
+  if (frame.key.index != 0) return take_leaf(frame, port);
   const std::string_view geomprop_name = port.attribute("defaultgeomprop");
   if (!geomprop_name.empty()) {
     const Instance* geomprop = geomprop_instance(geomprop_name, port);

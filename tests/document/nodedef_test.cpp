@@ -166,6 +166,18 @@ TEST(Definitions, ImplementationNamesAGraph) {
   EXPECT_EQ(definitions.graph_of(*definitions.nodedef("ND_x")), document->root().child("NG_x"));
 }
 
+TEST(Definitions, ImplementationsForThisTargetComeFirst) {
+  Diagnostics diagnostics;
+  const auto document = document_of(R"(
+    <nodedef name="ND_x" node="x"><output name="out" type="float"/></nodedef>
+    <nodegraph name="NG_all" nodedef="ND_x"><output name="out" type="float"/></nodegraph>
+    <nodegraph name="NG_other" nodedef="ND_x" target="genglsl"/>
+    <nodegraph name="NG_ours" nodedef="ND_x" target="genosl, nacre"/>)",
+                                    diagnostics);
+  const Definitions definitions(*document, nullptr, diagnostics);
+  EXPECT_EQ(definitions.graph_of(*definitions.nodedef("ND_x"))->name(), "NG_ours");
+}
+
 TEST(Definitions, UnitsComeFromTheLibrary) {
   const Definitions& definitions = standard_library().definitions();
   EXPECT_EQ(definitions.unit("mile")->scale, 1609.344);

@@ -119,5 +119,103 @@ TEST(WorkingSpace, IsTheDocumentsIfTheHostSaysNothing) {
   EXPECT_GT(graph_of(body, {"out"}, {}, "colorspace=\"acescg\"").nodes.size(), 1u);
 }
 
+// "Custom Data Types": structures, nested and with defaults, through interfaces, graphs
+// and nodes. Each flows as its members, side by side.
+constexpr std::string_view structures = R"(
+  <typedef name="group"><member name="a" type="coord" value="{0.1; 0.2}"/>
+    <member name="b" type="coord"/><member name="tint" type="color3" value="1, 0.5, 0"/></typedef>
+  <typedef name="coord"><member name="s" type="float" value="0.5"/>
+    <member name="t" type="integer" value="7"/></typedef>
+  <nodedef name="ND_take" node="take">
+    <input name="in" type="group" value="{{1;2};{3;4};5,6,7}"/><output name="out" type="float"/>
+  </nodedef>
+  <nodedef name="ND_make" node="make">
+    <input name="x" type="float" value="0"/><output name="out" type="coord" default="{0.25;3}"/>
+  </nodedef>
+  <nodedef name="ND_takecoord" node="takecoord">
+    <input name="in" type="coord"/><output name="out" type="float"/>
+  </nodedef>
+  <nodedef name="ND_wrap" node="wrap">
+    <input name="g" type="group"/><output name="out" type="float"/>
+  </nodedef>
+  <nodegraph name="NG_wrap" nodedef="ND_wrap">
+    <take name="n" type="float"><input name="in" type="group" interfacename="g"/></take>
+    <output name="out" type="float" nodename="n"/>
+  </nodegraph>
+  <nodegraph name="NG">
+    <input name="c" type="coord" value="{8; 9}"/>
+    <takecoord name="n" type="float"><input name="in" type="coord" interfacename="c"/></takecoord>
+    <make name="m" type="coord"/>
+    <takecoord name="k" type="float"><input name="in" type="coord" nodename="m"/></takecoord>
+    <output name="out" type="float" nodename="n"/>
+    <output name="linked" type="float" nodename="k"/>
+    <output name="whole" type="coord" nodename="m"/>
+  </nodegraph>
+  <take name="plain" type="float"/>
+  <take name="set" type="float"><input name="in" type="group" value="{{0;1}; {2;3}; 4,5,6}"/></take>
+  <wrap name="wrapped" type="float"/>
+  <output name="plain_out" type="float" nodename="plain"/>
+  <output name="set_out" type="float" nodename="set"/>
+  <output name="wrapped_out" type="float" nodename="wrapped"/>)";
+
+GraphOptions all_but(std::string_view graph) {
+  GraphOptions options;
+  options.is_native = [graph](std::string_view name) { return name != graph; };
+  return options;
+}
+
+TEST(Structs, AreTheirMembersSideBySide) {
+  const auto text = [](const char* output) {
+    return text_of(structures, {output}, all_but("ND_wrap"));
+  };
+  EXPECT_EQ(text("plain_out"),
+            "%0 = ND_take(in.a.s=1, in.a.t=2, in.b.s=3, in.b.t=4, in.tint=[5, 6, 7]) : float\n"
+            "output \"plain_out\" float = %0\n");
+  EXPECT_EQ(text("set_out"),
+            "%0 = ND_take(in.a.s=0, in.a.t=1, in.b.s=2, in.b.t=3, in.tint=[4, 5, 6]) : float\n"
+            "output \"set_out\" float = %0\n");
+  // Without a value: what the members say, the outer ones first.
+  EXPECT_EQ(
+      text("wrapped_out"),
+      "%0 = ND_take(in.a.s=0.1, in.a.t=0, in.b.s=0.5, in.b.t=7, in.tint=[1, 0.5, 0]) : float\n"
+      "output \"wrapped_out\" float = %0\n");
+  EXPECT_EQ(text("NG/out"),
+            "%0 = ND_takecoord(in.s=8, in.t=9) : float\noutput \"NG/out\" float = %0\n");
+}
+
+TEST(Structs, FlowBetweenNodesAndOutOfGraphs) {
+  const Graph linked = graph_of(structures, {"NG/linked"}, all_but("ND_wrap"));
+  ASSERT_EQ(linked.nodes.size(), 2u);
+  EXPECT_EQ(linked.nodes[1].input("in.t")->source.kind, Source::Kind::link);
+  EXPECT_EQ(linked.nodes[1].input("in.t")->source.output, 1u);
+  const Graph whole = graph_of(structures, {"NG/whole"}, all_but("ND_wrap"));
+  ASSERT_EQ(whole.outputs.size(), 2u);
+  EXPECT_EQ(whole.outputs[1].name, "NG/whole.t");
+  EXPECT_EQ(whole.outputs[1].type, Type::integer);
+  // Nothing implements make: its default.
+  const Graph defaults = graph_of(structures, {"NG/linked"}, all_but("ND_make"));
+  EXPECT_EQ(defaults.nodes[0].input("in.s")->source.value.floats.at(0), 0.25f);
+  EXPECT_EQ(defaults.nodes[0].input("in.t")->source.value.ints.at(0), 3);
+}
+
+TEST(Structs, WrongOnesAreReported) {
+  const auto errors = [](std::string_view body) {
+    Diagnostics diagnostics;
+    const auto document = document_of(body, diagnostics);
+    const Definitions definitions(*document, &standard_library().definitions(), diagnostics);
+    return diagnostics.error_count();
+  };
+  EXPECT_EQ(errors(R"(<typedef name="t"><member name="m" type="t"/></typedef>)"), 1u);
+  EXPECT_EQ(errors(R"(<typedef name="t"><member name="m" type="nothing"/></typedef>)"), 1u);
+  EXPECT_EQ(errors(R"(<typedef name="t"><member name="m" type="float"/></typedef>
+    <nodedef name="ND_x" node="x"><input name="i" type="t" value="{1;2}"/>
+      <output name="out" type="float"/></nodedef>)"),
+            1u);
+  EXPECT_FALSE(split_struct_value("{1;2"));
+  EXPECT_FALSE(split_struct_value("{1}{2}"));
+  EXPECT_FALSE(split_struct_value("1;2"));
+  EXPECT_EQ(split_struct_value("{{1;2}; 3 ;{{4}}}")->size(), 4u);
+}
+
 }  // namespace
 }  // namespace nacre

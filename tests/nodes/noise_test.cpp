@@ -105,7 +105,7 @@ TEST(Perlin, AgreesWithTheScalarStatementIn3d) {
   }
 }
 
-TEST(Perlin, HasNoFractionLeftFarOutAndIsNaNForNaN) {
+TEST(Perlin, HasNoFractionLeftFarOut) {
   const auto kernel = make_interpreter(
       node_program({"noise2d", {{"amplitude"}, {"pivot"}, {"texcoord", Type::vector2}}}));
   const auto at = [&](float u) {
@@ -115,8 +115,81 @@ TEST(Perlin, HasNoFractionLeftFarOutAndIsNaNForNaN) {
   EXPECT_EQ(at(3.0f), 0.0f);
   EXPECT_EQ(at(1e10f), 0.0f);
   EXPECT_EQ(at(-3e38f), 0.0f);
-  EXPECT_TRUE(std::isnan(at(std::numeric_limits<float>::quiet_NaN())));
-  EXPECT_TRUE(std::isnan(at(std::numeric_limits<float>::infinity())));
+  EXPECT_NEAR(at(std::numeric_limits<float>::quiet_NaN()), 0.0f, 1e-6f);
+  EXPECT_NEAR(at(std::numeric_limits<float>::infinity()), 0.0f, 1e-6f);
+}
+
+/// The noises of one float, with the bound of what they give.
+struct Noise {
+  NodeUnderTest node;
+  double bound;
+};
+std::vector<Noise> noises() {
+  const std::vector<NodePort> flat{{"texcoord", Type::vector2}};
+  const std::vector<NodePort> solid{{"position", Type::vector3}};
+  const auto with = [](std::vector<NodePort> ports, const std::vector<NodePort>& more) {
+    ports.insert(ports.end(), more.begin(), more.end());
+    return ports;
+  };
+  const std::vector<NodePort> level{{"amplitude"}, {"pivot"}};
+  const std::vector<NodePort> octaves{
+      {"amplitude"}, {"octaves", Type::integer}, {"lacunarity"}, {"diminish"}};
+  const std::vector<NodePort> worley{{"jitter"}, {"style", Type::integer}};
+  return {{{"noise2d", with(flat, level)}, 1.1},
+          {{"noise3d", with(solid, level)}, 1.1},
+          {{"fractal2d", with(flat, octaves)}, 2.2},
+          {{"fractal3d", with(solid, octaves)}, 2.2},
+          {{"cellnoise2d", flat}, 1.0},
+          {{"cellnoise3d", solid}, 1.0},
+          {{"worleynoise2d", with(flat, worley)}, 1000.0},
+          {{"worleynoise3d", with(solid, worley)}, 1000.0}};
+}
+
+std::vector<float> noise_at(const Noise& noise, const std::vector<float>& x,
+                            const std::vector<float>& y) {
+  Columns columns{{"amplitude", {1.0f}},
+                  {"octaves", {3}},
+                  {"lacunarity", {2.0f}},
+                  {"diminish", {0.5f}},
+                  {"jitter", {1.0f}}};
+  const std::string group = noise.node.inputs.front().name;
+  columns[group + ".x"] = x;
+  columns[group + ".y"] = y;
+  columns[group + ".z"] = y;
+  return run(*make_interpreter(node_program(noise.node)), columns).at("out");
+}
+
+TEST(Noise, IsFiniteAndBoundedForAnyCoordinate) {
+  const std::vector<float> hostile = hostile_floats();
+  std::vector<float> x, y;
+  for (const float a : hostile) {
+    for (const float b : hostile) x.push_back(a), y.push_back(b);
+  }
+  for (const float sign : {1.0f, -1.0f}) x.push_back(sign * 1e30f), y.push_back(1e30f);
+  for (const Noise& noise : noises()) {
+    for (const float value : noise_at(noise, x, y)) {
+      EXPECT_TRUE(std::isfinite(value)) << noise.node.category;
+      EXPECT_LE(std::fabs(value), noise.bound) << noise.node.category;
+    }
+  }
+}
+
+/// Floats near a million are 1/16 apart: enough for every cell to have a gradient.
+TEST(Noise, StillVariesAMillionCellsOut) {
+  std::vector<float> x, y;
+  for (int i = 0; i < 64; ++i) {
+    for (int j = 0; j < 64; ++j) {
+      x.push_back(1e6f + static_cast<float>(i) * 0.3125f);
+      y.push_back(-1e6f + static_cast<float>(j) * 0.3125f);
+    }
+  }
+  for (const Noise& noise : noises()) {
+    double sum = 0, squares = 0;
+    const std::vector<float> values = noise_at(noise, x, y);
+    for (const double value : values) sum += value, squares += value * value;
+    const auto count = static_cast<double>(values.size());
+    EXPECT_GT(squares / count - sum * sum / count / count, 0.01) << noise.node.category;
+  }
 }
 
 const NodeUnderTest fractal_node{"fractal2d",

@@ -4,7 +4,6 @@
 
 #include <set>
 
-#include "examples/common/materialx_libraries.h"
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
 
@@ -34,7 +33,7 @@ std::string choice(const std::string& value1) {
 class Branches : public ::testing::Test {
  protected:
   void SetUp() override {
-    system_ = ShadingSystem::create({.libraries = {find_materialx_libraries()}}, diagnostics_);
+    system_ = ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
   }
 

@@ -5,7 +5,6 @@
 #include <bit>
 #include <set>
 
-#include "examples/common/materialx_libraries.h"
 #include "jit/graph/builder.h"
 #include "jit/shading/shading_system.h"
 
@@ -15,7 +14,7 @@ namespace {
 class GraphApi : public ::testing::Test {
  protected:
   void SetUp() override {
-    system_ = ShadingSystem::create({.libraries = {find_materialx_libraries()}}, diagnostics_);
+    system_ = ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
   }
 
