@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <memory_resource>
 #include <string>
@@ -10,6 +11,9 @@
 #include "jit/document/element.h"
 
 namespace nacre {
+
+/// Nodedefs, instances, looks and types inherit from others over at most so many levels.
+inline constexpr std::size_t max_inheritance = 64;
 
 /// What one or several .mtlx files say: a tree of elements, each knowing where
 /// it was written. Read one with `read_document`; reading checks structure

@@ -254,8 +254,12 @@ class DeclarationCheck {
         return error("unknown-type", *chain.back(), "the type to inherit from does not exist",
                      "the name of a type", in_quotes(name));
       }
-      if (std::find(chain.begin(), chain.end(), base) != chain.end() || chain.size() > 64) {
+      if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
         return error("inherit-cycle", element, "the type inherits from itself, directly or not");
+      }
+      if (chain.size() >= max_inheritance) {
+        return error("inherit-depth", element, "the type inherits over too many levels",
+                     fmt::format("at most {}", max_inheritance));
       }
       chain.push_back(base);
     }
@@ -353,8 +357,12 @@ class DeclarationCheck {
       const std::string_view name = chain.back()->attribute("inherit");
       const Element* base = document_.root().child(name);
       if (base == nullptr || base->category() != "targetdef") return;  // of a library, perhaps
-      if (std::find(chain.begin(), chain.end(), base) != chain.end() || chain.size() > 64) {
+      if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
         return error("inherit-cycle", element, "the target inherits from itself, directly or not");
+      }
+      if (chain.size() >= max_inheritance) {
+        return error("inherit-depth", element, "the target inherits over too many levels",
+                     fmt::format("at most {}", max_inheritance));
       }
       chain.push_back(base);
     }

@@ -141,6 +141,12 @@ std::vector<Look> find_looks(const Document& document, Diagnostics& diagnostics)
                           "the name of another look", fmt::format("'{}'", name));
         break;
       }
+      if (chain.size() >= max_inheritance) {
+        diagnostics.error("inherit-depth", location(element),
+                          "the look inherits over too many levels",
+                          fmt::format("at most {}", max_inheritance));
+        break;
+      }
       chain.push_back(base);
     }
     Look& look = looks.emplace_back();

@@ -44,7 +44,7 @@ class GraphRecorder {
       if (count_instructions() > options_.max_instructions) {
         diagnostics_.error(
             "program-too-large", node.where, "the graph leads to too large a kernel",
-            "at most " + std::to_string(options_.max_instructions) + " instructions");
+            std::to_string(options_.max_instructions).append(" instructions at most"));
         return std::nullopt;
       }
     }
@@ -79,6 +79,7 @@ class GraphRecorder {
     }
     NodeCall call(recorder_, node.category, node.nodedef, std::move(inputs), std::move(outputs),
                   options_.accuracy, options_.textures, diagnostics_, node.where);
+    if (options_.before_node) options_.before_node(node);
     body.record(call);
     return call.outputs();
   }

@@ -25,6 +25,8 @@ struct RecordOptions {
   Accuracy accuracy = Accuracy::standard;
   ParameterMode parameters = ParameterMode::frozen;
   TextureProvider* textures = nullptr;
+  /// Told which node is recorded next; may be null.
+  std::function<void(const GraphNode& node)> before_node = {};
   /// A graph that leads to more is refused.
   std::size_t max_instructions = 2'000'000;
   /// The file that a name written in `document` stands for; the name itself if null.

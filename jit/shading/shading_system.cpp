@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "jit/document/select.h"
 #include "jit/graph/check.h"
 #include "jit/graph/find.h"
 #include "jit/record/textures.h"
@@ -31,9 +32,9 @@ std::string find_file(const std::string& name, const std::string& document,
   std::error_code ignored;
   for (const fs::path& folder : folders) {
     const fs::path candidate = (folder / path).lexically_normal();
-    if (is_pattern ? fs::is_directory(candidate.parent_path().empty() ? fs::path(".")
-                                                                      : candidate.parent_path(),
-                                      ignored)
+    if (is_pattern ? fs::is_directory(
+                         candidate.parent_path().empty() ? fs::path(".") : candidate.parent_path(),
+                         ignored)
                    : fs::exists(candidate, ignored)) {
       return candidate.string();
     }
@@ -57,10 +58,12 @@ class Compilation {
         .accuracy = options_.compile.accuracy,
         .parameters = options_.parameters,
         .textures = textures_.get(),
+        .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
         .max_instructions = options_.compile.max_instructions,
-        .resolve_file = [this](const std::string& name, const std::string& document) {
-          return find_file(name, document, options_.search_paths);
-        }};
+        .resolve_file =
+            [this](const std::string& name, const std::string& document) {
+              return find_file(name, document, options_.search_paths);
+            }};
     return record_graph(graph, bodies_, record, recorder_, diagnostics_);
   }
 
@@ -146,17 +149,31 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
     if (!graph) return;
     Compilation(options, *bodies_, *textures_, service_.get(), diagnostics).record(*graph);
   };
-  for (const FoundOutput& output : find_outputs(document)) {
-    try_recording({.outputs = {output.name}, .material = {}});
-  }
+  // All at once, so that what they share is recorded once. A material that names its
+  // shader node adds that; those that name graphs come one by one.
+  GraphRequest all;
+  std::set<std::string> shaders;
+  for (const FoundOutput& output : find_outputs(document)) all.outputs.push_back(output.name);
+  std::vector<std::string> others;
   for (const FoundMaterial& material : find_materials(document)) {
-    try_recording({.outputs = {}, .material = material.name});
+    bool is_simple = true;
+    for (const std::string* shader : {&material.surfaceshader, &material.backsurfaceshader,
+                                      &material.displacementshader, &material.volumeshader}) {
+      if (shader->empty()) continue;
+      const Element* element = document.root().child(*shader);
+      const bool is_plain = element != nullptr && is_node(*element);
+      is_simple = is_simple && is_plain;
+      if (is_plain && shaders.insert(*shader).second) all.outputs.push_back(*shader);
+    }
+    if (!is_simple) others.push_back(material.name);
   }
+  try_recording(all);
+  for (const std::string& material : others) try_recording({.outputs = {}, .material = material});
 }
 
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(
-    const Document& document, const std::vector<std::string>& outputs,
-    const ShaderOptions& options, Diagnostics& diagnostics) {
+    const Document& document, const std::vector<std::string>& outputs, const ShaderOptions& options,
+    Diagnostics& diagnostics) {
   const auto graph = build(document, {.outputs = outputs, .material = {}}, options, diagnostics);
   return graph ? compile_outputs(*graph, options, diagnostics) : nullptr;
 }
@@ -182,8 +199,8 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
     }
   }
   std::vector<StageReport> stages;
-  auto kernel =
-      std::move(compilation.compile({compilation.entry("outputs", slices, Keeps::pass)}, stages)[0]);
+  auto kernel = std::move(
+      compilation.compile({compilation.entry("outputs", slices, Keeps::pass)}, stages)[0]);
   if (!kernel) return nullptr;
   return std::make_unique<OutputKernel>(
       OutputKernel{std::move(*kernel), std::move(outputs), std::move(stages)});
@@ -200,9 +217,9 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& graph,
                                                                  const ShaderOptions& options,
                                                                  Diagnostics& diagnostics) {
-  const auto found = std::find_if(
-      graph.outputs.begin(), graph.outputs.end(),
-      [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
+  const auto found =
+      std::find_if(graph.outputs.begin(), graph.outputs.end(),
+                   [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
   if (found == graph.outputs.end()) {
     diagnostics.error("no-surface", {}, "the material has no surface shader");
     return nullptr;
@@ -216,8 +233,8 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
     diagnostics.error("no-surface", {}, "the material's surface shader is not connected");
     return nullptr;
   }
-  const SurfaceKernels recorded = record_kernels(compilation.recorder(), *surface,
-                                                 options.compile.accuracy, options.kernels);
+  const SurfaceKernels recorded =
+      record_kernels(compilation.recorder(), *surface, options.compile.accuracy, options.kernels);
   auto kernels = std::make_unique<MaterialKernels>();
   std::vector<Program> programs;
   std::vector<std::optional<BoundKernel>*> places;
