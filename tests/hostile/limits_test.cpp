@@ -282,7 +282,7 @@ TEST_F(Limits, FileNamesLeadNowhere) {
   EXPECT_EQ(naming(folder_, "text.png"), unsupported);
   EXPECT_EQ(naming(folder_, "gone.&lt;UDIM>.png"), missing);
   EXPECT_EQ(naming(folder_, "gone/t.&lt;UDIM>.png"), missing);
-  EXPECT_EQ(naming(folder_, "t.&lt;UDIM>.&lt;UVTILE>.png"), "bad-file-name 3:6 NG/i\n");
+  EXPECT_EQ(naming(folder_, "t.&lt;UDIM>.&lt;UVTILE>.png"), "bad-tile-pattern 3:6 NG/i\n");
 }
 
 }  // namespace
