@@ -29,8 +29,8 @@ void RecordedTextures::warn(const Diagnostics& problems) {
     problem.severity = std::min(problem.severity, Severity::warning);
     problem.message += "; the node's default is used";
     if (!where_.file.empty() || !where_.path.empty()) {
-      const std::string file = '\'' + problem.where.file + '\'';
-      problem.found = problem.found.empty() ? file : problem.found + " in " + file;
+      if (!problem.found.empty()) problem.found += " in ";
+      problem.found.append("'").append(problem.where.file).append("'");
       problem.where = where_;
     }
     diagnostics_.add(std::move(problem));
