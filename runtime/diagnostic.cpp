@@ -61,6 +61,10 @@ std::string printable(std::string_view text) {
 void Diagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Severity::error) ++errors_;
   if (diagnostic.severity == Severity::warning) ++warnings_;
+  const bool is_error = diagnostic.severity == Severity::error;
+  std::size_t& kept = is_error ? kept_errors_ : kept_others_;
+  if (kept == most_kept) return;
+  ++kept;
   all_.push_back(std::move(diagnostic));
 }
 
@@ -82,6 +86,9 @@ std::string Diagnostics::to_string() const {
     text += diagnostic.to_string();
     text += '\n';
   }
+  if (errors_ > kept_errors_)
+    text += fmt::format("... and {} more errors\n", errors_ - kept_errors_);
+  if (warnings_ > kept_others_) text += "... and more warnings\n";
   return text;
 }
 

@@ -39,12 +39,16 @@ std::string printable(std::string_view text);
 /// Collects diagnostics. The library never prints: a host decides what to show.
 class Diagnostics {
  public:
+  static constexpr std::size_t most_kept = 10'000;
+
   void add(Diagnostic diagnostic);
   void error(std::string code, SourceLocation where, std::string message,
              std::string expected = {}, std::string found = {});
   void warning(std::string code, SourceLocation where, std::string message,
                std::string expected = {}, std::string found = {});
 
+  /// In the order they were found; no more than `most_kept` errors and as many others, so
+  /// that a file of nothing but faults does not fill the memory. The counts go on.
   const std::vector<Diagnostic>& all() const { return all_; }
   bool has_errors() const { return errors_ != 0; }
   std::size_t error_count() const { return errors_; }
@@ -57,6 +61,8 @@ class Diagnostics {
   std::vector<Diagnostic> all_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
+  std::size_t kept_errors_ = 0;
+  std::size_t kept_others_ = 0;
 };
 
 }  // namespace nacre

@@ -142,6 +142,12 @@ void Definitions::apply_inheritance(Diagnostics& diagnostics) {
                           "the nodedef inherits from itself, directly or not");
         break;
       }
+      if (seen.size() >= max_inheritance) {
+        diagnostics.error("inherit-depth", location(*def.element),
+                          "the nodedef inherits over too many levels",
+                          fmt::format("at most {}", max_inheritance));
+        break;
+      }
       inherit_ports(def, *base);
       seen.push_back(base->element);
       user = base->element;

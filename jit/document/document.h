@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <memory_resource>
 #include <string>
@@ -19,6 +20,9 @@ struct Note {
   std::string_view text = {};        ///< Without what encloses it.
   const Element* include = nullptr;  ///< The <xi:include> that was followed.
 };
+
+/// Nodedefs, instances, looks and types inherit from others over at most so many levels.
+inline constexpr std::size_t max_inheritance = 64;
 
 /// What one or several .mtlx files say: a tree of elements, each knowing where
 /// it was written. Read one with `read_document`; reading checks structure

@@ -210,14 +210,17 @@ void try_all_graphs(const Document& document, const Definitions& definitions,
                     const GraphOptions& options, Diagnostics& diagnostics) {
   // One build serves many, so that what they share is resolved once; it is renewed
   // before it could become too large for any single one.
+  constexpr double most = 8;  // Times the limit of one graph, for all together.
   std::optional<GraphBuild> build;
+  double done = 0;
   const auto renewed = [&]() -> GraphBuild& {
     if (!build || build->fullness() > 0.5) {
+      done += build ? build->fullness() : 0;
       build.emplace(document, definitions, options, diagnostics);
     }
     return *build;
   };
-  const auto is_hopeless = [&] { return build && build->fullness() > 1; };
+  const auto is_hopeless = [&] { return build && (build->fullness() > 1 || done > most); };
   for (const FoundMaterial& material : find_materials(document)) {
     if (is_hopeless()) return;
     renewed().add_material(material.name);
@@ -233,6 +236,11 @@ void try_all_graphs(const Document& document, const Definitions& definitions,
       if (child.category() == "nodegraph") scopes.push_back(&child);
     }
     std::reverse(scopes.begin() + static_cast<std::ptrdiff_t>(first), scopes.end());
+  }
+  if (done > most) {
+    diagnostics.error("too-many-nodes", location(document.root()),
+                      "all graphs of the document together have too many nodes",
+                      fmt::format("at most {}", most * static_cast<double>(options.max_nodes)));
   }
 }
 

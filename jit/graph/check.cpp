@@ -118,6 +118,11 @@ class Checker {
         error("inherit-cycle", node, "the node inherits from itself, directly or not");
         return;
       }
+      if (chain.size() >= max_inheritance) {
+        error("inherit-depth", node, "the node inherits over too many levels",
+              fmt::format("at most {}", max_inheritance));
+        return;
+      }
       chain.push_back(base);
     }
   }

@@ -5,12 +5,12 @@
 #include <array>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "jit/document/read.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/check_parts.h"
+#include "jit/graph/circles.h"
 
 namespace nacre {
 
@@ -26,6 +26,7 @@ class DeclarationCheck {
         diagnostics_(diagnostics) {}
 
   void run() {
+    find_type_circles();
     for (const Element& child : document_.root().children()) {
       const std::string_view category = child.category();
       if (category == "nodedef") check_nodedef(child);
@@ -254,8 +255,12 @@ class DeclarationCheck {
         return error("unknown-type", *chain.back(), "the type to inherit from does not exist",
                      "the name of a type", in_quotes(name));
       }
-      if (std::find(chain.begin(), chain.end(), base) != chain.end() || chain.size() > 64) {
+      if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
         return error("inherit-cycle", element, "the type inherits from itself, directly or not");
+      }
+      if (chain.size() >= max_inheritance) {
+        return error("inherit-depth", element, "the type inherits over too many levels",
+                     fmt::format("at most {}", max_inheritance));
       }
       chain.push_back(base);
     }
@@ -266,7 +271,8 @@ class DeclarationCheck {
 
   void check_member(const Element& owner, const Element& member) {
     if (!check_type_name(member, definitions_, diagnostics_)) return;
-    if (struct_holds(member.attribute("type"), owner)) {
+    const Element* held = named_typedef(member.attribute("type"), owner);
+    if (held != nullptr && circles_.at(held) == circles_.at(&owner)) {
       error("type-cycle", member, "the type contains itself, directly or not", "",
             in_quotes(member.attribute("type")));
       return;
@@ -278,19 +284,26 @@ class DeclarationCheck {
           expected_text(*type), in_quotes(member.attribute("value")));
   }
 
-  // Whether a type, or one of its members' types, is `wanted`.
-  bool struct_holds(std::string_view type, const Element& wanted) const {
-    std::vector<std::string_view> pending{type};
-    std::unordered_set<const Element*> seen;
-    while (!pending.empty()) {
-      const Element* found = definitions_.resolve(pending.back(), wanted);
-      pending.pop_back();
-      if (found == nullptr || found->category() != "typedef" || !seen.insert(found).second)
-        continue;
-      if (found == &wanted) return true;
-      for (const Element& member : found->children()) pending.push_back(member.attribute("type"));
+  const Element* named_typedef(std::string_view name, const Element& user) const {
+    const Element* found = definitions_.resolve(name, user);
+    return found != nullptr && found->category() == "typedef" ? found : nullptr;
+  }
+
+  std::vector<const Element*> held_by(const Element& type) const {
+    std::vector<const Element*> types;
+    for (const Element& member : type.children()) {
+      const Element* found = named_typedef(member.attribute("type"), type);
+      if (found != nullptr) types.push_back(found);
     }
-    return false;
+    return types;
+  }
+
+  void find_type_circles() {
+    std::vector<const Element*> types;
+    for (const Element& child : document_.root().children()) {
+      if (child.category() == "typedef") types.push_back(&child);
+    }
+    circles_ = find_circles(types, [this](const Element& one) { return held_by(one); });
   }
 
   void check_unitdef(const Element& element) {
@@ -353,8 +366,12 @@ class DeclarationCheck {
       const std::string_view name = chain.back()->attribute("inherit");
       const Element* base = document_.root().child(name);
       if (base == nullptr || base->category() != "targetdef") return;  // of a library, perhaps
-      if (std::find(chain.begin(), chain.end(), base) != chain.end() || chain.size() > 64) {
+      if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
         return error("inherit-cycle", element, "the target inherits from itself, directly or not");
+      }
+      if (chain.size() >= max_inheritance) {
+        return error("inherit-depth", element, "the target inherits over too many levels",
+                     fmt::format("at most {}", max_inheritance));
       }
       chain.push_back(base);
     }
@@ -377,6 +394,7 @@ class DeclarationCheck {
   const Definitions& library_;
   Diagnostics& diagnostics_;
   std::unordered_map<std::string, const NodeDef*> signatures_;
+  std::unordered_map<const Element*, std::size_t> circles_;  ///< Of types that hold types.
 };
 
 }  // namespace

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/check_parts.h"
+#include "jit/graph/circles.h"
 
 namespace nacre {
 
@@ -20,6 +21,7 @@ class LookCheck {
       : document_(document), definitions_(definitions), diagnostics_(diagnostics) {}
 
   void run() {
+    find_collection_circles();
     for (const Element& child : document_.root().children()) {
       const std::string_view category = child.category();
       if (category == "look") check_look(child);
@@ -191,7 +193,8 @@ class LookCheck {
     const std::vector<std::string_view> parts =
         split_list(collection.attribute("includecollection"));
     for (std::string_view name : parts) {
-      if (find(collection, name, "collection") != nullptr && includes(name, collection)) {
+      const Element* part = find(collection, name, "collection");
+      if (part != nullptr && circles_.at(part) == circles_.at(&collection)) {
         error("collection-cycle", collection, "the collection includes itself, directly or not", "",
               in_quotes(name));
       }
@@ -203,22 +206,21 @@ class LookCheck {
     }
   }
 
-  // Whether a collection is `wanted` or includes it; each is looked at once.
-  bool includes(std::string_view name, const Element& wanted) const {
-    std::vector<std::string_view> pending{name};
-    std::unordered_set<const Element*> seen;
-    while (!pending.empty()) {
-      const Element* found = definitions_.resolve(pending.back(), wanted);
-      pending.pop_back();
-      if (found == nullptr || found->category() != "collection" || !seen.insert(found).second) {
-        continue;
-      }
-      if (found == &wanted) return true;
-      for (std::string_view part : split_list(found->attribute("includecollection"))) {
-        pending.push_back(part);
-      }
+  std::vector<const Element*> included_by(const Element& collection) const {
+    std::vector<const Element*> parts;
+    for (std::string_view name : split_list(collection.attribute("includecollection"))) {
+      const Element* found = definitions_.resolve(name, collection);
+      if (found != nullptr && found->category() == "collection") parts.push_back(found);
     }
-    return false;
+    return parts;
+  }
+
+  void find_collection_circles() {
+    std::vector<const Element*> collections;
+    for (const Element& child : document_.root().children()) {
+      if (child.category() == "collection") collections.push_back(&child);
+    }
+    circles_ = find_circles(collections, [this](const Element& one) { return included_by(one); });
   }
 
   void check_geominfo(const Element& element) {
@@ -242,6 +244,7 @@ class LookCheck {
   const Document& document_;
   const Definitions& definitions_;
   Diagnostics& diagnostics_;
+  std::unordered_map<const Element*, std::size_t> circles_;  ///< Of collections.
 };
 
 }  // namespace

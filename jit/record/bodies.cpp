@@ -18,9 +18,8 @@ bool makes_closure(const NodeDef& def) {
 }
 
 const NodeBody* of_category(const std::vector<NodeBody>& bodies, std::string_view category) {
-  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const NodeBody& body) {
-    return body.category == category;
-  });
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const NodeBody& body) { return body.category == category; });
   return found == bodies.end() ? nullptr : &*found;
 }
 

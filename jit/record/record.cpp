@@ -76,7 +76,7 @@ class GraphRecorder {
       if (count_instructions() <= options_.max_instructions) continue;
       diagnostics_.error(
           "program-too-large", graph_.nodes[number].where, "the graph leads to too large a kernel",
-          "at most " + std::to_string(options_.max_instructions) + " instructions");
+          std::to_string(options_.max_instructions).append(" instructions at most"));
       return false;
     }
     return true;
@@ -207,6 +207,7 @@ class GraphRecorder {
   }
 
   NodeCall make_call(const GraphNode& node, Ports inputs, Ports outputs) {
+    if (options_.before_node) options_.before_node(node);
     return NodeCall(recorder_, node.category, node.nodedef, std::move(inputs), std::move(outputs),
                     options_.accuracy, options_.textures, diagnostics_, node.where);
   }

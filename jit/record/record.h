@@ -31,6 +31,8 @@ struct RecordOptions {
   /// Compute what only one side of a conditional node needs only where it is taken;
   /// false changes no result, only what it costs.
   bool lazy = true;
+  /// Told which node is recorded next; may be null.
+  std::function<void(const GraphNode& node)> before_node = {};
   /// A graph that leads to more is refused.
   std::size_t max_instructions = 2'000'000;
   /// The file that a name written in `document` stands for; the name itself if null.

@@ -18,8 +18,7 @@ TextureSource RecordedTextures::add(const TextureHandle& texture, const std::str
   source.state = texture->missing()    ? TextureSource::State::missing
                  : texture->resident() ? TextureSource::State::resident
                                        : TextureSource::State::on_host;
-  source.format =
-      static_cast<texture_layout::TexelFormat>(words[texture_layout::word_format]);
+  source.format = static_cast<texture_layout::TexelFormat>(words[texture_layout::word_format]);
   source.channels = static_cast<int>(words[texture_layout::word_channels]);
   source.single = words[texture_layout::word_level_count] == 1;
   return source;
@@ -29,6 +28,11 @@ void RecordedTextures::warn(const Diagnostics& problems) {
   for (Diagnostic problem : problems.all()) {
     problem.severity = std::min(problem.severity, Severity::warning);
     problem.message += "; the node's default is used";
+    if (!where_.file.empty() || !where_.path.empty()) {
+      if (!problem.found.empty()) problem.found += " in ";
+      problem.found.append("'").append(problem.where.file).append("'");
+      problem.where = where_;
+    }
     diagnostics_.add(std::move(problem));
   }
 }

@@ -23,6 +23,9 @@ class RecordedTextures final : public TextureProvider {
 
   TextureSources find(const std::string& name, const std::string& layer) override;
 
+  /// Who asks for what is found from now on: warnings are given there.
+  void asked_by(const SourceLocation& where) { where_ = where; }
+
   /// For KernelArguments::textures: one binding a slot of the recording.
   std::vector<TextureBinding> bindings() const;
   /// For KernelArguments::texture_callback; `user` is the RecordedTextures.
@@ -35,6 +38,7 @@ class RecordedTextures final : public TextureProvider {
   TextureStore& store_;
   Recorder& recorder_;
   Diagnostics& diagnostics_;
+  SourceLocation where_;
   std::vector<TextureHandle> slots_;
   std::map<std::string, TextureSources> found_;
 };

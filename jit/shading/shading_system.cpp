@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "jit/document/select.h"
 #include "jit/graph/check.h"
 #include "jit/graph/find.h"
 #include "jit/graph/node_source.h"
@@ -61,10 +62,12 @@ class Compilation {
         .textures = textures_.get(),
         .sources = &sources_,
         .lazy = options_.lazy,
+        .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
         .max_instructions = options_.compile.max_instructions,
-        .resolve_file = [this](const std::string& name, const std::string& document) {
-          return find_file(name, document, options_.search_paths);
-        }};
+        .resolve_file =
+            [this](const std::string& name, const std::string& document) {
+              return find_file(name, document, options_.search_paths);
+            }};
     return record_graph(graph, bodies_, record, recorder_, diagnostics_);
   }
 
@@ -175,12 +178,26 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
     if (!graph) return;
     Compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics).record(*graph);
   };
-  for (const FoundOutput& output : find_outputs(document)) {
-    try_recording({.outputs = {output.name}, .material = {}});
-  }
+  // All at once, so that what they share is recorded once. A material that names its
+  // shader node adds that; those that name graphs come one by one.
+  GraphRequest all;
+  std::set<std::string> shaders;
+  for (const FoundOutput& output : find_outputs(document)) all.outputs.push_back(output.name);
+  std::vector<std::string> others;
   for (const FoundMaterial& material : find_materials(document)) {
-    try_recording({.outputs = {}, .material = material.name});
+    bool is_simple = true;
+    for (const std::string* shader : {&material.surfaceshader, &material.backsurfaceshader,
+                                      &material.displacementshader, &material.volumeshader}) {
+      if (shader->empty()) continue;
+      const Element* element = document.root().child(*shader);
+      const bool is_plain = element != nullptr && is_node(*element);
+      is_simple = is_simple && is_plain;
+      if (is_plain && shaders.insert(*shader).second) all.outputs.push_back(*shader);
+    }
+    if (!is_simple) others.push_back(material.name);
   }
+  try_recording(all);
+  for (const std::string& material : others) try_recording({.outputs = {}, .material = material});
 }
 
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(

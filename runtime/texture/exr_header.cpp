@@ -1,5 +1,7 @@
 #include "runtime/texture/exr_header.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <istream>
@@ -120,11 +122,11 @@ class HeaderReader {
       if (!take_text(name) || name.empty()) return count;
       if (!take_text(type)) return count;
       if (!take(4, size) || !take(word(size, 0), data)) {
-        fault_ = "attribute '" + name + "' claims more bytes than the file has";
+        fault_ = fmt::format("attribute '{}' claims more bytes than the file has", name);
         return count;
       }
       if (!read_attribute(part, name, type, data)) {
-        fault_ = "attribute '" + name + "' contradicts its own size";
+        fault_ = fmt::format("attribute '{}' contradicts its own size", name);
         return count;
       }
     }
@@ -191,8 +193,8 @@ class HeaderReader {
   void check_part(const Part& part) {
     const bool is_tiled = part.tile.width != 0 || part.tile.height != 0;
     if (outside(part.data) || (is_tiled && outside(part.tile))) {
-      fault_ = "a window or tile is larger than " + std::to_string(limits_.max_size) +
-               " or smaller than 1";
+      fault_ =
+          fmt::format("a window or tile is larger than {} or smaller than 1", limits_.max_size);
       return;
     }
     const Window chunk =

@@ -1,0 +1,80 @@
+#include "jit/graph/circles.h"
+
+#include <algorithm>
+
+namespace nacre {
+
+namespace {
+
+class Circles {
+ public:
+  using LeadsTo = std::function<std::vector<const Element*>(const Element&)>;
+
+  explicit Circles(const LeadsTo& leads_to) : leads_to_(leads_to) {}
+
+  void visit(const Element& start) {
+    if (order_.contains(&start)) return;
+    open(start);
+    while (!frames_.empty()) {
+      Frame& frame = frames_.back();
+      if (frame.next < frame.targets.size()) {
+        const Element* target = frame.targets[frame.next++];
+        const auto known = order_.find(target);
+        if (known == order_.end()) {
+          open(*target);
+        } else if (!numbers.contains(target)) {  // still on the stack
+          frame.lowest = std::min(frame.lowest, known->second);
+        }
+        continue;
+      }
+      close();
+    }
+  }
+
+  std::unordered_map<const Element*, std::size_t> numbers;
+
+ private:
+  struct Frame {
+    const Element* element;
+    std::size_t lowest;  ///< Order of the earliest element on the stack it leads to.
+    std::vector<const Element*> targets;
+    std::size_t next = 0;
+  };
+
+  void open(const Element& element) {
+    const std::size_t order = order_.size();
+    order_.emplace(&element, order);
+    stack_.push_back(&element);
+    frames_.push_back({&element, order, leads_to_(element)});
+  }
+
+  void close() {
+    const Frame done = std::move(frames_.back());
+    frames_.pop_back();
+    if (!frames_.empty()) frames_.back().lowest = std::min(frames_.back().lowest, done.lowest);
+    if (done.lowest != order_.at(done.element)) return;
+    const Element* last = nullptr;
+    while (last != done.element) {
+      last = stack_.back();
+      stack_.pop_back();
+      numbers.emplace(last, order_.at(done.element));
+    }
+  }
+
+  const LeadsTo& leads_to_;
+  std::unordered_map<const Element*, std::size_t> order_;
+  std::vector<const Element*> stack_;
+  std::vector<Frame> frames_;
+};
+
+}  // namespace
+
+std::unordered_map<const Element*, std::size_t> find_circles(
+    std::span<const Element* const> elements,
+    const std::function<std::vector<const Element*>(const Element&)>& leads_to) {
+  Circles circles(leads_to);
+  for (const Element* element : elements) circles.visit(*element);
+  return std::move(circles.numbers);
+}
+
+}  // namespace nacre
