@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "jit/glsl/matrix.h"
 #include "jit/glsl/operators.h"
 
 namespace nacre::glsl {
@@ -302,84 +303,6 @@ std::optional<Value> faceforward_(Arguments a) {
   return scaled(a[0], select(keeps, Float(1.0f), Float(-1.0f)));
 }
 
-// -- 8.6: matrix functions
-
-Ref& at(Value& matrix, int column, int row) {
-  return matrix.parts[static_cast<std::size_t>(column * matrix.type.rows + row)];
-}
-Float at(const Value& matrix, int column, int row) {
-  return matrix.number(static_cast<std::size_t>(column * matrix.type.rows + row));
-}
-
-/// The matrix without a column and a row.
-Value minor(const Value& m, int column, int row) {
-  Value result{m.type, {}, {}};
-  result.type.rows = static_cast<std::uint8_t>(m.type.rows - 1);
-  result.type.columns = result.type.rows;
-  for (int c = 0; c < m.type.columns; ++c) {
-    for (int r = 0; r < m.type.rows; ++r) {
-      if (c != column && r != row) result.parts.push_back(at(m, c, r).ref());
-    }
-  }
-  return result;
-}
-
-Float determinant(const Value& m) {
-  if (m.type.rows == 1) return m.number(0);
-  Float total = 0.0f;
-  for (int column = 0; column < m.type.columns; ++column) {
-    const Float term = at(m, column, 0) * determinant(minor(m, column, 0));
-    total = column == 0 ? term : column % 2 == 0 ? total + term : total - term;
-  }
-  return total;
-}
-
-bool is_square(Arguments a) { return a.size() == 1 && a[0].type.is_matrix(); }
-
-std::optional<Value> determinant_(Arguments a) {
-  return is_square(a) ? std::optional(make(determinant(a[0]))) : none;
-}
-std::optional<Value> transpose_(Arguments a) {
-  if (!is_square(a)) return none;
-  Value result = a[0];
-  for (int c = 0; c < a[0].type.columns; ++c) {
-    for (int r = 0; r < a[0].type.rows; ++r) at(result, r, c) = at(a[0], c, r).ref();
-  }
-  return result;
-}
-/// By cofactors.
-std::optional<Value> inverse_(Arguments a) {
-  if (!is_square(a)) return none;
-  const Float scale = 1.0f / determinant(a[0]);
-  Value result = a[0];
-  for (int c = 0; c < a[0].type.columns; ++c) {
-    for (int r = 0; r < a[0].type.rows; ++r) {
-      const Float cofactor = determinant(minor(a[0], c, r)) * scale;
-      at(result, r, c) = ((c + r) % 2 == 0 ? cofactor : -cofactor).ref();
-    }
-  }
-  return result;
-}
-std::optional<Value> matrix_comp_mult(Arguments a) {
-  if (a.size() != 2 || !a[0].type.is_matrix() || a[0].type != a[1].type) return none;
-  Value result = a[0];
-  for (std::size_t i = 0; i < result.parts.size(); ++i) {
-    result.parts[i] = (a[0].number(i) * a[1].number(i)).ref();
-  }
-  return result;
-}
-std::optional<Value> outer_product(Arguments a) {
-  if (!same_vectors(a, 2)) return none;
-  Value result{a[0].type, {}, {}};
-  result.type.columns = a[1].type.rows;
-  for (std::size_t c = 0; c < a[1].parts.size(); ++c) {
-    for (std::size_t r = 0; r < a[0].parts.size(); ++r) {
-      result.parts.push_back((a[0].number(r) * a[1].number(c)).ref());
-    }
-  }
-  return result;
-}
-
 // -- 8.7: relations of vectors
 
 std::optional<Value> relation(Arguments a, std::string_view op) {
@@ -446,7 +369,7 @@ constexpr std::array<std::pair<std::string_view, Builtin>, 65> builtins{{
     {"dFdx", ddx},
     {"dFdy", ddy},
     {"degrees", degrees_},
-    {"determinant", determinant_},
+    {"determinant", matrix::determinant},
     {"distance", distance_},
     {"dot", dot_},
     {"equal", equal_},
@@ -462,7 +385,7 @@ constexpr std::array<std::pair<std::string_view, Builtin>, 65> builtins{{
     {"greaterThan", greater_than},
     {"greaterThanEqual", greater_than_equal},
     {"intBitsToFloat", bits_to_float},
-    {"inverse", inverse_},
+    {"inverse", matrix::inverse},
     {"inversesqrt", inversesqrt_},
     {"isinf", isinf_},
     {"isnan", isnan_},
@@ -471,7 +394,7 @@ constexpr std::array<std::pair<std::string_view, Builtin>, 65> builtins{{
     {"lessThanEqual", less_than_equal},
     {"log", each<log>},
     {"log2", each<log2>},
-    {"matrixCompMult", matrix_comp_mult},
+    {"matrixCompMult", matrix::matrix_comp_mult},
     {"max", max_},
     {"min", min_},
     {"mix", mix_},
@@ -479,7 +402,7 @@ constexpr std::array<std::pair<std::string_view, Builtin>, 65> builtins{{
     {"normalize", normalize_},
     {"not", not_},
     {"notEqual", not_equal},
-    {"outerProduct", outer_product},
+    {"outerProduct", matrix::outer_product},
     {"pow", pow_},
     {"radians", radians_},
     {"reflect", reflect_},
@@ -494,7 +417,7 @@ constexpr std::array<std::pair<std::string_view, Builtin>, 65> builtins{{
     {"step", step_},
     {"tan", each<tan>},
     {"tanh", tanh_},
-    {"transpose", transpose_},
+    {"transpose", matrix::transpose},
     {"trunc", each<trunc>},
     {"uintBitsToFloat", bits_to_float},
 }};

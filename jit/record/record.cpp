@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jit/record/branches.h"
+#include "jit/record/source_bodies.h"
 
 namespace nacre {
 

@@ -8,12 +8,13 @@
 
 #include "jit/graph/graph.h"
 #include "jit/record/bodies.h"
-#include "jit/record/source_bodies.h"
 #include "runtime/node/recorded.h"
 #include "runtime/node/texture_source.h"
 #include "runtime/program/recorder.h"
 
 namespace nacre {
+
+class SourceBodies;
 
 /// Whether the values that an author wrote stay changeable in the kernel.
 enum class ParameterMode {

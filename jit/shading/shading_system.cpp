@@ -8,6 +8,7 @@
 #include "jit/graph/check.h"
 #include "jit/graph/find.h"
 #include "jit/graph/node_source.h"
+#include "jit/record/source_bodies.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
 #include "runtime/program/fix_inputs.h"

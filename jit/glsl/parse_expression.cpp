@@ -1,0 +1,236 @@
+// Expressions: the parser's third part.
+#include <fmt/format.h>
+
+#include <bit>
+#include <charconv>
+
+#include "jit/glsl/parser.h"
+
+namespace nacre::glsl {
+
+namespace {
+
+// Binary operators, the loosest first.
+constexpr std::string_view precedence[][4] = {
+    {"||"},       {"^^"},     {"&&"},         {"|"},
+    {"^"},        {"&"},      {"==", "!="},   {"<", ">", "<=", ">="},
+    {"<<", ">>"}, {"+", "-"}, {"*", "/", "%"}};
+constexpr int levels = static_cast<int>(std::size(precedence));
+
+constexpr std::string_view assignments[] = {
+    "=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<=", ">>="};
+
+}  // namespace
+
+ExpressionPtr Parser::node(Expression::Kind kind) const {
+  auto made = std::make_unique<Expression>();
+  made->kind = kind;
+  made->place = peek().place;
+  return made;
+}
+
+void Parser::adopt(Expression& outer, ExpressionPtr inner) {
+  outer.cost = std::min(outer.cost + inner->cost, 1'000'000);
+  outer.has_effect = outer.has_effect || inner->has_effect;
+  outer.operands.push_back(std::move(inner));
+}
+
+ExpressionPtr Parser::expression() {
+  ExpressionPtr left = assignment();
+  while (peek().is(",")) {
+    ExpressionPtr made = node(Expression::Kind::sequence);
+    ++at_;
+    adopt(*made, std::move(left));
+    adopt(*made, assignment());
+    left = std::move(made);
+  }
+  return left;
+}
+
+ExpressionPtr Parser::assignment() {
+  const Level level(*this);
+  ExpressionPtr left = conditional();
+  if (peek().kind != Token::Kind::punctuation || !contains(assignments, peek().text)) {
+    return left;
+  }
+  ExpressionPtr made = node(Expression::Kind::assign);
+  made->text = tokens_[at_++].text;
+  adopt(*made, std::move(left));
+  adopt(*made, assignment());
+  made->has_effect = true;
+  return made;
+}
+
+ExpressionPtr Parser::conditional() {
+  ExpressionPtr condition = binary(0);
+  if (!peek().is("?")) return condition;
+  ExpressionPtr made = node(Expression::Kind::conditional);
+  ++at_;
+  adopt(*made, std::move(condition));
+  adopt(*made, expression());
+  expect(":");
+  adopt(*made, assignment());
+  return made;
+}
+
+ExpressionPtr Parser::binary(int level) {
+  if (level == levels) return unary();
+  ExpressionPtr left = binary(level + 1);
+  while (peek().kind == Token::Kind::punctuation && !peek().text.empty() &&
+         contains(precedence[level], peek().text)) {
+    ExpressionPtr made = node(Expression::Kind::binary);
+    made->text = tokens_[at_++].text;
+    adopt(*made, std::move(left));
+    adopt(*made, binary(level + 1));
+    left = std::move(made);
+  }
+  return left;
+}
+
+ExpressionPtr Parser::unary() {
+  const Level level(*this);
+  for (const std::string_view candidate : {"+", "-", "!", "~", "++", "--"}) {
+    if (!peek().is(candidate)) continue;
+    ExpressionPtr made =
+        node(candidate.size() == 2 ? Expression::Kind::step_before : Expression::Kind::unary);
+    made->text = candidate;
+    ++at_;
+    adopt(*made, unary());
+    if (candidate.size() == 2) made->has_effect = true;
+    return made;
+  }
+  return postfix();
+}
+
+ExpressionPtr Parser::postfix() {
+  ExpressionPtr left = primary();
+  while (true) {
+    if (peek().is(".")) {
+      ++at_;
+      ExpressionPtr made = node(Expression::Kind::member);
+      made->text = name();
+      adopt(*made, std::move(left));
+      left = std::move(made);
+    } else if (peek().is("[")) {
+      ExpressionPtr made = node(Expression::Kind::index);
+      ++at_;
+      adopt(*made, std::move(left));
+      adopt(*made, expression());
+      expect("]");
+      left = std::move(made);
+    } else if (peek().is("++") || peek().is("--")) {
+      ExpressionPtr made = node(Expression::Kind::step_after);
+      made->text = tokens_[at_++].text;
+      adopt(*made, std::move(left));
+      made->has_effect = true;
+      left = std::move(made);
+    } else {
+      return left;
+    }
+  }
+}
+
+ExpressionPtr Parser::primary() {
+  const Token& token = peek();
+  if (take("(")) {
+    ExpressionPtr inner = expression();
+    expect(")");
+    return inner;
+  }
+  if (token.kind == Token::Kind::integer || token.kind == Token::Kind::natural ||
+      token.kind == Token::Kind::number) {
+    return literal();
+  }
+  if (token.is("true") || token.is("false")) {
+    ExpressionPtr made = node(Expression::Kind::literal);
+    made->type = bool_type;
+    made->bits = token.is("true") ? 1 : 0;
+    ++at_;
+    return made;
+  }
+  if (type_named(token)) return construction();
+  ExpressionPtr made = node(Expression::Kind::name);
+  made->text = name();
+  if (!take("(")) return made;
+  made->kind = Expression::Kind::call;
+  arguments(*made);
+  note_call(*made);
+  return made;
+}
+
+ExpressionPtr Parser::construction() {
+  ExpressionPtr made = node(Expression::Kind::construct);
+  made->type = type();
+  if (made->type.is_void()) unexpected("an expression");
+  expect("(");
+  arguments(*made);
+  if (made->type.length < 0) made->type.length = static_cast<int>(made->operands.size());
+  return made;
+}
+
+void Parser::arguments(Expression& call) {
+  const Level level(*this);
+  if (peek().is("void") && peek(1).is(")")) ++at_;
+  while (!take(")")) {
+    if (!call.operands.empty()) expect(",");
+    adopt(call, assignment());
+  }
+}
+
+void Parser::note_call(Expression& call) {
+  int cost = 0;
+  bool any = false;
+  for (const Syntax* syntax : {static_cast<const Syntax*>(into_), &known_}) {
+    if (syntax == nullptr) continue;
+    const auto found = syntax->by_name.find(call.text);
+    if (found == syntax->by_name.end()) continue;
+    for (const Function* function : found->second) {
+      any = true;
+      cost = std::max(cost, function->cost);
+      for (const Function::Parameter& parameter : function->parameters) {
+        call.has_effect = call.has_effect || parameter.out;
+      }
+      if (function->stays_inline && function_ != nullptr) function_->stays_inline = true;
+    }
+  }
+  call.cost = std::min(call.cost + (any ? cost : 4), 1'000'000);
+  const bool needs_neighbours =
+      call.text.starts_with("dFd") || call.text == "fwidth" || call.text.starts_with("texture");
+  if (needs_neighbours && function_ != nullptr) function_->stays_inline = true;
+}
+
+ExpressionPtr Parser::literal() {
+  const Token& token = tokens_[at_];
+  ExpressionPtr made = node(Expression::Kind::literal);
+  std::string_view digits = token.text;
+  if (token.kind == Token::Kind::number) {
+    while (!digits.empty() && (digits.back() == 'f' || digits.back() == 'F')) {
+      digits.remove_suffix(1);
+    }
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (code != std::errc() || end != digits.data() + digits.size() || !(value < 3.5e38)) {
+      error(token.place, "glsl-number", "the number is not one a float can hold", {},
+            std::string(token.text));
+    }
+    made->type = float_type;
+    made->bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  } else {
+    made->type = token.kind == Token::Kind::natural ? uint_type : int_type;
+    if (token.kind == Token::Kind::natural) digits.remove_suffix(1);
+    const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
+    if (hexadecimal) digits.remove_prefix(2);
+    std::uint32_t value = 0;
+    const auto [end, code] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), value, hexadecimal ? 16 : 10);
+    if (code != std::errc() || end != digits.data() + digits.size()) {
+      error(token.place, "glsl-number", "the number does not fit 32 bits", {},
+            std::string(token.text));
+    }
+    made->bits = value;
+  }
+  ++at_;
+  return made;
+}
+
+}  // namespace nacre::glsl
