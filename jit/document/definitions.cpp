@@ -9,6 +9,12 @@
 
 namespace nacre {
 
+namespace {
+
+constexpr std::size_t max_leaves = 4096;  ///< Of a structure.
+
+}  // namespace
+
 Definitions::Definitions(const Document& document, const Definitions* base,
                          Diagnostics& diagnostics)
     : document_(document), base_(base) {
@@ -24,9 +30,10 @@ void Definitions::read_structs(Diagnostics& diagnostics) {
     if (element.category() != "typedef") continue;
     StructType type{element.name(), {}};
     if (!add_leaves(element, "", 0, type)) {
-      diagnostics.error("bad-typedef", location(element),
-                        "a member has no type, or the structure contains itself or too much",
-                        "members of known types");
+      // What is wrong with the members themselves is for check_declarations to say.
+      if (type.leaves.size() <= max_leaves) continue;
+      diagnostics.error("bad-typedef", location(element), "the structure contains too much",
+                        fmt::format("at most {} members", max_leaves));
     } else if (!type.leaves.empty()) {
       structs_.emplace(type.name, std::move(type));
     }
@@ -37,7 +44,6 @@ void Definitions::read_structs(Diagnostics& diagnostics) {
 bool Definitions::add_leaves(const Element& definition, const std::string& path, int depth,
                              StructType& type) const {
   constexpr int max_depth = 16;
-  constexpr std::size_t max_leaves = 4096;
   for (const Element& member : definition.children()) {
     if (member.category() != "member") continue;
     const std::string_view type_name = member.attribute("type");

@@ -213,7 +213,7 @@ class DeclarationCheck {
 
   void check_renamed_ports(const Element& element, const NodeDef& def) {
     for (const Element& child : element.children()) {
-      if (child.category() != "input" || def.input(child.name()) != nullptr) continue;
+      if (child.category() != "input" || !def.input_type(child.name()).empty()) continue;
       error("unknown-input", child, fmt::format("'{}' has no input of this name", def.name),
             "the name of an input", in_quotes(child.name()));
     }

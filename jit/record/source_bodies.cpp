@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -127,14 +128,62 @@ bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string mess
   return false;
 }
 
-bool record_expression(const NodeSource& source, const glsl::Module& module, NodeCall& call) {
-  std::vector<std::string> names;
-  for (const NodeCall::Port& port : call.inputs())
-    names.push_back(fmt::format("__{}__", port.name));
-  std::vector<std::pair<std::string_view, glsl::Value>> values;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    values.emplace_back(names[i], argument(source, call.inputs()[i]));
+/// The inputs of a node under their names. What came apart as "in.a", "in.b.c" is
+/// one structure again; the types live as long as this.
+class Arguments {
+ public:
+  Arguments(const NodeSource& source, const NodeCall& call) {
+    Members members;
+    for (const NodeCall::Port& port : call.inputs()) {
+      members.emplace_back(port.name, argument(source, port));
+    }
+    for (std::size_t i = 0; i < members.size();) {
+      const std::string head = members[i].first.substr(0, members[i].first.find('.'));
+      const std::size_t first = i++;
+      while (i < members.size() && members[i].first.starts_with(head + '.')) ++i;
+      const bool is_whole = members[first].first == head;
+      const std::string& name = names_.emplace_back(fmt::format("__{}__", head));
+      values_.emplace_back(name, is_whole ? members[first].second
+                                          : structure_of(members, first, i, head.size() + 1));
+    }
   }
+
+  const std::vector<std::pair<std::string_view, glsl::Value>>& values() const { return values_; }
+
+ private:
+  using Members = std::vector<std::pair<std::string, glsl::Value>>;
+
+  /// Members [first, end), whose paths agree in their first `skip` letters.
+  glsl::Value structure_of(const Members& members, std::size_t first, std::size_t end,
+                           std::size_t skip) {
+    glsl::Struct& made = types_.emplace_back();
+    glsl::Value result{{glsl::Base::structure}, {}, {}};
+    result.type.structure = &made;
+    while (first < end) {
+      const std::string& path = members[first].first;
+      const std::size_t dot = path.find('.', skip);
+      std::size_t next = first + 1;
+      glsl::Value value = members[first].second;
+      if (dot != std::string::npos) {
+        while (next < end && members[next].first.starts_with(path.substr(0, dot + 1))) ++next;
+        value = structure_of(members, first, next, dot + 1);
+      }
+      const std::string& name = names_.emplace_back(path.substr(skip, dot - skip));
+      made.members.push_back({name, value.type});
+      result.parts.insert(result.parts.end(), value.parts.begin(), value.parts.end());
+      first = next;
+    }
+    return result;
+  }
+
+  std::deque<glsl::Struct> types_;
+  std::deque<std::string> names_;
+  std::vector<std::pair<std::string_view, glsl::Value>> values_;
+};
+
+bool record_expression(const NodeSource& source, const glsl::Module& module, NodeCall& call) {
+  const Arguments arguments(source, call);
+  const auto& values = arguments.values();
   const auto result = module.record_expression(values, call.recorder(), call.diagnostics());
   if (!result) return false;
   const glsl::Type wanted = glsl_type(call.out_type());

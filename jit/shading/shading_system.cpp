@@ -183,7 +183,9 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
   // shader node adds that; those that name graphs come one by one.
   GraphRequest all;
   std::set<std::string> shaders;
-  for (const FoundOutput& output : find_outputs(document)) all.outputs.push_back(output.name);
+  for (const FoundOutput& output : find_outputs(document)) {
+    if (output.type != Type::material) all.outputs.push_back(output.name);
+  }
   std::vector<std::string> others;
   for (const FoundMaterial& material : find_materials(document)) {
     bool is_simple = true;

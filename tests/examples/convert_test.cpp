@@ -138,7 +138,7 @@ TEST_F(Convert, WhatFailsLeavesNoFile) {
   const std::string bad = write("bad.mtlx", R"(<materialx version="1.38">
   <arrayappend name="a" type="floatarray"/></materialx>)");
   EXPECT_EQ(run("convert " + bad + " --out " + file("out.mtlx")), 1);
-  EXPECT_NE(errors_.find("bad.mtlx:2: error"), std::string::npos) << errors_;
+  EXPECT_NE(errors_.find("bad.mtlx:2:4: error"), std::string::npos) << errors_;
   EXPECT_FALSE(fs::exists(file("out.mtlx")));
   EXPECT_EQ(run("convert " + bad), 2);
   EXPECT_EQ(run("convert --help"), 0);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "examples/common/materialx_libraries.h"
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
+#include "tests/document/standard_library.h"
 #include "tests/support/run_kernel.h"
 
 namespace nacre {
@@ -33,7 +33,7 @@ class Sources : public ::testing::Test {
  protected:
   void open(std::vector<HostBody> bodies = {}) {
     system_ =
-        ShadingSystem::create({.libraries = {find_materialx_libraries(), pack_folder() / "nodes"},
+        ShadingSystem::create({.libraries = {standard_library_folder(), pack_folder() / "nodes"},
                                .bodies = std::move(bodies)},
                               diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
@@ -138,7 +138,7 @@ TEST_F(Sources, AHostsBodyReplacesWhatThereIs) {
 }
 
 TEST_F(Sources, AHostsBodyNeedsANodedef) {
-  EXPECT_EQ(ShadingSystem::create({.libraries = {find_materialx_libraries()},
+  EXPECT_EQ(ShadingSystem::create({.libraries = {standard_library_folder()},
                                    .bodies = {{"ND_nothing", [](NodeCall&) {}}}},
                                   diagnostics_),
             nullptr);
