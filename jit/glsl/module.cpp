@@ -44,12 +44,18 @@ std::shared_ptr<const Module> Module::read(Sources::File text, const PreprocessO
 
 std::shared_ptr<const Module> Module::read_expression(Sources::File text,
                                                       Diagnostics& diagnostics) {
+  const std::string name = text.name;
+  const int line = text.first_line;
   auto module = std::shared_ptr<Module>(new Module);
   try {
     const std::vector<Token> tokens =
         tokens_after_prelude(module->sources_, std::move(text), {}, diagnostics);
     const auto is_prelude = [](const Token& token) { return token.place.file == 0; };
-    const auto split = std::find_if_not(tokens.begin(), tokens.end(), is_prelude);
+    const auto split = std::find_if_not(tokens.begin(), tokens.end() - 1, is_prelude);
+    if (split == tokens.end() - 1) {
+      diagnostics.error("glsl-syntax", {name, line, 0, ""}, "the text is empty", "an expression");
+      return nullptr;
+    }
     std::vector<Token> before(tokens.begin(), split);
     before.push_back(tokens.back());
     before.back().kind = Token::Kind::end;

@@ -32,7 +32,7 @@ const std::map<std::string, std::string>& exceptions() {
       {"ND_gltf_anisotropy_image", filter},
       {"ND_gltf_image_color3_color3_1_0", filter},
       {"ND_gltf_image_float_float_1_0", filter},
-      {"ND_gltf_normalmap_vector3_1_0", "not explained yet"},
+      {"ND_gltf_normalmap_vector3_1_0", filter},
       {"ND_hextiledimage_color3", filter},
       {"ND_hextiledimage_color4", filter},
       {"ND_hextilednormalmap_vector3",

@@ -56,6 +56,16 @@ TEST(GlslDiagnostics, SayWhatAndWhere) {
   }
 }
 
+TEST(GlslDiagnostics, AnEmptyExpressionIsNone) {
+  for (const char* text : {"", " ", "// nothing", ";"}) {
+    Diagnostics diagnostics;
+    EXPECT_EQ(glsl::Module::read_expression({"a.mtlx", text, 7}, diagnostics), nullptr);
+    ASSERT_EQ(diagnostics.all().size(), 1u) << text;
+    EXPECT_EQ(diagnostics.all().front().code, "glsl-syntax");
+    EXPECT_EQ(diagnostics.all().front().where.line, 7);
+  }
+}
+
 /// Small texts that stand for enormous ones end soon, with an error.
 TEST(GlslDiagnostics, BombsAreRefused) {
   std::string macros = "#define A0 1.0\n";

@@ -1,6 +1,7 @@
 // Rules of the MaterialX 1.39 specification, each by a small document.
 #include <gtest/gtest.h>
 
+#include "jit/graph/check.h"
 #include "tests/graph/build_text.h"
 
 namespace nacre {
@@ -202,7 +203,7 @@ TEST(Structs, WrongOnesAreReported) {
   const auto errors = [](std::string_view body) {
     Diagnostics diagnostics;
     const auto document = document_of(body, diagnostics);
-    const Definitions definitions(*document, &standard_library().definitions(), diagnostics);
+    check_document(*document, standard_library(), {}, diagnostics);
     return diagnostics.error_count();
   };
   EXPECT_EQ(errors(R"(<typedef name="t"><member name="m" type="t"/></typedef>)"), 1u);
