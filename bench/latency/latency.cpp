@@ -1,4 +1,5 @@
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -127,21 +128,25 @@ std::string texture_document(int nodes) {
   std::string text = "<materialx version=\"1.39\">\n";
   std::string before;
   for (int i = 0; i < nodes; ++i) {
-    const std::string kind = kinds[(nodes - 1 - i) % 10 == 0 ? 0 : i % 10];
-    const std::string name = "n" + std::to_string(i);
-    text += "<" + kind + " name=\"" + name + "\" type=\"float\">";
+    const std::string_view kind = kinds[(nodes - 1 - i) % 10 == 0 ? 0 : i % 10];
+    const std::string name = fmt::format("n{}", i);
+    text += fmt::format("<{} name=\"{}\" type=\"float\">", kind, name);
     const bool is_noise = kind == "noise2d";
     if (!before.empty()) {
-      text += "<input name=\"" + std::string(is_noise ? "amplitude" : kind == "sin" ? "in" : "in1") +
-              "\" type=\"float\" nodename=\"" + before + "\"/>";
+      text += fmt::format("<input name=\"{}\" type=\"float\" nodename=\"{}\"/>",
+                          is_noise        ? "amplitude"
+                          : kind == "sin" ? "in"
+                                          : "in1",
+                          before);
     }
     if (!is_noise && kind != "sin") {
-      text += "<input name=\"in2\" type=\"float\" value=\"0." + std::to_string(i + 1) + "\"/>";
+      text += fmt::format("<input name=\"in2\" type=\"float\" value=\"0.{}\"/>", i + 1);
     }
-    text += "</" + kind + ">\n";
+    text += fmt::format("</{}>\n", kind);
     before = name;
   }
-  return text + "<output name=\"out\" type=\"float\" nodename=\"" + before + "\"/></materialx>";
+  return text +
+         fmt::format("<output name=\"out\" type=\"float\" nodename=\"{}\"/></materialx>", before);
 }
 
 /// Read, graph and kernel of such a document, by `backend`; the counters are
@@ -161,11 +166,10 @@ void document_of(benchmark::State& state, int nodes, Backend backend) {
     const auto document = read_document_text(text, "texture.mtlx", {}, diagnostics);
     stages.add("read", milliseconds_since(start));
     start = Clock::now();
-    const auto graph =
-        document == nullptr
-            ? std::nullopt
-            : build_graph(*document, shading_system().library(), {.outputs = {"out"}, .material = {}},
-                          graph_options(), diagnostics);
+    const auto graph = document == nullptr ? std::nullopt
+                                           : build_graph(*document, shading_system().library(),
+                                                         {.outputs = {"out"}, .material = {}},
+                                                         graph_options(), diagnostics);
     stages.add("graph", milliseconds_since(start));
     if (!graph) {
       state.SkipWithError(diagnostics.to_string().c_str());

@@ -3,6 +3,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <filesystem>
@@ -159,8 +160,8 @@ std::string write_tx(const Job& job, const std::string& file) {
 std::string fault_of(const Job& job) {
   const TextureEncoding& encoding = job.encoding;
   if (type_of(job.format, encoding.bits) == unknown) {
-    return "a " + std::string(job.format.extension.substr(1)) + " file does not hold " +
-           std::to_string(encoding.bits) + "-bit channels";
+    return fmt::format("a {} file does not hold {}-bit channels", job.format.extension.substr(1),
+                       encoding.bits);
   }
   if (job.format.is_integer && component_count(job.output().type) > 4) {
     return "a png holds at most four channels";

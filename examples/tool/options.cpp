@@ -133,6 +133,7 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   }
   SystemOptions system;
   system.libraries.push_back(data);
+  system.standard_sources = options.graph_limits.prefer == Preference::source;
   for (const std::string& library : options.libraries) system.libraries.emplace_back(library);
   system.compile_threads = options.threads;
   system.textures = options.texture_limits;

@@ -246,9 +246,11 @@ const Element* Definitions::graph_of(const NodeDef& def) const {
 }
 
 const Element* Definitions::source_of(const NodeDef& def) const {
+  if (base_ != nullptr) {
+    if (const Element* source = base_->source_of(def)) return source;
+  }
   const auto found = sources_.find(&def);
-  if (found != sources_.end()) return found->second;
-  return base_ == nullptr ? nullptr : base_->source_of(def);
+  return found == sources_.end() ? nullptr : found->second;
 }
 
 const NodeDef* Definitions::implemented_by(const Element& graph) const {

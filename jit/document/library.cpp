@@ -8,9 +8,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_other_target(const fs::path& folder) {
+bool is_other_target(const fs::path& folder, bool with_sources) {
   const std::string name = folder.filename().string();
-  return (name.starts_with("gen") && name != source_target) || name == "targets";
+  if (name == source_target) return !with_sources;
+  return name.starts_with("gen") || name == "targets";
 }
 
 // Overloads that match equally are told apart by document order, and the
@@ -23,13 +24,13 @@ bool stdlib_first(const fs::path& a, const fs::path& b) {
   return a < b;
 }
 
-std::vector<fs::path> files_below(const fs::path& folder) {
+std::vector<fs::path> files_below(const fs::path& folder, bool with_sources) {
   std::vector<fs::path> files;
   std::error_code error;
   fs::recursive_directory_iterator at(folder, error);
   const fs::recursive_directory_iterator end;
   while (!error && at != end) {
-    if (at->is_directory(error) && is_other_target(at->path())) at.disable_recursion_pending();
+    if (at->is_directory(error) && is_other_target(at->path(), with_sources)) at.disable_recursion_pending();
     if (at->path().extension() == ".mtlx") files.push_back(at->path());
     at.increment(error);
   }
@@ -40,7 +41,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
 }  // namespace
 
 std::shared_ptr<const Library> load_library(const std::vector<fs::path>& paths,
-                                            Diagnostics& diagnostics, const ReadOptions& options) {
+                                            Diagnostics& diagnostics,
+                                            const LibraryOptions& options) {
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {
     std::error_code error;
@@ -48,7 +50,9 @@ std::shared_ptr<const Library> load_library(const std::vector<fs::path>& paths,
       files.push_back(path);
       continue;
     }
-    const std::vector<fs::path> found = files_below(path);
+    const bool is_standard = fs::is_directory(path / "stdlib", error);
+    const std::vector<fs::path> found =
+        files_below(path, options.standard_sources || !is_standard);
     if (found.empty()) {
       diagnostics.error("empty-library", {path.string(), 0, 0, ""},
                         "the library folder holds no .mtlx files");
@@ -56,7 +60,7 @@ std::shared_ptr<const Library> load_library(const std::vector<fs::path>& paths,
     files.insert(files.end(), found.begin(), found.end());
   }
   const std::size_t errors = diagnostics.error_count();
-  std::unique_ptr<Document> document = read_documents(files, options, diagnostics);
+  std::unique_ptr<Document> document = read_documents(files, options.read, diagnostics);
   if (document == nullptr) return nullptr;
   auto library = std::make_shared<const Library>(std::move(document), diagnostics);
   return diagnostics.error_count() == errors ? library : nullptr;

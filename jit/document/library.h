@@ -26,12 +26,20 @@ class Library {
   Definitions definitions_;
 };
 
+struct LibraryOptions {
+  ReadOptions read;
+  /// Also the GLSL texts of the data library itself (the folder that has a
+  /// "stdlib"), for those who want them run: nothing else needs them, and they
+  /// are a quarter of what there is to read.
+  bool standard_sources = false;
+};
+
 /// Loads files and folders, in the order given; of a folder all .mtlx files
 /// below it in the order of their paths, "stdlib" before the others, without
-/// the folders of implementations for other targets ("genglsl" and so on).
+/// the folders of implementations for other targets ("genosl" and so on).
 /// Null if there was an error.
 std::shared_ptr<const Library> load_library(const std::vector<std::filesystem::path>& paths,
                                             Diagnostics& diagnostics,
-                                            const ReadOptions& options = {});
+                                            const LibraryOptions& options = {});
 
 }  // namespace nacre

@@ -11,13 +11,6 @@ namespace nacre {
 
 namespace {
 
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view space = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(space);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
-
 // The default of a port, from attribute `attribute` of its element.
 template <typename Port>
 void read_default(Port& port, std::string_view attribute, Diagnostics& diagnostics) {

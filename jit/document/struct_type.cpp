@@ -1,17 +1,7 @@
 #include "jit/document/struct_type.h"
+#include "jit/document/value_text.h"
 
 namespace nacre {
-
-namespace {
-
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view space = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(space);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
-
-}  // namespace
 
 std::optional<std::vector<std::string_view>> split_struct_value(std::string_view text) {
   text = trim(text);

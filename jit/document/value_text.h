@@ -9,6 +9,9 @@
 
 namespace nacre {
 
+/// Without the white space at both ends.
+std::string_view trim(std::string_view text);
+
 /// A value as documents write it, whatever the locale. Numbers of a vector or
 /// matrix are separated by a comma or by white space; of an array by commas.
 /// Booleans are exactly "true" or "false". Infinities and NaN are refused, as is

@@ -18,14 +18,13 @@ namespace nacre {
 
 namespace {
 
-class Checker {
+class Checker : ElementCheck {
  public:
   Checker(const Document& document, const Definitions& definitions, const Definitions& library,
           Diagnostics& diagnostics)
-      : document_(document),
+      : ElementCheck(diagnostics), document_(document),
         definitions_(definitions),
-        library_(library),
-        diagnostics_(diagnostics) {}
+        library_(library) {}
 
   void check_all() {
     check_structure(document_, definitions_, diagnostics_);
@@ -328,16 +327,9 @@ class Checker {
     }
   }
 
-  void error(std::string code, const Element& element, std::string message,
-             std::string expected = {}, std::string found = {}) {
-    diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
-                       std::move(found));
-  }
-
   const Document& document_;
   const Definitions& definitions_;
   const Definitions& library_;
-  Diagnostics& diagnostics_;
 };
 
 }  // namespace

@@ -16,14 +16,13 @@ namespace nacre {
 
 namespace {
 
-class DeclarationCheck {
+class DeclarationCheck : ElementCheck {
  public:
   DeclarationCheck(const Document& document, const Definitions& definitions,
                    const Definitions& library, Diagnostics& diagnostics)
-      : document_(document),
+      : ElementCheck(diagnostics), document_(document),
         definitions_(definitions),
-        library_(library),
-        diagnostics_(diagnostics) {}
+        library_(library) {}
 
   void run() {
     find_type_circles();
@@ -377,22 +376,9 @@ class DeclarationCheck {
     }
   }
 
-  void error(std::string code, const Element& element, std::string message,
-             std::string expected = {}, std::string found = {}) {
-    diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
-                       std::move(found));
-  }
-
-  void warning(std::string code, const Element& element, std::string message,
-               std::string expected = {}, std::string found = {}) {
-    diagnostics_.warning(std::move(code), location(element), std::move(message),
-                         std::move(expected), std::move(found));
-  }
-
   const Document& document_;
   const Definitions& definitions_;
   const Definitions& library_;
-  Diagnostics& diagnostics_;
   std::unordered_map<std::string, const NodeDef*> signatures_;
   std::unordered_map<const Element*, std::size_t> circles_;  ///< Of types that hold types.
 };

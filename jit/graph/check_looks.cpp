@@ -15,10 +15,10 @@ namespace nacre {
 
 namespace {
 
-class LookCheck {
+class LookCheck : ElementCheck {
  public:
   LookCheck(const Document& document, const Definitions& definitions, Diagnostics& diagnostics)
-      : document_(document), definitions_(definitions), diagnostics_(diagnostics) {}
+      : ElementCheck(diagnostics), document_(document), definitions_(definitions) {}
 
   void run() {
     find_collection_circles();
@@ -229,21 +229,8 @@ class LookCheck {
     check_properties(element, "token");
   }
 
-  void error(std::string code, const Element& element, std::string message,
-             std::string expected = {}, std::string found = {}) {
-    diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
-                       std::move(found));
-  }
-
-  void warning(std::string code, const Element& element, std::string message, std::string expected,
-               std::string found) {
-    diagnostics_.warning(std::move(code), location(element), std::move(message),
-                         std::move(expected), std::move(found));
-  }
-
   const Document& document_;
   const Definitions& definitions_;
-  Diagnostics& diagnostics_;
   std::unordered_map<const Element*, std::size_t> circles_;  ///< Of collections.
 };
 

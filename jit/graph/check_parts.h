@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "jit/document/definitions.h"
 #include "jit/document/document.h"
@@ -11,6 +12,25 @@
 
 /// The parts of check_document, one for each kind of fault.
 namespace nacre {
+
+/// What the parts complain through.
+class ElementCheck {
+ protected:
+  explicit ElementCheck(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void error(std::string code, const Element& element, std::string message,
+             std::string expected = {}, std::string found = {}) {
+    diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
+                       std::move(found));
+  }
+  void warning(std::string code, const Element& element, std::string message,
+               std::string expected = {}, std::string found = {}) {
+    diagnostics_.warning(std::move(code), location(element), std::move(message),
+                         std::move(expected), std::move(found));
+  }
+
+  Diagnostics& diagnostics_;
+};
 
 /// Elements without a name, in places where they mean nothing, of versions gone by;
 /// attributes that are almost one of the standard's.

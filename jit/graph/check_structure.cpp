@@ -125,10 +125,10 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-class StructureCheck {
+class StructureCheck : ElementCheck {
  public:
   StructureCheck(const Document& document, const Definitions& definitions, Diagnostics& diagnostics)
-      : document_(document), definitions_(definitions), diagnostics_(diagnostics) {}
+      : ElementCheck(diagnostics), document_(document), definitions_(definitions) {}
 
   void run() {
     std::vector<const Element*> pending{&document_.root()};
@@ -266,21 +266,8 @@ class StructureCheck {
 
   static std::string quoted_name(std::string_view name) { return std::string(name.substr(0, 100)); }
 
-  void error(std::string code, const Element& element, std::string message, std::string expected,
-             std::string found = {}) {
-    diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
-                       std::move(found));
-  }
-
-  void warning(std::string code, const Element& element, std::string message, std::string expected,
-               std::string found) {
-    diagnostics_.warning(std::move(code), location(element), std::move(message),
-                         std::move(expected), std::move(found));
-  }
-
   const Document& document_;
   const Definitions& definitions_;
-  Diagnostics& diagnostics_;
 };
 
 }  // namespace

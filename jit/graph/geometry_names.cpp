@@ -1,4 +1,5 @@
 #include "jit/graph/geometry_names.h"
+#include "jit/document/value_text.h"
 
 #include <algorithm>
 
@@ -7,13 +8,6 @@ namespace nacre {
 namespace {
 
 constexpr std::size_t max_alternatives = 1024;
-
-std::string_view trim(std::string_view text) {
-  constexpr std::string_view space = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(space);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
 
 /// Splits at commas outside of braces.
 std::vector<std::string_view> split_alternatives(std::string_view text) {

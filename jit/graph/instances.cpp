@@ -53,10 +53,7 @@ bool Resolver::has_body(const NodeDef& def) const {
 
 /// Whether the text of an <implementation> stands for the nodedef.
 bool Resolver::runs_source(const NodeDef& def) const {
-  if (definitions_.source_of(def) == nullptr) return false;
-  // Closures and shaders have no numbers that a text could compute.
-  const auto has_numbers = [](const NodeDefOutput& output) { return is_numeric(output.type); };
-  if (!std::all_of(def.outputs.begin(), def.outputs.end(), has_numbers)) return false;
+  if (definitions_.source_of(def) == nullptr || !may_be_source(def)) return false;
   if (options_.prefer == Preference::source) return true;
   return !has_body(def) && graph_of(def) == nullptr;
 }

@@ -1,8 +1,15 @@
 #include "jit/graph/node_source.h"
 
+#include <algorithm>
+
 #include "jit/document/document.h"
 
 namespace nacre {
+
+bool may_be_source(const NodeDef& def) {
+  return std::all_of(def.outputs.begin(), def.outputs.end(),
+                     [](const NodeDefOutput& output) { return is_numeric(output.type); });
+}
 
 NodeSource node_source(const NodeDef& def, const Element& implementation) {
   NodeSource source;

@@ -134,7 +134,8 @@ ShadingSystem::~ShadingSystem() = default;
 std::unique_ptr<ShadingSystem> ShadingSystem::create(const SystemOptions& options,
                                                      Diagnostics& diagnostics) {
   std::unique_ptr<ShadingSystem> system(new ShadingSystem());
-  system->library_ = load_library(options.libraries, diagnostics);
+  system->library_ = load_library(options.libraries, diagnostics,
+                                  {.read = {}, .standard_sources = options.standard_sources});
   if (system->library_ == nullptr) return nullptr;
   system->bodies_ = std::make_unique<Bodies>(system->library_->definitions());
   for (const HostBody& body : options.bodies) {
@@ -169,7 +170,7 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
   const Definitions definitions(document, &library_->definitions(), known);
   for (const NodeDef* def : definitions.all()) {
     const Element* source = definitions.source_of(*def);
-    if (source == nullptr || &source->document() != &document) continue;
+    if (source == nullptr || &source->document() != &document || !may_be_source(*def)) continue;
     sources_->check(node_source(*def, *source), *def, diagnostics);
   }
   // What only recording finds: images that cannot be read, nodes without a body.

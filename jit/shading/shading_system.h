@@ -29,6 +29,9 @@ struct SystemOptions {
   std::vector<std::filesystem::path> libraries;
   /// Used in place of whatever else implements those nodedefs.
   std::vector<HostBody> bodies = {};
+  /// Read the data library's own GLSL too, so that GraphOptions::prefer can ask for
+  /// it. Node packs' texts are always read.
+  bool standard_sources = false;
   TextureOptions textures = {};
   /// Where compiled kernels are kept between runs; empty: nowhere.
   std::filesystem::path cache = {};

@@ -47,18 +47,11 @@ Float3 gradients(Float3 /*result*/, Int hash, P p) {
           gradient(shift_right_logical(hash, Int(16)), p)};
 }
 
-/// x in its cell. Infinity and NaN have no fraction, so min takes its second operand,
-/// the far end of the cell; just beyond it, so that 1 itself, to which fractions may
-/// round, keeps its derivative.
-Float place(Float x) { return min(fract(x), 0x1.000002p0f); }
-Float2 place(Float2 p) { return {place(p.x), place(p.y)}; }
-Float3 place(Float3 p) { return {place(p.x), place(p.y), place(p.z)}; }
-
 /// Bilinear over the corners of the cell with faded weights; R: Float or Float3.
 template <class R>
 R noise2(Float2 p) {
   const Cell2 cell = cell_of(p);
-  const Float2 f = place(p);
+  const Float2 f = fraction(p);
   const auto corner = [&](int i, int j) {
     const Float2 offset{f.x - float(i), f.y - float(j)};
     return gradients(R(), hash(cell.x + Int(i), cell.y + Int(j)), offset);
@@ -71,7 +64,7 @@ R noise2(Float2 p) {
 template <class R>
 R noise3(Float3 p) {
   const Cell3 cell = cell_of(p);
-  const Float3 f = place(p);
+  const Float3 f = fraction(p);
   const auto corner = [&](int i, int j, int k) {
     const Float3 offset(f.x - float(i), f.y - float(j), f.z - float(k));
     return gradients(R(), hash(cell.x + Int(i), cell.y + Int(j), cell.z + Int(k)), offset);

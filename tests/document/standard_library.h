@@ -21,7 +21,8 @@ inline std::filesystem::path standard_library_folder() {
 inline const Library& standard_library() {
   static const std::shared_ptr<const Library> library = [] {
     Diagnostics diagnostics;
-    auto loaded = load_library({standard_library_folder()}, diagnostics);
+    auto loaded = load_library({standard_library_folder()}, diagnostics,
+                               {.read = {}, .standard_sources = true});
     if (loaded == nullptr) {
       ADD_FAILURE() << diagnostics.to_string();
       std::exit(1);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -256,7 +257,8 @@ Comparison compare(const NodeDef& def, const NodeBody& body, SourceBodies& sourc
         ++result.compared;
         const double mine = ours.at(name)[ours.at(name).size() == 1 ? 0 : i];
         const double scale = std::max({std::abs(values[i]), std::abs(mine), 1e-6});
-        const double error = std::abs(values[i] - mine) / scale;
+        const double error = std::isfinite(mine) ? std::abs(values[i] - mine) / scale
+                                                 : std::numeric_limits<double>::infinity();
         if (error <= result.error) continue;
         result.error = error;
         result.worst = fmt::format("{}: ours {}, the text's {} at", name, mine, values[i]);

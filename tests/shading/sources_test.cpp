@@ -34,7 +34,8 @@ class Sources : public ::testing::Test {
   void open(std::vector<HostBody> bodies = {}) {
     system_ =
         ShadingSystem::create({.libraries = {standard_library_folder(), pack_folder() / "nodes"},
-                               .bodies = std::move(bodies)},
+                               .bodies = std::move(bodies),
+         .standard_sources = true},
                               diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
   }

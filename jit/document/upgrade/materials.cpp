@@ -129,6 +129,19 @@ Element* nodedef_of_shaderref(const Upgrade& upgrade, const Element& reference) 
   return nullptr;
 }
 
+void visit_unbound_inputs(const Upgrade& upgrade, Element& material, const UnboundInput& visit) {
+  for (Element* reference : children_of(material)) {
+    if (reference->category() != "shaderref") continue;
+    Element* nodedef = nodedef_of_shaderref(upgrade, *reference);
+    if (nodedef == nullptr) continue;
+    if (!upgrade.spend(nodedef->child_count(), *reference)) return;
+    const std::unordered_set<std::string_view> bound = names_of(*reference);
+    for (const Element* input : children_of(*nodedef)) {
+      if (!bound.contains(input->name())) visit(*reference, *input);
+    }
+  }
+}
+
 void replace_materials(const Upgrade& upgrade) {
   Scope scope(upgrade.document, upgrade.root);
   for (Element* material : scope.children()) {

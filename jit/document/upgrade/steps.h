@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "jit/document/upgrade/rewrite.h"
 
 namespace nacre::upgrading {
@@ -41,5 +43,10 @@ void replace_normalmap(const Upgrade& upgrade);
 
 /// The nodedef a <shaderref> names, if the file holds it; else null.
 Element* nodedef_of_shaderref(const Upgrade& upgrade, const Element& shaderref);
+
+/// What to do with an input of a shader's nodedef that the shaderref leaves unbound.
+using UnboundInput = std::function<void(Element& shaderref, const Element& input)>;
+/// Calls it for all of a material, until the upgrade's work is spent.
+void visit_unbound_inputs(const Upgrade& upgrade, Element& material, const UnboundInput& visit);
 
 }  // namespace nacre::upgrading

@@ -72,23 +72,15 @@ void name_shaders(const Upgrade& upgrade, Element& material) {
 /// A shader's input that names a graph feeds that input where the shader is used.
 void bind_graphs(const Upgrade& upgrade, Element& material) {
   Document& document = upgrade.document;
-  for (Element* reference : children_of(material)) {
-    if (reference->category() != "shaderref") continue;
-    Element* nodedef = nodedef_of_shaderref(upgrade, *reference);
-    if (nodedef == nullptr) continue;
-    if (!upgrade.spend(nodedef->child_count(), *reference)) return;
-    const std::unordered_set<std::string_view> bound = names_of(*reference);
-    for (const Element* input : children_of(*nodedef)) {
-      if (!input->has_attribute("opgraph") || !input->has_attribute("graphoutput")) continue;
-      if (bound.contains(input->name())) continue;
-      Element& binding = document.create_at("bindinput", *input);
-      rename(document, binding, input->name());
-      document.set_attribute(binding, "type", input->attribute("type"));
-      document.set_attribute(binding, "nodegraph", input->attribute("opgraph"));
-      document.set_attribute(binding, "output", input->attribute("graphoutput"));
-      document.append(*reference, binding);
-    }
-  }
+  visit_unbound_inputs(upgrade, material, [&](Element& reference, const Element& input) {
+    if (!input.has_attribute("opgraph") || !input.has_attribute("graphoutput")) return;
+    Element& binding = document.create_at("bindinput", input);
+    rename(document, binding, input.name());
+    document.set_attribute(binding, "type", input.attribute("type"));
+    document.set_attribute(binding, "nodegraph", input.attribute("opgraph"));
+    document.set_attribute(binding, "output", input.attribute("graphoutput"));
+    document.append(reference, binding);
+  });
 }
 
 void forget_graphs(const Upgrade& upgrade) {

@@ -35,24 +35,16 @@ void apply_overrides(const Upgrade& upgrade, Element& material) {
     if (is_override(*child)) overrides.emplace(child->name(), child);
   }
   if (overrides.empty()) return;
-  for (Element* reference : children_of(material)) {
-    if (reference->category() != "shaderref") continue;
-    Element* nodedef = nodedef_of_shaderref(upgrade, *reference);
-    if (nodedef == nullptr) continue;
-    if (!upgrade.spend(nodedef->child_count(), *reference)) return;
-    const std::unordered_set<std::string_view> bound = names_of(*reference);
-    for (const Element* input : children_of(*nodedef)) {
-      const auto found = overrides.find(input->attribute("publicname"));
-      if (found == overrides.end() || bound.contains(input->name())) continue;
-      const bool is_parameter = input->category() == "parameter";
-      Element& binding =
-          document.create_at(is_parameter ? "bindparam" : "bindinput", *found->second);
-      rename(document, binding, input->name());
-      document.set_attribute(binding, "type", input->attribute("type"));
-      document.set_attribute(binding, "value", found->second->attribute("value"));
-      document.append(*reference, binding);
-    }
-  }
+  visit_unbound_inputs(upgrade, material, [&](Element& reference, const Element& input) {
+    const auto found = overrides.find(input.attribute("publicname"));
+    if (found == overrides.end()) return;
+    const bool is_parameter = input.category() == "parameter";
+    Element& binding = document.create_at(is_parameter ? "bindparam" : "bindinput", *found->second);
+    rename(document, binding, input.name());
+    document.set_attribute(binding, "type", input.attribute("type"));
+    document.set_attribute(binding, "value", found->second->attribute("value"));
+    document.append(reference, binding);
+  });
   remove_children(document, material, is_override);
 }
 
