@@ -87,6 +87,11 @@ void CommonOptions::add_compile(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--lanes", lanes, "Points side by side in compiled code (default: by CPU)")
       ->check(CLI::IsMember({1, 4, 8, 16}));
+  command
+      .add_option("--anisotropy", anisotropy,
+                  "How much longer than wide a pixel may be on an image without blur; 1: no care")
+      ->check(CLI::Range(1, largest_anisotropy))
+      ->capture_default_str();
   command.add_option("--threads", threads, "Threads (default: all)")->check(CLI::NonNegativeNumber);
   command.add_option("--cache", cache, "Folder of compiled kernels (default: in the user's cache)")
       ->type_name("DIR");
@@ -115,6 +120,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.lanes = lanes;
   options.compile.max_instructions = compile_limits.max_instructions;
   options.compile.max_seconds = compile_limits.max_seconds;
+  options.max_anisotropy = anisotropy;
   options.graph.prefer = graph_limits.prefer;
   options.graph.max_nodes = graph_limits.max_nodes;
   options.graph.max_inputs = graph_limits.max_inputs;

@@ -24,6 +24,7 @@ struct CommonOptions {
   std::string backend = "jit";
   std::string working_space = "lin_rec709";
   int lanes = 0;
+  int anisotropy = default_anisotropy;
   int threads = 0;
   bool no_cache = false;
   std::string cache;

@@ -54,7 +54,8 @@ class Compilation {
         sources_(sources),
         service_(service),
         diagnostics_(diagnostics),
-        textures_(std::make_shared<RecordedTextures>(store, recorder_, diagnostics)) {}
+        textures_(std::make_shared<RecordedTextures>(store, recorder_, diagnostics,
+                                                     options.max_anisotropy)) {}
 
   std::optional<std::vector<Recorded>> record(const Graph& graph) {
     const RecordOptions record{

@@ -44,6 +44,8 @@ struct ShaderOptions {
   KernelRequest kernels;
   GraphOptions graph;  ///< `is_native` is filled in.
   bool lazy = true;    ///< See RecordOptions.
+  /// Of footprints on images, 1 .. largest_anisotropy; see runtime/texture/sampling.h.
+  int max_anisotropy = default_anisotropy;
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;
 };
