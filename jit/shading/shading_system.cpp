@@ -11,6 +11,7 @@
 #include "jit/record/source_bodies.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
+#include "pbs/shader_channels.h"
 #include "runtime/program/fix_inputs.h"
 #include "runtime/program/slice.h"
 
@@ -141,7 +142,8 @@ std::unique_ptr<ShadingSystem> ShadingSystem::create(const SystemOptions& option
   system->bodies_ = std::make_unique<Bodies>(system->library_->definitions());
   for (const HostBody& body : options.bodies) {
     if (system->bodies_->add(body.nodedef, body.record, system->library_->definitions())) continue;
-    diagnostics.error("unknown-nodedef", {}, "the host has a body for a nodedef that no library declares",
+    diagnostics.error("unknown-nodedef", {},
+                      "the host has a body for a nodedef that no library declares",
                       "the name of a nodedef", body.nodedef);
     return nullptr;
   }
@@ -179,7 +181,8 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
     Diagnostics already_known;
     const auto graph = build(document, request, options, already_known);
     if (!graph) return;
-    Compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics).record(*graph);
+    Compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics)
+        .record(*graph);
   };
   // All at once, so that what they share is recorded once. A material that names its
   // shader node adds that; those that name graphs come one by one.
@@ -222,15 +225,19 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
   std::vector<OutputKernel::Output> outputs;
   for (std::size_t i = 0; i < values->size(); ++i) {
     const Recorded& value = (*values)[i];
-    if (!is_numeric(value.type)) {
-      diagnostics.error("not-numeric", {}, "output '" + graph.outputs[i].name + "' has no numbers",
-                        "a numeric type", std::string(type_name(value.type)));
+    const std::string& name = graph.outputs[i].name;
+    std::vector<SliceOutput> list =
+        is_numeric(value.type)
+            ? channels(name, value)
+            : shader_channels(compilation.recorder(), options.compile.accuracy, name, value);
+    if (list.empty()) {
+      diagnostics.error("not-numeric", {}, "output '" + name + "' has no numbers",
+                        "a numeric type, a medium, displacement or light",
+                        std::string(type_name(value.type)));
       return nullptr;
     }
-    outputs.push_back({graph.outputs[i].name, value.type, slices.size()});
-    for (SliceOutput& channel : channels(graph.outputs[i].name, value)) {
-      slices.push_back(std::move(channel));
-    }
+    outputs.push_back({name, value.type, slices.size(), list.size()});
+    std::ranges::move(list, std::back_inserter(slices));
   }
   std::vector<StageReport> stages;
   auto kernel = std::move(

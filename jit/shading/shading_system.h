@@ -51,12 +51,14 @@ struct ShaderOptions {
 };
 
 /// Outputs of node graphs as one kernel: channel "<name>", or "<name>.x" ... for
-/// types of several components, in the order asked for.
+/// types of several components, in the order asked for. A medium, displacement or light
+/// has the channels of pbs/shader_channels.h.
 struct OutputKernel {
   struct Output {
     std::string name;  ///< "NG_marble/out"
     Type type = Type::none;
-    std::size_t first_channel = 0;  ///< component_count(type) of them follow.
+    std::size_t first_channel = 0;
+    std::size_t channels = 0;  ///< component_count(type) of a numeric type.
   };
   BoundKernel kernel;
   std::vector<Output> outputs;
