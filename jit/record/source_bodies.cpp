@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "jit/record/source_ports.h"
 #include "nodes/texture2d/sampler.h"
 
 namespace nacre {
@@ -64,46 +65,6 @@ std::string with_names(std::string text) {
   return text;
 }
 
-// -- Values of ports
-
-glsl::Type glsl_type(Type type) {
-  const auto vector = [](int rows) { return glsl::float_type.with_rows(rows); };
-  switch (type) {
-    case Type::boolean: return glsl::bool_type;
-    case Type::integer: return glsl::int_type;
-    case Type::float_: return glsl::float_type;
-    case Type::vector2: return vector(2);
-    case Type::color3:
-    case Type::vector3: return vector(3);
-    case Type::color4:
-    case Type::vector4: return vector(4);
-    case Type::matrix33: return {glsl::Base::number, 3, 3};
-    case Type::matrix44: return {glsl::Base::number, 4, 4};
-    case Type::filename: return {glsl::Base::sampler};
-    case Type::string:
-    case Type::geomname: return glsl::int_type;
-    default: return glsl::void_type;
-  }
-}
-
-int enum_index(const NodeSource& source, std::string_view input, const std::string& text) {
-  for (const auto& [name, values] : source.enums) {
-    const auto found = std::find(values.begin(), values.end(), text);
-    if (name == input && found != values.end()) return static_cast<int>(found - values.begin());
-  }
-  return 0;
-}
-
-glsl::Value argument(const NodeSource& source, const NodeCall::Port& port) {
-  glsl::Value value{glsl_type(port.value.type), port.value.parts, {}};
-  if (port.value.type == Type::filename) {
-    value.text = port.value.text;
-  } else if (is_text(port.value.type)) {
-    value.parts = {Ref::literal(enum_index(source, port.name, port.value.text))};
-  }
-  return value;
-}
-
 glsl::TextureLookup texture_lookup(NodeCall& call) {
   return [&call](const std::string& image, const glsl::Value& uv, const glsl::Value* ddx,
                  const glsl::Value*) -> std::optional<glsl::Value> {
@@ -119,8 +80,6 @@ glsl::TextureLookup texture_lookup(NodeCall& call) {
   };
 }
 
-std::string type_text(Type type) { return std::string(type_name(type)); }
-
 bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string message,
             std::string expected, std::string found) {
   diagnostics.error("source-misfit", source.where, std::move(message), std::move(expected),
@@ -128,72 +87,71 @@ bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string mess
   return false;
 }
 
-/// The inputs of a node under their names. What came apart as "in.a", "in.b.c" is
-/// one structure again; the types live as long as this.
-class Arguments {
- public:
-  Arguments(const NodeSource& source, const NodeCall& call) {
-    Members members;
-    for (const NodeCall::Port& port : call.inputs()) {
-      members.emplace_back(port.name, argument(source, port));
-    }
-    for (std::size_t i = 0; i < members.size();) {
-      const std::string head = members[i].first.substr(0, members[i].first.find('.'));
-      const std::size_t first = i++;
-      while (i < members.size() && members[i].first.starts_with(head + '.')) ++i;
-      const bool is_whole = members[first].first == head;
-      const std::string& name = names_.emplace_back(fmt::format("__{}__", head));
-      values_.emplace_back(name, is_whole ? members[first].second
-                                          : structure_of(members, first, i, head.size() + 1));
-    }
+/// Sets what an output stands for: itself, or the leaves of its structure.
+void set_output(NodeCall& call, const SourcePorts::Port& output, const glsl::Value& value) {
+  auto part = value.parts.begin();
+  for (std::size_t i = output.first; i < output.first + output.count; ++i) {
+    const NodeCall::Port& leaf = call.outputs()[i];
+    const auto end = part + glsl::part_count(glsl_type(leaf.value.type));
+    call.set(leaf.name, std::vector<Ref>(part, end));
+    part = end;
   }
+}
 
-  const std::vector<std::pair<std::string_view, glsl::Value>>& values() const { return values_; }
-
- private:
-  using Members = std::vector<std::pair<std::string, glsl::Value>>;
-
-  /// Members [first, end), whose paths agree in their first `skip` letters.
-  glsl::Value structure_of(const Members& members, std::size_t first, std::size_t end,
-                           std::size_t skip) {
-    glsl::Struct& made = types_.emplace_back();
-    glsl::Value result{{glsl::Base::structure}, {}, {}};
-    result.type.structure = &made;
-    while (first < end) {
-      const std::string& path = members[first].first;
-      const std::size_t dot = path.find('.', skip);
-      std::size_t next = first + 1;
-      glsl::Value value = members[first].second;
-      if (dot != std::string::npos) {
-        while (next < end && members[next].first.starts_with(path.substr(0, dot + 1))) ++next;
-        value = structure_of(members, first, next, dot + 1);
-      }
-      const std::string& name = names_.emplace_back(path.substr(skip, dot - skip));
-      made.members.push_back({name, value.type});
-      result.parts.insert(result.parts.end(), value.parts.begin(), value.parts.end());
-      first = next;
-    }
-    return result;
+/// Sets the node's only output to the value of an expression, or of a function that
+/// returns it.
+bool set_only_output(const NodeSource& source, NodeCall& call, const SourcePorts& outputs,
+                     std::string message, const glsl::Value& value) {
+  const SourcePorts::Port& output = outputs.all().front();
+  if (outputs.all().size() != 1) {
+    return misfit(source, call.diagnostics(), std::move(message), "one output",
+                  fmt::format("{} outputs", outputs.all().size()));
   }
-
-  std::deque<glsl::Struct> types_;
-  std::deque<std::string> names_;
-  std::vector<std::pair<std::string_view, glsl::Value>> values_;
-};
+  if (const auto difference = find_misfit(output.value.type, value.type)) {
+    return misfit(source, call.diagnostics(), std::move(message), difference->expected,
+                  difference->found);
+  }
+  set_output(call, output, value);
+  return true;
+}
 
 bool record_expression(const NodeSource& source, const glsl::Module& module, NodeCall& call) {
-  const Arguments arguments(source, call);
-  const auto& values = arguments.values();
-  const auto result = module.record_expression(values, call.recorder(), call.diagnostics());
-  if (!result) return false;
-  const glsl::Type wanted = glsl_type(call.out_type());
-  if (!glsl::converts(result->type, wanted)) {
-    return misfit(source, call.diagnostics(), "the expression has another type than the output",
-                  to_string(wanted) + " for " + type_text(call.out_type()),
-                  to_string(result->type));
+  const SourcePorts inputs(source, call.inputs());
+  std::deque<std::string> names;
+  std::vector<std::pair<std::string_view, glsl::Value>> values;
+  for (const SourcePorts::Port& input : inputs.all()) {
+    values.emplace_back(names.emplace_back(fmt::format("__{}__", input.name)), input.value);
   }
-  call.set(glsl::convert(*result, wanted).parts);
-  return true;
+  auto result = module.record_expression(values, call.recorder(), call.diagnostics());
+  if (!result) return false;
+  const SourcePorts outputs(source, call.outputs());
+  const glsl::Type& wanted = outputs.all().front().value.type;
+  if (glsl::converts(result->type, wanted)) result = glsl::convert(*result, wanted);
+  return set_only_output(source, call, outputs, "the expression has another type than the output",
+                         *result);
+}
+
+/// The value as the parameter's type, or nothing, with a diagnostic.
+std::optional<glsl::Value> fitted(const NodeSource& source, Diagnostics& diagnostics,
+                                  const glsl::Function::Parameter& parameter, std::size_t number,
+                                  const SourcePorts::Port& port, bool is_input) {
+  const bool converts = is_input && glsl::converts(port.value.type, parameter.type);
+  if (converts && parameter.in) return glsl::convert(port.value, parameter.type);
+  std::optional<SourceMisfit> difference = find_misfit(port.value.type, parameter.type);
+  const bool has_direction = is_input ? parameter.in : parameter.out;
+  if (!difference && has_direction) {
+    return is_input ? glsl::Value{parameter.type, port.value.parts, {}}
+                    : glsl::zero(parameter.type);
+  }
+  if (!difference) {
+    difference = {to_string(parameter.type), to_string(parameter.type)};
+  }
+  misfit(source, diagnostics,
+         fmt::format("parameter {} of function '{}' does not fit {} '{}'", number, source.function,
+                     is_input ? "input" : "output", port.name),
+         (is_input ? "" : "out ") + difference->expected,
+         (parameter.out ? "out " : "") + difference->found);
+  return std::nullopt;
 }
 
 /// A function may also return its only output.
@@ -203,9 +161,11 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
     return misfit(source, call.diagnostics(), "the text does not define the function",
                   "'" + source.function + "'", "no such function");
   }
+  const SourcePorts inputs(source, call.inputs());
+  const SourcePorts outputs(source, call.outputs());
   const bool returns = !function->type.is_void();
-  const std::size_t inputs = call.inputs().size();
-  const std::size_t wanted = inputs + (returns ? 0 : call.outputs().size());
+  const std::size_t count = inputs.all().size();
+  const std::size_t wanted = count + (returns ? 0 : outputs.all().size());
   if (function->parameters.size() != wanted) {
     return misfit(
         source, call.diagnostics(),
@@ -214,36 +174,22 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
   }
   std::vector<glsl::Value> arguments;
   for (std::size_t i = 0; i < wanted; ++i) {
-    const bool is_input = i < inputs;
-    const NodeCall::Port& port = is_input ? call.inputs()[i] : call.outputs()[i - inputs];
-    const glsl::Function::Parameter& parameter = function->parameters[i];
-    const glsl::Type type = glsl_type(port.value.type);
-    const bool fits = is_input ? parameter.in && glsl::converts(type, parameter.type)
-                               : parameter.out && parameter.type == type;
-    if (!fits) {
-      return misfit(source, call.diagnostics(),
-                    fmt::format("parameter {} of function '{}' does not fit {} '{}'", i + 1,
-                                source.function, is_input ? "input" : "output", port.name),
-                    (is_input ? "" : "out ") + to_string(type),
-                    (parameter.out ? "out " : "") + to_string(parameter.type));
-    }
-    arguments.push_back(is_input ? glsl::convert(argument(source, port), parameter.type)
-                                 : glsl::zero(type));
+    const bool is_input = i < count;
+    const SourcePorts::Port& port = is_input ? inputs.all()[i] : outputs.all()[i - count];
+    auto argument =
+        fitted(source, call.diagnostics(), function->parameters[i], i + 1, port, is_input);
+    if (!argument) return false;
+    arguments.push_back(std::move(*argument));
   }
   const auto result = module.record(*function, std::move(arguments), call.recorder(),
                                     call.diagnostics(), texture_lookup(call));
   if (!result) return false;
   if (returns) {
-    const glsl::Type type = glsl_type(call.out_type());
-    if (result->value.type != type || call.outputs().size() != 1) {
-      return misfit(source, call.diagnostics(), "the function returns another type than the output",
-                    to_string(type), to_string(result->value.type));
-    }
-    call.set(result->value.parts);
-    return true;
+    return set_only_output(source, call, outputs,
+                           "the function returns another type than the output", result->value);
   }
-  for (std::size_t i = 0; i < call.outputs().size(); ++i) {
-    call.set(call.outputs()[i].name, result->outputs[inputs + i].parts);
+  for (std::size_t i = 0; i < outputs.all().size(); ++i) {
+    set_output(call, outputs.all()[i], result->outputs[count + i]);
   }
   return true;
 }

@@ -20,7 +20,8 @@ namespace nacre {
 /// How a node becomes a call follows MaterialX's GLSL generator: the inputs in
 /// the nodedef's order, then the outputs; colours and vectors as vecN, matrices
 /// as matN whose columns are MaterialX's rows, a string as the index of its
-/// value among those allowed (else 0), a file name as sampler2D.
+/// value among those allowed (else 0), a file name as sampler2D. A structure (typedef)
+/// is one that the text declares, of any name, with the same members in the same order.
 class SourceBodies {
  public:
   /// `roots`: folders in which included files are looked for after the folder of

@@ -22,7 +22,7 @@ Float3 hsv_to_rgb(Float3 hsv) {
 /// Hue (one turn is 1, wraps), saturation and value to red, green and blue; alpha
 /// passes. MaterialX 1.39 Standard Nodes, "hsvtorgb". A saturation below 0 counts
 /// as 0, as in Open Shading Language; one above 1 is not limited. NaN and infinite
-/// hues give v (1 - s).
+/// hues give v (1 - s). A NaN saturation counts as 0.
 void record_hsvtorgb(NodeCall& call) { record_colour(call, hsv_to_rgb); }
 
 }  // namespace nacre

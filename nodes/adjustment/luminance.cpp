@@ -5,7 +5,8 @@
 namespace nacre {
 
 /// in . lumacoeffs in all colour channels; alpha passes. MaterialX 1.39 Standard
-/// Nodes, "luminance".
+/// Nodes, "luminance". Nothing is limited: negative colours have negative
+/// luminance. Edges: IEEE, see nodes/math/safe.h.
 void record_luminance(NodeCall& call) {
   const Float grey = dot(call.vector3("in"), call.vector3("lumacoeffs"));
   std::vector<Ref> parts(3, grey.ref());

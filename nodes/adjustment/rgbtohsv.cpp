@@ -22,7 +22,8 @@ Float3 rgb_to_hsv(Float3 c) {
 
 /// Red, green and blue to hue (one turn is 1), saturation and value; alpha passes.
 /// MaterialX 1.39 Standard Nodes, "rgbtohsv". Hue and saturation are 0 for greys
-/// and where no channel is positive.
+/// and where no channel is positive. Not limited to [0, 1]. Infinite channels give
+/// a saturation of NaN; NaN gives no defined hue.
 void record_rgbtohsv(NodeCall& call) { record_colour(call, rgb_to_hsv); }
 
 }  // namespace nacre

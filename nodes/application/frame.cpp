@@ -4,7 +4,7 @@
 namespace nacre {
 
 /// The frame number, 1 unless the host says otherwise. MaterialX 1.39 Standard
-/// Nodes, "frame".
+/// Nodes, "frame". Passes as the host sets it, NaN too.
 void record_frame(NodeCall& call) { call.set(uniform(call.recorder(), "frame", 1.0f)); }
 
 }  // namespace nacre

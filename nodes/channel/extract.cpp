@@ -6,7 +6,8 @@
 namespace nacre {
 
 /// One component of a colour or vector, or one row of a matrix. MaterialX 1.39
-/// Standard Nodes, "extract". An index out of range counts as the nearest one.
+/// Standard Nodes, "extract". An index out of range counts as the nearest one. What
+/// is chosen passes as it is, NaN too.
 void record_extract(NodeCall& call) {
   const std::vector<Ref>& parts = call.in("in").parts;
   const auto width = static_cast<std::size_t>(component_count(call.out_type()));

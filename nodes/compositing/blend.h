@@ -4,6 +4,10 @@
 
 namespace nacre {
 
+// Edges that the nodes of this folder share: sums and products are IEEE's, as
+// nodes/math/safe.h says. Nothing is limited to [0, 1]: a mix or an alpha beyond it
+// extrapolates. An infinity makes NaN where its weight is 0; NaN passes, at any weight.
+
 /// (1 - mix) bg + mix x, and just one of them where mix is a literal 0 or 1 (an
 /// infinity in the other can't reach the result then).
 inline Float blend(Float bg, Float x, Float mix) {

@@ -6,7 +6,7 @@ namespace {
 
 /// 1 - (1 - bg) / fg, blended over bg by mix. MaterialX 1.39 Standard Nodes,
 /// "Compositing Nodes: burn". |fg| below 1e-8 gives 0, as the specification's
-/// generators do.
+/// generators do. Else edges as in blend.h.
 Float burn(Float fg, Float bg, Float mix) {
   return select(abs(fg) < 1e-8f, 0.0f, lerp(bg, 1 - (1 - bg) / fg, mix));
 }

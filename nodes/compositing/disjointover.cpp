@@ -19,7 +19,8 @@ Color4 disjoint_over(Color4 fg, Color4 bg) {
 /// F + B where f + b <= 1, else F + B (1 - f) / b; alpha min(f + b, 1); blended over
 /// bg by mix. Lower-case letters are the alphas. MaterialX 1.39 Standard Nodes,
 /// "disjointover". Black where f + b > 1 and |b| is below 1e-8, as the
-/// specification's generators do.
+/// specification's generators do. A sum f + b of NaN counts as above 1. Else edges
+/// as in blend.h.
 void record_disjointover(NodeCall& call) { record_alpha_operator(call, disjoint_over); }
 
 }  // namespace nacre

@@ -2,7 +2,8 @@
 
 namespace nacre {
 
-/// Either of two truth values. MaterialX 1.39 Standard Nodes, "or".
+/// Either of two truth values. MaterialX 1.39 Standard Nodes, "or". Truth values
+/// have no edges.
 void record_or(NodeCall& call) { call.set(call.boolean("in1") | call.boolean("in2")); }
 
 }  // namespace nacre

@@ -5,7 +5,8 @@ namespace nacre {
 
 /// The bitangent, unit, in the space named: world, object, or model, which is
 /// object space here. MaterialX 1.39 Standard Nodes, "bitangent". There is one
-/// tangent frame, so `index` says nothing.
+/// tangent frame, so `index` says nothing. Passes as the host supplies it: unit or
+/// not, zero or NaN.
 void record_bitangent(NodeCall& call) {
   call.set(bitangent(call.recorder(), parse_space(call.text("space"))));
 }

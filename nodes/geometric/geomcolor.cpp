@@ -7,7 +7,8 @@
 namespace nacre {
 
 /// The colour of the vertices, set `index`; its first component for a float.
-/// MaterialX 1.39 Standard Nodes, "geomcolor".
+/// MaterialX 1.39 Standard Nodes, "geomcolor". Passes as the host supplies it: not
+/// limited, NaN too.
 void record_geomcolor(NodeCall& call) {
   const std::string group = "color" + std::to_string(set_index(call));
   std::vector<Ref> parts;

@@ -21,7 +21,8 @@ Scalar scalar_of(Type type) {
 /// The varying geometric property of that name, or `default` where the geometry
 /// has none. MaterialX 1.39 Standard Nodes, "geompropvalue". The uniform slot
 /// "geomprop.NAME" says whether it has (runtime/node/geometry.h); a host freezes
-/// it to false for what it never supplies, and the channel is gone.
+/// it to false for what it never supplies, and the channel is gone. Values pass as
+/// they are, NaN too.
 void record_geompropvalue(NodeCall& call) {
   const std::string group = "geomprop." + call.text("geomprop");
   const std::vector<Ref>& fallback = call.in("default").parts;

@@ -4,7 +4,8 @@
 namespace nacre {
 
 /// Texture coordinates of the set `index`; a third component is 0. MaterialX 1.39
-/// Standard Nodes, "texcoord".
+/// Standard Nodes, "texcoord". Passes as the host supplies it, however large, NaN
+/// too.
 void record_texcoord(NodeCall& call) {
   const Float2 uv = texcoord(call.recorder(), set_index(call));
   if (call.out_type() == Type::vector3) {

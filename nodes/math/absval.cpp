@@ -2,7 +2,8 @@
 
 namespace nacre {
 
-/// |in|. MaterialX 1.39 Standard Nodes, "absval".
+/// |in|. MaterialX 1.39 Standard Nodes, "absval". 0 for -0, infinite for
+/// infinities; NaN passes.
 void record_absval(NodeCall& call) {
   componentwise(call, ports("in"), [](Float x) { return abs(x); });
 }

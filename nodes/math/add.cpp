@@ -3,6 +3,7 @@
 namespace nacre {
 
 /// in1 + in2, componentwise; integers wrap. MaterialX 1.39 Standard Nodes, "add".
+/// Edges: IEEE, see safe.h.
 void record_add(NodeCall& call) {
   componentwise_number(call, ports("in1", "in2"), [](auto a, auto b) { return a + b; });
 }

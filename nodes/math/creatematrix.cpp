@@ -6,7 +6,8 @@
 namespace nacre {
 
 /// A matrix from its rows. MaterialX 1.39 Standard Nodes, "creatematrix". Rows of
-/// three components in a matrix44 end in 0, the fourth in 1.
+/// three components in a matrix44 end in 0, the fourth in 1. Entries pass as they
+/// are, infinities and NaN too.
 void record_creatematrix(NodeCall& call) {
   constexpr std::array<std::string_view, 4> rows{"in1", "in2", "in3", "in4"};
   Matrix result = identity(call.out_type() == Type::matrix33 ? 3 : 4);

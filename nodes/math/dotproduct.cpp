@@ -3,7 +3,7 @@
 namespace nacre {
 
 /// Sum of the products of the components. MaterialX 1.39 Standard Nodes,
-/// "dotproduct".
+/// "dotproduct". Edges: IEEE, see safe.h.
 void record_dotproduct(NodeCall& call) {
   const Recorded& a = call.in("in1");
   const Recorded& b = call.in("in2");

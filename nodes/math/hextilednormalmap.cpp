@@ -38,7 +38,9 @@ Float3 decode(Float4 texel, const Frame& frame, SinCos rotation, Float strength,
 /// hextilednormalmap: three copies of a periodic normal map, each in its own turned frame,
 /// blended by their surface gradients; see nodes/texture2d/hextile.h. `default` is an
 /// encoded normal, like a texel. The normal is in the space of the frame. MaterialX 1.39.5
-/// data library.
+/// data library. Slopes end at 1e8, so normals that decode to the horizon have a
+/// value. NaN for coordinates, `default`, rotation or strength that are infinite or
+/// NaN, and for a frame far from unit (1e8) whose products overflow.
 void record_hextilednormalmap(NodeCall& call) {
   const TextureSources sources = find_image(call);
   const std::array<Hexagon, 3> hexagons = find_hexagons(call);

@@ -30,4 +30,13 @@ inline ScaledVector scale_vector(const Recorded& v) {
   return result;
 }
 
+/// v / |v|; zero for the zero vector. Zero or NaN components where one is infinite.
+inline std::vector<Float> unit_vector(const Recorded& v) {
+  const ScaledVector scaled = scale_vector(v);
+  const Float inverse = select(scaled.squared > 0.0f, 1.0f / sqrt(scaled.squared), 0.0f);
+  std::vector<Float> result;
+  for (const Float& component : scaled.components) result.push_back(component * inverse);
+  return result;
+}
+
 }  // namespace nacre

@@ -13,7 +13,9 @@ Float3 perpendicular(Float3 b, Float3 a) { return normalize(b - Float3(dot(b, a)
 /// normal), in the space of the frame. MaterialX 1.39 Standard Nodes,
 /// "normalmap". The frame is made orthonormal first, as in the Open Shading
 /// Language implementation: interpolated tangents aren't quite. An encoded zero
-/// (no texel) is the frame's normal.
+/// (no texel) is the frame's normal. A tangent or bitangent with nothing left adds
+/// nothing, and what decodes to zero stays zero. NaN for NaN, for infinities, and
+/// for frames so far from unit that products overflow.
 void record_normalmap(NodeCall& call) {
   const Float3 encoded = call.vector3("in");
   const Float3 n = call.vector3("normal");

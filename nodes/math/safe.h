@@ -7,6 +7,10 @@ namespace nacre {
 /// Total versions of operations that MaterialX leaves undefined somewhere;
 /// the results are those of Open Shading Language, so every node that divides
 /// or takes a root agrees with the others.
+///
+/// Sums and products have no such versions. They are IEEE's in all nodes: infinite above
+/// the largest float, zero below the smallest normal one; infinity minus infinity and zero
+/// times infinity are NaN, and NaN passes.
 
 inline constexpr float float_max = 3.4028234664e38f;
 /// Smallest normal float.

@@ -6,7 +6,8 @@ namespace nacre {
 
 /// in mat, the vector as a row. MaterialX 1.39 Standard Nodes, "transformmatrix".
 /// A vector one component short of the matrix is a point: 1 is appended before
-/// and the last component dropped after, without division by it.
+/// and the last component dropped after, without division by it. Edges: IEEE, see
+/// safe.h.
 void record_transformmatrix(NodeCall& call) {
   const Matrix m = matrix_input(call, "mat");
   const Recorded& input = call.in("in");

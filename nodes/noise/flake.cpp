@@ -79,7 +79,8 @@ Flake top_flake(Recorder& recorder, Float3 p, Float coverage) {
 /// of the node: tan^2 = alpha^2 u / (1 - u), written for sine and cosine so that
 /// u = 1 is no special case.
 Float3 flake_normal(NodeCall& call, Float3 random) {
-  const Float alpha = square(call.number("roughness"));
+  // Its square stays finite; sine is 1 long before.
+  const Float alpha = min(square(call.number("roughness")), 1e18f);
   const Float up = 1.0f - random.y;
   const Float across = alpha * alpha * random.y;
   const Float sum = max(up + across, float_min);

@@ -8,7 +8,7 @@ namespace nacre {
 /// Gradient noise: Perlin, "Improving Noise", 2002, over the lookup3 hash, as
 /// Open Shading Language's "snoise" and the noise nodes of MaterialX define it.
 /// Roughly in [-1, 1], 0 on the lattice. Coordinates beyond 2^23 have no fraction
-/// left and give 0. Coordinates are finite: see within_reach. Recorded once per
+/// left: 0 where all are beyond. Coordinates are finite: see within_reach. Recorded once per
 /// Program and called.
 Float perlin(Recorder& recorder, Float2 p);
 Float perlin(Recorder& recorder, Float3 p);

@@ -12,8 +12,10 @@ namespace nacre {
 ///
 /// Sets one, two or three components by the type of the output. "style" other than 1: Euclidean
 /// distances to the nearest points, in order. 1: random numbers (cellnoise)
-/// of the cell in which the nearest point lies. NaN coordinates give distance 1000,
-/// as when no point is found.
+/// of the cell in which the nearest point lies. Where no point is found, distance 1000 and
+/// the cell of p: for coordinates that are infinite or NaN, and for a jitter so large
+/// (some thousands) that the points lie beyond, infinite or NaN. Coordinates beyond the
+/// range of int lie in its last cells.
 void record_worley(NodeCall& call, Float2 p);
 void record_worley(NodeCall& call, Float3 p);
 

@@ -27,7 +27,9 @@ Ior ior_of(Float reflectivity, Float edge) {
 /// Complex index of refraction of a metal with that reflectivity at normal
 /// incidence and that tint at the edge. MaterialX 1.39 Physically Based Shading
 /// Nodes, "artistic_ior". The reflectivity is limited to [0, 0.99999]; MaterialX's
-/// generators stop at 0.99, so that a white metal there loses a hundredth.
+/// generators stop at 0.99, so that a white metal there loses a hundredth. NaN
+/// reflectivity counts as 0; the tint is not limited, and NaN in it passes to n
+/// with k = 0.
 void record_artistic_ior(NodeCall& call) {
   const Float3 reflectivity = call.vector3("reflectivity");
   const Float3 edge = call.vector3("edge_color");

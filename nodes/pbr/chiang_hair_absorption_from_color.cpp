@@ -7,6 +7,7 @@ namespace nacre {
 /// with the quintic f of Chiang et al., "A Practical and Controllable Hair and Fur
 /// Model for Production Path Tracing", 2016. MaterialX 1.39 Physically Based Shading
 /// Nodes, "chiang_hair_absorption_from_color". Colours are limited to [0.001, 1].
+/// NaN counts as 0.001; 0 where the roughness makes f infinite or NaN.
 void record_chiang_hair_absorption_from_color(NodeCall& call) {
   const Float beta = call.number("azimuthal_roughness");
   Float f = 0.0f;

@@ -13,7 +13,8 @@ Float fourth(Float x) { return square(square(x)); }
 /// from perceptual roughnesses: the fits of Chiang et al., "A Practical and
 /// Controllable Hair and Fur Model for Production Path Tracing", 2016, with v scaled
 /// by the squares of scale_TT and scale_TRT. MaterialX 1.39 Physically Based Shading
-/// Nodes, "chiang_hair_roughness". The roughnesses are limited to [0.001, 1].
+/// Nodes, "chiang_hair_roughness". The roughnesses are limited to [0.001, 1]. NaN
+/// counts as 0.001. The scales are not limited.
 void record_chiang_hair_roughness(NodeCall& call) {
   const Float l = clamp(call.number("longitudinal"), 0.001f, 1.0f);
   const Float a = clamp(call.number("azimuthal"), 0.001f, 1.0f);

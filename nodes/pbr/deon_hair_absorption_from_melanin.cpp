@@ -8,7 +8,8 @@ namespace nacre {
 /// as 1 - exp(-melanin). MaterialX 1.39 Physically Based Shading Nodes,
 /// "deon_hair_absorption_from_melanin". The colours are exp(-absorption) of the two
 /// pigments, at least the smallest normal float; 1 - c is at least 1e-4, the
-/// result at least 0.
+/// result at least 0. A NaN concentration counts as 1. The redness is not limited;
+/// NaN in it or in a colour gives 0.
 void record_deon_hair_absorption_from_melanin(NodeCall& call) {
   const Float melanin = -log(max(1.0f - call.number("melanin_concentration"), 1e-4f));
   const Float redness = call.number("melanin_redness");

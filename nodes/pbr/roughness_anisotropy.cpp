@@ -6,7 +6,8 @@ namespace nacre {
 /// anisotropy: alpha = roughness^2 in [1e-8, 1], aspect = sqrt(1 - anisotropy) with
 /// the anisotropy limited to 0.98, (alpha / aspect, alpha aspect), the first at most
 /// 1. MaterialX 1.39 Physically Based Shading Nodes, "roughness_anisotropy".
-/// Isotropic for an anisotropy of 0 and less.
+/// Isotropic for an anisotropy of 0 and less. So for NaN; a NaN roughness counts as
+/// 0.
 void record_roughness_anisotropy(NodeCall& call) {
   const Float roughness = call.number("roughness");
   const Float alpha = clamp(roughness * roughness, 1e-8f, 1.0f);

@@ -4,7 +4,7 @@ namespace nacre {
 
 /// Microfacet alphas along tangent and bitangent: the squares, in [1e-8, 1]. A
 /// negative second roughness stands for the first. MaterialX 1.39 Physically Based
-/// Shading Nodes, "roughness_dual".
+/// Shading Nodes, "roughness_dual". NaN counts as 0.
 void record_roughness_dual(NodeCall& call) {
   const Float2 roughness = call.vector2("roughness");
   const auto alpha = [](Float r) { return clamp(r * r, 1e-8f, 1.0f); };

@@ -6,7 +6,9 @@ namespace nacre {
 /// Octaves of Perlin noise of texcoord, times amplitude: noise_i(p lacunarity^i)
 /// diminish^i. MaterialX 1.39 Standard Nodes, "fractal2d". Two components are
 /// fractals at texcoord and at texcoord + (19, 193); a fourth is one at the
-/// latter. No octaves give 0; those beyond 64 are left out.
+/// latter. No octaves give 0; those beyond 64 are left out. Coordinates as in
+/// noise2d; lacunarity and diminish are not limited: what they take beyond the
+/// floats gives infinities or NaN.
 void record_fractal2d(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Octaves octaves(call);

@@ -5,7 +5,8 @@ namespace nacre {
 
 /// Perlin noise of texcoord, times amplitude plus pivot. MaterialX 1.39 Standard
 /// Nodes, "noise2d". Two components are the first of three; a fourth is another
-/// noise at texcoord + (19, 73).
+/// noise at texcoord + (19, 73). Coordinates end at 2^60, NaN at -2^60
+/// (record_noise.h). Infinite amplitudes make NaN where the noise is 0.
 void record_noise2d(NodeCall& call) {
   Recorder& recorder = call.recorder();
   record_noise(

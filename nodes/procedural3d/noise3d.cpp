@@ -5,7 +5,8 @@ namespace nacre {
 
 /// Perlin noise of position, times amplitude plus pivot. MaterialX 1.39 Standard
 /// Nodes, "noise3d". Two components are the first of three; a fourth is another
-/// noise at position + (19, 73, 29).
+/// noise at position + (19, 73, 29). Coordinates end at 2^60, NaN at -2^60
+/// (record_noise.h). Infinite amplitudes make NaN where the noise is 0.
 void record_noise3d(NodeCall& call) {
   Recorder& recorder = call.recorder();
   record_noise(

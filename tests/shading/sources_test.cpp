@@ -35,7 +35,7 @@ class Sources : public ::testing::Test {
     system_ =
         ShadingSystem::create({.libraries = {standard_library_folder(), pack_folder() / "nodes"},
                                .bodies = std::move(bodies),
-         .standard_sources = true},
+                               .standard_sources = true},
                               diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
   }
@@ -164,6 +164,104 @@ TEST_F(Sources, TheLibrarysTextCanBePreferred) {
       }
     }
   }
+}
+
+/// A node that takes a structure and gives one, whose members the text has as well.
+constexpr std::string_view structures = R"mtlx(
+  <typedef name="coord"><member name="s" type="float" value="0.5"/>
+    <member name="t" type="vector2" value="0.25, 0.75"/></typedef>
+  <typedef name="patch"><member name="at" type="coord"/><member name="turns" type="integer" value="2"/>
+    <member name="tint" type="color3" value="1, 0.5, 0.25"/></typedef>
+  <nodedef name="ND_gather" node="gather">
+    <input name="uv" type="vector2" defaultgeomprop="UV0"/><output name="out" type="patch"/></nodedef>
+  <nodedef name="ND_move" node="move"><input name="amount" type="float" value="2"/>
+    <input name="in" type="patch"/><output name="out" type="patch"/><output name="sum" type="float"/>
+  </nodedef>
+  <nodedef name="ND_spread" node="spread"><input name="in" type="patch"/>
+    <output name="out" type="color3"/></nodedef>
+  <nodedef name="ND_same" node="same"><input name="in" type="patch"/>
+    <output name="out" type="patch"/></nodedef>
+  <implementation name="I1" nodedef="ND_gather" function="gather" sourcecode="
+    struct Coord { float s; vec2 t; };
+    struct Patch { Coord at; int turns; vec3 tint; };
+    Patch gather(vec2 uv) { return Patch(Coord(uv.x, uv.yx), 3, vec3(uv, 1.0)); }"/>
+  <implementation name="I2" nodedef="ND_move" function="move" sourcecode="
+    struct C { float s; vec2 t; };
+    struct P { C at; int turns; vec3 tint; };
+    void move(float amount, P p, out P result, out float sum) {
+      result = p;
+      result.at.t = p.at.t * amount + vec2(p.at.s);
+      result.turns += 1;
+      sum = p.at.s + p.at.t.x + p.at.t.y + float(p.turns);
+    }"/>
+  <implementation name="I3" nodedef="ND_spread"
+    sourcecode="{{in}}.tint * {{in}}.at.t.y + float({{in}}.turns)"/>
+  <implementation name="I4" nodedef="ND_same" sourcecode="{{in}}"/>)mtlx";
+
+/// Structures into a function, out of it, returned, and through an expression; the
+/// formulas worked out again.
+TEST_F(Sources, StructuresRunOnEveryEngine) {
+  open();
+  const auto made = document(std::string(structures) + R"(
+    <gather name="g" type="patch"/>
+    <move name="m" type="multioutput"><input name="in" type="patch" nodename="g"/></move>
+    <same name="k" type="patch"><input name="in" type="patch" nodename="m" output="out"/></same>
+    <spread name="s" type="color3"><input name="in" type="patch" nodename="k"/></spread>
+    <move name="d" type="multioutput"/>
+    <output name="out" type="color3" nodename="s"/>
+    <output name="whole" type="patch" nodename="m" output="out"/>
+    <output name="sum" type="float" nodename="m" output="sum"/>
+    <output name="default" type="float" nodename="d" output="sum"/>)");
+  const Columns colors = run_both(*made, "out");
+  const Columns sums = run_both(*made, "sum");
+  const Columns whole = run_both(*made, "whole");
+  const Columns exact = run_output(*made, "out", Backend::reference);
+  const Columns points = grid();
+  for (std::size_t i = 0; i < points.at("uv0.x").size(); ++i) {
+    const double u = points.at("uv0.x")[i];
+    const double v = points.at("uv0.y")[i];
+    EXPECT_NEAR(sums.at("sum")[i], u + v + u + 3.0, 1e-5);
+    EXPECT_NEAR(whole.at("whole.at.t.x")[i], v * 2.0 + u, 1e-5);
+    EXPECT_EQ(whole.at("whole.turns")[i], 4.0f);
+    EXPECT_NEAR(colors.at("out.y")[i], v * (u * 2.0 + u) + 4.0, 1e-5);
+    EXPECT_NEAR(exact.at("out.x")[i], u * (u * 2.0 + u) + 4.0, 1e-6);
+  }
+  EXPECT_EQ(run_both(*made, "default").at("default").front(), 0.5f + 0.25f + 0.75f + 2.0f);
+}
+
+/// What is wrong with a text's structure, member by member.
+TEST_F(Sources, StructuresThatDifferAreNamed) {
+  open();
+  const auto fault = [&](const std::string& type, const std::string& parameter) {
+    Diagnostics diagnostics;
+    const auto made =
+        document(R"(
+      <typedef name="inner"><member name="a" type="float"/><member name="b" type="integer"/></typedef>
+      <typedef name="outer"><member name="i" type="inner"/><member name="c" type="color3"/></typedef>
+      <nodedef name="ND_x" node="x"><input name="in" type="outer"/><output name="out" type="float"/>
+      </nodedef>
+      <implementation name="I" nodedef="ND_x" function="f" sourcecode=")" +
+                 type + " void f(" + parameter + R"mtlx( p, out float x) { x = 1.0; }"/>)mtlx");
+    system_->check(*made, {}, diagnostics);
+    if (diagnostics.all().empty()) return std::string();
+    const Diagnostic& first = diagnostics.all().front();
+    return first.code + ": " + first.expected + "; " + first.found;
+  };
+  const std::string inner = "struct I { float a; int b; };";
+  EXPECT_EQ(fault(inner + "struct O { I i; vec3 c; };", "O"), "");
+  EXPECT_EQ(fault(inner + "struct O { I i; vec3 c; };", "out O"), "source-misfit: O; out O");
+  EXPECT_EQ(fault("", "vec3"), "source-misfit: a structure { struct i; vec3 c }; vec3");
+  EXPECT_EQ(fault(inner + "struct O { I i; vec3 d; };", "O"), "source-misfit: vec3 c; vec3 d");
+  EXPECT_EQ(fault(inner + "struct O { I i; vec4 c; };", "O"), "source-misfit: vec3 c; vec4 c");
+  EXPECT_EQ(fault(inner + "struct O { vec3 c; I i; };", "O"),
+            "source-misfit: a structure i; vec3 c");
+  EXPECT_EQ(fault(inner + "struct O { I i; };", "O"), "source-misfit: vec3 c; no more members");
+  EXPECT_EQ(fault(inner + "struct O { I i; vec3 c; int z; };", "O"),
+            "source-misfit: no more members; int z");
+  EXPECT_EQ(fault("struct I { float a; float b; }; struct O { I i; vec3 c; };", "O"),
+            "source-misfit: int i.b; float i.b");
+  EXPECT_EQ(fault("struct O { float i; vec3 c; };", "O"),
+            "source-misfit: a structure { float a; int b }; float");
 }
 
 TEST_F(Sources, FaultsAreNamedWhereTheyStand) {
