@@ -1,0 +1,1 @@
+#include "tests/ocio/config_fixture.h"
