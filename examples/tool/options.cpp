@@ -43,6 +43,11 @@ void CommonOptions::add_document(CLI::App& command) {
       ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case))
       ->default_str("body")
       ->type_name("KIND");
+  command
+      .add_option("--ocio", ocio,
+                  "OpenColorIO configuration whose colour spaces count before those built in; "
+                  "env: the one that the environment variable OCIO names")
+      ->type_name("FILE");
   command.add_flag("-q,--quiet", quiet, "No progress on standard error");
   add_limits(command);
 }
@@ -97,9 +102,9 @@ void CommonOptions::add_compile(CLI::App& command) {
       ->type_name("DIR");
   command
       .add_option("--working-space", working_space,
-                  "Colour space to compute in; \"\": the one the document's root names")
-      ->type_name("NAME")
-      ->capture_default_str();
+                  "Colour space to compute in; \"\": the one the document's root names (default: "
+                  "lin_rec709, or the role scene_linear of a configuration without that)")
+      ->type_name("NAME");
   command.add_flag("--no-cache", no_cache, "Neither read nor write compiled kernels");
 }
 
@@ -129,6 +134,20 @@ ShaderOptions CommonOptions::shader_options() const {
   return options;
 }
 
+namespace {
+
+/// Nothing, with a diagnostic, where the environment is asked and names no file.
+std::optional<fs::path> ocio_config(const std::string& option, Diagnostics& diagnostics) {
+  if (option != "env") return fs::path(option);
+  if (const char* file = std::getenv("OCIO"); file != nullptr && *file != '\0')
+    return fs::path(file);
+  diagnostics.error("no-color-config", {}, "--ocio env asks for the file that OCIO names",
+                    "the environment variable OCIO", "none");
+  return std::nullopt;
+}
+
+}  // namespace
+
 Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   Opened opened;
   const fs::path data = find_materialx_libraries();
@@ -141,6 +160,9 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   system.libraries.push_back(data);
   system.standard_sources = options.graph_limits.prefer == Preference::source;
   for (const std::string& library : options.libraries) system.libraries.emplace_back(library);
+  const auto config = ocio_config(options.ocio, diagnostics);
+  if (!config) return opened;
+  system.ocio_config = *config;
   system.compile_threads = options.threads;
   system.textures = options.texture_limits;
   if (!options.no_cache) {

@@ -8,6 +8,7 @@
 #include "jit/graph/check.h"
 #include "jit/graph/find.h"
 #include "jit/graph/node_source.h"
+#include "jit/ocio/ocio_config.h"
 #include "jit/record/source_bodies.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
@@ -148,6 +149,10 @@ std::unique_ptr<ShadingSystem> ShadingSystem::create(const SystemOptions& option
     return nullptr;
   }
   system->sources_ = std::make_unique<SourceBodies>(source_roots(options.libraries));
+  if (!options.ocio_config.empty()) {
+    system->colors_ = load_ocio_config(options.ocio_config, diagnostics);
+    if (system->colors_ == nullptr) return nullptr;
+  }
   system->textures_ = std::make_unique<TextureStore>(options.textures);
   system->service_ = CompileService::create(
       {.threads = options.compile_threads, .cache = options.cache, .session = {}}, diagnostics);
@@ -163,6 +168,7 @@ std::optional<Graph> ShadingSystem::build(const Document& document, const GraphR
 GraphOptions ShadingSystem::graph_options(const ShaderOptions& options) const {
   GraphOptions result = options.graph;
   result.is_native = [this](std::string_view nodedef) { return bodies_->contains(nodedef); };
+  if (result.colors == nullptr) result.colors = colors_;
   return result;
 }
 

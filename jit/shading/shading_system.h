@@ -32,6 +32,10 @@ struct SystemOptions {
   /// Read the data library's own GLSL too, so that GraphOptions::prefer can ask for
   /// it. Node packs' texts are always read.
   bool standard_sources = false;
+  /// An OpenColorIO configuration, whose colour spaces documents may name (see
+  /// load_ocio_config); empty: none. A host with colour spaces of its own gives
+  /// GraphOptions::colors instead, which counts before this.
+  std::filesystem::path ocio_config = {};
   TextureOptions textures = {};
   /// Where compiled kernels are kept between runs; empty: nowhere.
   std::filesystem::path cache = {};
@@ -42,7 +46,7 @@ struct ShaderOptions {
   CompileOptions compile;
   ParameterMode parameters = ParameterMode::frozen;
   KernelRequest kernels;
-  GraphOptions graph;  ///< `is_native` is filled in.
+  GraphOptions graph;  ///< `is_native` is filled in, and `colors` where it is null.
   bool lazy = true;    ///< See RecordOptions.
   /// Of footprints on images, 1 .. largest_anisotropy; see runtime/texture/sampling.h.
   int max_anisotropy = default_anisotropy;
@@ -86,7 +90,7 @@ struct MaterialKernels {
 /// and the compiler. All members may be called from any thread.
 class ShadingSystem {
  public:
-  /// Null, with diagnostics, if the library cannot be read.
+  /// Null, with diagnostics, if the library or the colour configuration cannot be read.
   static std::unique_ptr<ShadingSystem> create(const SystemOptions& options,
                                                Diagnostics& diagnostics);
   ~ShadingSystem();
@@ -129,6 +133,7 @@ class ShadingSystem {
   std::shared_ptr<const Library> library_;
   std::unique_ptr<Bodies> bodies_;
   std::unique_ptr<SourceBodies> sources_;
+  std::shared_ptr<const ColorConfig> colors_;
   std::unique_ptr<TextureStore> textures_;
   std::unique_ptr<CompileService> service_;
 };
