@@ -114,15 +114,6 @@ glsl::TextureLookup texture_lookup(const NodeSource& source, NodeCall& call) {
   };
 }
 
-std::string type_text(Type type) { return std::string(type_name(type)); }
-
-bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string message,
-            std::string expected, std::string found) {
-  diagnostics.error("source-misfit", source.where, std::move(message), std::move(expected),
-                    std::move(found));
-  return false;
-}
-
 /// Sets what an output stands for: itself, or the leaves of its structure.
 void set_output(NodeCall& call, const SourcePorts::Port& output, const glsl::Value& value) {
   auto part = value.parts.begin();

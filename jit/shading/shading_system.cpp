@@ -13,6 +13,7 @@
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
 #include "pbs/shader_channels.h"
+#include "pbs/sides.h"
 #include "runtime/program/fix_inputs.h"
 #include "runtime/program/slice.h"
 
@@ -128,6 +129,34 @@ std::vector<SliceOutput> channels(const std::string& name, const Recorded& value
     list.push_back({slot_name(name, i, count), value.parts[static_cast<std::size_t>(i)]});
   }
   return list;
+}
+
+/// The sides of the material that a graph is of. Reports a back that is not shown.
+SurfaceSides sides_of(const Graph& graph, const std::vector<Recorded>& values,
+                      Diagnostics& diagnostics) {
+  SurfacePtr front;
+  SurfacePtr back;
+  const GraphOutput* back_output = nullptr;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const GraphOutput& output = graph.outputs[i];
+    if (output.type != Type::surfaceshader) continue;
+    if (output.name == "backsurfaceshader") {
+      back = as_surface(values[i].closure);
+      back_output = &output;
+    } else if (front == nullptr) {
+      front = as_surface(values[i].closure);
+    }
+  }
+  const bool two_shaders = front != nullptr && back != nullptr && front != back;
+  SurfaceSides sides = surface_sides(std::move(front), std::move(back));
+  if (two_shaders && sides.back == nullptr) {
+    const bool is_node = back_output->source.kind == Source::Kind::link;
+    diagnostics.warning("back-not-shown",
+                        is_node ? graph.nodes[back_output->source.node].where : SourceLocation{},
+                        "the backsurfaceshader is not shown, for neither side is thin-walled",
+                        "a thin-walled surface on one of the sides");
+  }
+  return sides;
 }
 
 }  // namespace
@@ -264,18 +293,19 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& graph,
                                                                  const ShaderOptions& options,
                                                                  Diagnostics& diagnostics) {
-  const auto found =
-      std::find_if(graph.outputs.begin(), graph.outputs.end(),
-                   [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
-  if (found == graph.outputs.end()) {
+  const bool has_surface =
+      std::any_of(graph.outputs.begin(), graph.outputs.end(),
+                  [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
+  if (!has_surface) {
     diagnostics.error("no-surface", {}, "the material has no surface shader");
     return nullptr;
   }
   Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics);
   const auto values = compilation.record(graph);
   if (!values) return nullptr;
-  const auto index = static_cast<std::size_t>(found - graph.outputs.begin());
-  const SurfacePtr surface = as_surface((*values)[index].closure);
+  const SurfaceSides sides = sides_of(graph, *values, diagnostics);
+  const bool is_back = options.side == Side::back && sides.back != nullptr;
+  const SurfacePtr surface = is_back ? sides.back : sides.front;
   if (surface == nullptr) {
     diagnostics.error("no-surface", {}, "the material's surface shader is not connected");
     return nullptr;
@@ -283,6 +313,7 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
   const SurfaceKernels recorded =
       record_kernels(compilation.recorder(), *surface, options.compile.accuracy, options.kernels);
   auto kernels = std::make_unique<MaterialKernels>();
+  kernels->has_back = sides.back != nullptr;
   std::vector<Program> programs;
   std::vector<std::optional<BoundKernel>*> places;
   std::set<std::uint32_t> state;

@@ -42,6 +42,9 @@ struct SystemOptions {
   int compile_threads = 0;  ///< 0: one a core.
 };
 
+/// Which side of a surface; the front is where the geometric normal points.
+enum class Side { front, back };
+
 struct ShaderOptions {
   CompileOptions compile;
   ParameterMode parameters = ParameterMode::frozen;
@@ -50,6 +53,7 @@ struct ShaderOptions {
   bool lazy = true;    ///< See RecordOptions.
   /// Of footprints on images, 1 .. largest_anisotropy; see runtime/texture/sampling.h.
   int max_anisotropy = default_anisotropy;
+  Side side = Side::front;  ///< Of a material; see MaterialKernels::has_back.
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;
 };
@@ -72,6 +76,9 @@ struct OutputKernel {
 /// The kernels of one surface material; see pbs/kernels.h for their channels.
 /// A kernel that has nothing to compute is absent.
 struct MaterialKernels {
+  /// The back shows another shader: to be compiled with ShaderOptions::side and used
+  /// where dot(Ng, wo) < 0. Else these kernels are those of both sides (pbs/sides.h).
+  bool has_back = false;
   /// Stores the state channels "state.<k>" that sample and evaluate read.
   std::optional<BoundKernel> begin;
   std::optional<BoundKernel> sample, evaluate, albedo, emission, opacity;
