@@ -114,6 +114,13 @@ glsl::TextureLookup texture_lookup(const NodeSource& source, NodeCall& call) {
   };
 }
 
+bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string message,
+            std::string expected, std::string found) {
+  diagnostics.error("source-misfit", source.where, std::move(message), std::move(expected),
+                    std::move(found));
+  return false;
+}
+
 /// Sets what an output stands for: itself, or the leaves of its structure.
 void set_output(NodeCall& call, const SourcePorts::Port& output, const glsl::Value& value) {
   auto part = value.parts.begin();

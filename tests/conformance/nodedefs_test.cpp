@@ -97,25 +97,32 @@ class NodeDefs : public ::testing::Test {
     const auto interpreted =
         system_->compile_material(graph, options(Backend::interpreter), problems);
     const auto compiled = system_->compile_material(graph, options(Backend::jit), problems);
-    ASSERT_TRUE(interpreted && compiled) << def.name << problems.to_string();
+    const auto exact = system_->compile_material(graph, options(Backend::reference), problems);
+    ASSERT_TRUE(interpreted && compiled && exact) << def.name << problems.to_string();
     Arrays state;
+    Arrays exact_state;
     if (interpreted->begin) {
       state = run(*interpreted->begin, {}, points);
       EXPECT_EQ(run(*compiled->begin, {}, points), state) << def.name;
+      exact_state = run(*exact->begin, {}, points);
     }
-    const auto check = [&](const char* name, const std::optional<BoundKernel>& a,
-                           const std::optional<BoundKernel>& b) {
+    const auto check = [&](const char* name, std::optional<BoundKernel> MaterialKernels::* kernel) {
+      const auto& a = *interpreted.*kernel;
+      const auto& b = *compiled.*kernel;
+      const auto& c = *exact.*kernel;
       ASSERT_EQ(a.has_value(), b.has_value()) << def.name << ' ' << name;
+      ASSERT_EQ(a.has_value(), c.has_value()) << def.name << ' ' << name;
       if (!a) return;
       const Arrays expected = run(*a, state, points);
       EXPECT_EQ(run(*b, state, points), expected) << def.name << ' ' << name;
       EXPECT_TRUE(is_finite(expected, a->program())) << def.name << ' ' << name;
+      EXPECT_TRUE(is_finite(run(*c, exact_state, points), c->program())) << def.name << ' ' << name;
     };
-    check("evaluate", interpreted->evaluate, compiled->evaluate);
-    check("sample", interpreted->sample, compiled->sample);
-    check("albedo", interpreted->albedo, compiled->albedo);
-    check("emission", interpreted->emission, compiled->emission);
-    check("opacity", interpreted->opacity, compiled->opacity);
+    check("evaluate", &MaterialKernels::evaluate);
+    check("sample", &MaterialKernels::sample);
+    check("albedo", &MaterialKernels::albedo);
+    check("emission", &MaterialKernels::emission);
+    check("opacity", &MaterialKernels::opacity);
   }
 
   Diagnostics diagnostics_;

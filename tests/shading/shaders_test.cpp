@@ -190,10 +190,10 @@ TEST_P(Shaders, AnEmitterHasAnExposure) {
 
 INSTANTIATE_TEST_SUITE_P(Engines, Shaders,
                          ::testing::Values(Backend::jit, Backend::interpreter, Backend::reference),
-                         [](const auto& info) {
-                           return std::string(info.param == Backend::jit           ? "jit"
-                                              : info.param == Backend::interpreter ? "interpreter"
-                                                                                   : "reference");
+                         [](const auto& engine) {
+                           return std::string(engine.param == Backend::jit           ? "jit"
+                                              : engine.param == Backend::interpreter ? "interpreter"
+                                                                                     : "reference");
                          });
 
 }  // namespace
