@@ -17,43 +17,42 @@ void add(Channels& channels, const std::string& name, Float3 v) {
   channels.push_back({name + ".z", v.z.ref()});
 }
 
-void add(Channels& channels, const std::string& name, const VdfPtr& vdf) {
+void add(Channels& channels, const VdfPtr& vdf) {
   const Vdf& medium = vdf == nullptr ? Vdf() : *vdf;
-  add(channels, name + ".absorption", medium.absorption);
-  add(channels, name + ".scattering", medium.scattering);
-  channels.push_back({name + ".anisotropy", medium.anisotropy.ref()});
+  add(channels, "absorption", medium.absorption);
+  add(channels, "scattering", medium.scattering);
+  channels.push_back({"anisotropy", medium.anisotropy.ref()});
 }
 
 }  // namespace
 
 std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
-                                         const std::string& name, const Recorded& value) {
+                                         const Recorded& value) {
   Channels channels;
   switch (value.type) {
-    case Type::vdf: add(channels, name, as_vdf(value.closure)); break;
+    case Type::vdf: add(channels, as_vdf(value.closure)); break;
     case Type::volumeshader: {
       const VolumePtr volume = as_volume(value.closure);
-      add(channels, name, volume == nullptr ? nullptr : volume->vdf);
+      add(channels, volume == nullptr ? nullptr : volume->vdf);
       Color3 emission(0.0f);
       if (volume != nullptr && volume->edf != nullptr) {
         const View view{
             .recorder = &recorder, .accuracy = accuracy, .wo = view_direction(recorder)};
         emission = volume->edf->radiance(view);
       }
-      add(channels, name + ".emission", emission);
+      add(channels, "emission", emission);
       break;
     }
     case Type::displacementshader: {
       const DisplacementPtr displacement = as_displacement(value.closure);
-      add(channels, name + ".offset",
-          displacement == nullptr ? Float3(0.0f) : displacement->offset);
+      add(channels, "offset", displacement == nullptr ? Float3(0.0f) : displacement->offset);
       break;
     }
     case Type::lightshader: {
       const LightPtr light = as_light(value.closure);
-      add(channels, name + ".intensity", light == nullptr ? Color3(0.0f) : light->intensity);
+      add(channels, "intensity", light == nullptr ? Color3(0.0f) : light->intensity);
       if (light != nullptr && light->direction) {
-        add(channels, name + ".direction", *light->direction);
+        add(channels, "direction", *light->direction);
       }
       break;
     }

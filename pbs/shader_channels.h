@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "runtime/node/node_call.h"
@@ -8,7 +7,7 @@
 
 namespace nacre {
 
-/// What a medium, displacement or light is in numbers, as channels "<name>.<what>":
+/// What a medium, displacement or light is in numbers, as channels:
 ///
 ///   VDF                 absorption.x .y .z, scattering.x .y .z, anisotropy
 ///   volumeshader        the same, and emission.x .y .z per unit of length, towards wo
@@ -18,6 +17,6 @@ namespace nacre {
 /// See pbs/vdf.h, volume.h, displacement.h and light.h. An unconnected shader is empty
 /// space, no offset, or dark. None for other types: surfaces are pbs/kernels.h's.
 std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
-                                         const std::string& name, const Recorded& value);
+                                         const Recorded& value);
 
 }  // namespace nacre

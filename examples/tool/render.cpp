@@ -87,6 +87,13 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened,
     auto kernels =
         opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
+    if (!kernels->has_surface) {
+      diagnostics.error(
+          "no-surface", {},
+          "material '" + assignment.material + "' has only a volume, which is not rendered",
+          "a surface shader");
+      return false;
+    }
     TwoShaders& place = shaders[assignment.key()];
     const bool has_back = kernels->has_back;
     place.front = std::make_unique<KernelShader>(std::move(kernels));

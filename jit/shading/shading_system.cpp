@@ -264,7 +264,10 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
     std::vector<SliceOutput> list =
         is_numeric(value.type)
             ? channels(name, value)
-            : shader_channels(compilation.recorder(), options.compile.accuracy, name, value);
+            : shader_channels(compilation.recorder(), options.compile.accuracy, value);
+    if (!is_numeric(value.type)) {
+      for (SliceOutput& channel : list) channel.name = name + '.' + channel.name;
+    }
     if (list.empty()) {
       diagnostics.error("not-numeric", {}, "output '" + name + "' has no numbers",
                         "a numeric type, a medium, displacement or light",
@@ -293,10 +296,11 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& graph,
                                                                  const ShaderOptions& options,
                                                                  Diagnostics& diagnostics) {
-  const bool has_surface =
-      std::any_of(graph.outputs.begin(), graph.outputs.end(),
-                  [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
-  if (!has_surface) {
+  const auto has = [&](Type type) {
+    return std::ranges::any_of(graph.outputs,
+                               [&](const GraphOutput& output) { return output.type == type; });
+  };
+  if (!has(Type::surfaceshader) && !has(Type::volumeshader)) {
     diagnostics.error("no-surface", {}, "the material has no surface shader");
     return nullptr;
   }
@@ -306,13 +310,16 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
   const SurfaceSides sides = sides_of(graph, *values, diagnostics);
   const bool is_back = options.side == Side::back && sides.back != nullptr;
   const SurfacePtr surface = is_back ? sides.back : sides.front;
-  if (surface == nullptr) {
+  if (surface == nullptr && has(Type::surfaceshader)) {
     diagnostics.error("no-surface", {}, "the material's surface shader is not connected");
     return nullptr;
   }
-  const SurfaceKernels recorded =
-      record_kernels(compilation.recorder(), *surface, options.compile.accuracy, options.kernels);
+  const SurfaceKernels recorded = surface == nullptr
+                                      ? SurfaceKernels{}
+                                      : record_kernels(compilation.recorder(), *surface,
+                                                       options.compile.accuracy, options.kernels);
   auto kernels = std::make_unique<MaterialKernels>();
+  kernels->has_surface = surface != nullptr;
   kernels->has_back = sides.back != nullptr;
   std::vector<Program> programs;
   std::vector<std::optional<BoundKernel>*> places;
@@ -337,6 +344,14 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
   add_entry(kernels->albedo, "albedo", recorded.albedo, Keeps::pass);
   add_entry(kernels->emission, "emission", recorded.emission, Keeps::pass);
   add_entry(kernels->opacity, "opacity", recorded.opacity, Keeps::pass);
+  for (const Recorded& value : *values) {
+    const bool is_displacement = value.type == Type::displacementshader;
+    if (!is_displacement && value.type != Type::volumeshader) continue;
+    add_entry(is_displacement ? kernels->displacement : kernels->volume,
+              is_displacement ? "displacement" : "volume",
+              shader_channels(compilation.recorder(), options.compile.accuracy, value),
+              Keeps::pass);
+  }
   add_entry(kernels->begin, "begin", state_outputs(compilation.recorder(), kernels->state),
             Keeps::pass);
   auto compiled = compilation.compile(std::move(programs), kernels->stages);

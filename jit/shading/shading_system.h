@@ -73,9 +73,11 @@ struct OutputKernel {
   std::vector<StageReport> stages;
 };
 
-/// The kernels of one surface material; see pbs/kernels.h for their channels.
-/// A kernel that has nothing to compute is absent.
+/// The kernels of one material; see pbs/kernels.h for the channels of its surface and
+/// pbs/shader_channels.h for the rest. A kernel that has nothing to compute is absent; a
+/// volumematerial has `volume` alone.
 struct MaterialKernels {
+  bool has_surface = true;
   /// The back shows another shader: to be compiled with ShaderOptions::side and used
   /// where dot(Ng, wo) < 0. Else these kernels are those of both sides (pbs/sides.h).
   bool has_back = false;
@@ -86,6 +88,7 @@ struct MaterialKernels {
   /// wi.*; every other channel of evaluate, state and geometry, is a slot of the
   /// parameter block under the channel's name, for the host to fill from the point.
   std::optional<BoundKernel> evaluate_at;
+  std::optional<BoundKernel> displacement, volume;
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
   std::vector<std::string> lobes;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
@@ -130,6 +131,45 @@ TEST_P(Shaders, DisplacementsMix) {
       </dot>)",
                          frame),
                 "offset", 0, 0.25f, 0);
+}
+
+/// The channels of an entry point.
+std::set<std::string> outputs(const std::optional<BoundKernel>& kernel) {
+  std::set<std::string> names;
+  if (!kernel) return names;
+  for (const Channel& channel : kernel->program().outputs) names.insert(channel.name);
+  return names;
+}
+
+TEST_P(Shaders, AMaterialHasThemAsKernels) {
+  Diagnostics diagnostics;
+  const auto system =
+      ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics);
+  const auto document = read_document_text(R"(<materialx version="1.39">
+      <surface_unlit name="s" type="surfaceshader"/>
+      <displacement name="d" type="displacementshader"><input name="displacement" type="float" value="1"/>
+      </displacement>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="s"/>
+        <input name="displacementshader" type="displacementshader" nodename="d"/></surfacematerial>
+      <absorption_vdf name="a" type="VDF"/>
+      <volume name="v" type="volumeshader"><input name="vdf" type="VDF" nodename="a"/></volume>
+      <volumematerial name="V" type="material">
+        <input name="volumeshader" type="volumeshader" nodename="v"/></volumematerial>
+      </materialx>)",
+                                           "test.mtlx", {}, diagnostics);
+  ShaderOptions options;
+  options.compile.backend = GetParam();
+  const auto surface = system->compile_material(*document, "M", options, diagnostics);
+  ASSERT_NE(surface, nullptr) << diagnostics.to_string();
+  EXPECT_TRUE(surface->emission.has_value());
+  EXPECT_EQ(outputs(surface->displacement),
+            (std::set<std::string>{"offset.x", "offset.y", "offset.z"}));
+  EXPECT_FALSE(surface->volume.has_value());
+  const auto volume = system->compile_material(*document, "V", options, diagnostics);
+  ASSERT_NE(volume, nullptr) << diagnostics.to_string();
+  EXPECT_FALSE(volume->emission.has_value() || volume->begin.has_value());
+  EXPECT_EQ(outputs(volume->volume).size(), 10u);
 }
 
 const Numbers origin{{"P.x", 0}, {"P.y", 0}, {"P.z", 0}};
