@@ -103,7 +103,7 @@ void CommonOptions::add_compile(CLI::App& command) {
   command
       .add_option("--working-space", working_space,
                   "Colour space to compute in; \"\": the one the document's root names (default: "
-                  "lin_rec709, or the role scene_linear of a configuration without that)")
+                  "lin_rec709, or the role scene_linear of a configuration that has no way there)")
       ->type_name("NAME");
   command.add_flag("--no-cache", no_cache, "Neither read nor write compiled kernels");
 }

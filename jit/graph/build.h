@@ -35,13 +35,14 @@ struct GraphOptions {
   std::function<bool(std::string_view nodedef)> is_native;
   Preference prefer = Preference::body;
   /// Colour spaces of the host, looked at before those that are built in. Where it
-  /// lacks one end of a conversion the built-in spaces serve, if they have both.
+  /// lacks one end of a conversion the built-in spaces serve, if they have both; and one
+  /// of each meet at its role aces_interchange.
   std::shared_ptr<const ColorConfig> colors;
   /// Colour space that the graph computes in, by any name that `colors` or
   /// `canonical_colorspace` knows; "": what the document's root says. "none": nothing
   /// is converted. Unset, or where the root says nothing: lin_rec709, which is what
   /// nodes that make colours of numbers (blackbody, artistic_ior) and the tool's
-  /// pictures take for granted; only where `colors` lacks that, its role scene_linear.
+  /// pictures take for granted; only where `colors` has no way to that, its role scene_linear.
   std::optional<std::string> working_space;
   /// What one unit of scene length is; lengths are converted to it.
   std::string distance_unit = "meter";

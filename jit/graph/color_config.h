@@ -32,7 +32,8 @@ class ColorConfig {
 
   /// For diagnostics: the file's name.
   virtual std::string name() const = 0;
-  /// The space of that name, alias or role.
+  /// The space of that name, alias or role. Asked for by us, not by documents, are
+  /// "lin_rec709", "scene_linear" and "aces_interchange", which is to be ACES 2065-1.
   virtual std::optional<Space> find(std::string_view name) const = 0;
   /// Between two spaces' own names. Null, with the reason in `fault`, where there is
   /// none or it cannot be had.

@@ -230,6 +230,32 @@ class Chain {
   int count_ = 0;
 };
 
+// As Chain does it.
+std::string decode_glsl(double gamma) {
+  if (gamma == 1.0) return "";
+  if (gamma != srgb_curve) return fmt::format("  c = pow(max(c, 0.0), vec3({:#.9g}));\n", gamma);
+  return "  c = mix(c / 12.92, pow(max(c + 0.055, 0.0) / 1.055, vec3(2.4)), "
+         "greaterThan(c, vec3(0.04045)));\n";
+}
+
+std::string encode_glsl(double gamma) {
+  if (gamma == 1.0) return "";
+  if (gamma != srgb_curve) return decode_glsl(1.0 / gamma);
+  return "  c = mix(12.92 * c, 1.055 * pow(max(c, 0.0), vec3(1.0 / 2.4)) - 0.055, "
+         "greaterThan(c, vec3(0.0031308)));\n";
+}
+
+// Columns of GLSL's matrix are columns here, so that it stands behind a row too.
+std::string matrix_glsl(const ColorMatrix& m) {
+  std::string numbers;
+  for (std::size_t column = 0; column < 3; ++column) {
+    for (const Vector& row : m) {
+      numbers += fmt::format("{}{:#.9g}", numbers.empty() ? "" : ", ", row[column]);
+    }
+  }
+  return fmt::format("  c = c * mat3({});\n", numbers);
+}
+
 }  // namespace
 
 std::optional<ColorMatrix> color_matrix(std::string_view from, std::string_view to) {
@@ -237,6 +263,17 @@ std::optional<ColorMatrix> color_matrix(std::string_view from, std::string_view 
   const Space* target = find_space(to);
   if (source == nullptr || target == nullptr) return std::nullopt;
   return multiply(to_xyz_d65(gamut_of(*source)), inverse(to_xyz_d65(gamut_of(*target))));
+}
+
+std::string color_transform_glsl(std::string_view from, std::string_view to,
+                                 std::string_view function) {
+  const Space* source = find_space(from);
+  const Space* target = find_space(to);
+  if (source == nullptr || target == nullptr) return {};
+  return fmt::format("vec3 {}(vec3 c) {{\n{}{}{}  return c;\n}}\n", function,
+                     decode_glsl(source->gamma),
+                     source->gamut == target->gamut ? "" : matrix_glsl(*color_matrix(from, to)),
+                     encode_glsl(target->gamma));
 }
 
 std::string color_transform_text(std::string_view from, std::string_view to) {

@@ -25,4 +25,8 @@ std::optional<ColorMatrix> color_matrix(std::string_view from, std::string_view 
 /// library's own transforms do. Empty if one of the spaces is not known.
 std::string color_transform_text(std::string_view from, std::string_view to);
 
+/// The same as a function "vec3 NAME(vec3)" in GLSL.
+std::string color_transform_glsl(std::string_view from, std::string_view to,
+                                 std::string_view function);
+
 }  // namespace nacre

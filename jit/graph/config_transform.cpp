@@ -10,6 +10,9 @@ namespace nacre {
 
 namespace {
 
+// By the name that the built-in spaces have for it.
+constexpr std::string_view aces_interchange = "lin_ap0";
+
 // Named by a number: names of spaces need be no names of XML.
 std::string transform_nodedefs(const std::string& name) {
   std::string text = "<materialx version=\"1.39\">\n";
@@ -32,7 +35,8 @@ std::string find_working_space(const GraphOptions& options, const Document& docu
   const auto has = [&](const char* space) {
     return options.colors != nullptr && options.colors->find(space).has_value();
   };
-  return !has("lin_rec709") && has("scene_linear") ? "scene_linear" : "lin_rec709";
+  const bool reaches_rec709 = has("lin_rec709") || has("aces_interchange");
+  return !reaches_rec709 && has("scene_linear") ? "scene_linear" : "lin_rec709";
 }
 
 // Nothing where the configuration does not have both spaces.
@@ -43,17 +47,45 @@ std::optional<Resolver::ConfigSpaces> Resolver::config_spaces(std::string_view f
   if (!source) return std::nullopt;
   auto target = options_.colors->find(to);
   if (!target) return std::nullopt;
-  return ConfigSpaces{std::move(*source), std::move(*target)};
+  return ConfigSpaces{std::move(*source), std::move(*target), "", ""};
+}
+
+// One end of the configuration and one built in meet where the configuration says what
+// ACES 2065-1 is: its role aces_interchange is there to convert between configurations.
+std::optional<Resolver::ConfigSpaces> Resolver::bridged_spaces(std::string_view from,
+                                                               std::string_view to) const {
+  const auto is_built_in = [](std::string_view name) {
+    return color_matrix(canonical_colorspace(name), aces_interchange).has_value();
+  };
+  if (options_.colors == nullptr) return std::nullopt;
+  const auto bridge = options_.colors->find("aces_interchange");
+  if (!bridge) return std::nullopt;
+  const auto source = options_.colors->find(from);
+  if (source && is_built_in(to)) {
+    return ConfigSpaces{*source, *bridge, "", std::string(canonical_colorspace(to))};
+  }
+  const auto target = options_.colors->find(to);
+  if (target && is_built_in(from)) {
+    return ConfigSpaces{*bridge, *target, std::string(canonical_colorspace(from)), ""};
+  }
+  return std::nullopt;
+}
+
+bool Resolver::is_conversion(const ConfigSpaces& spaces) {
+  if (spaces.from.is_data || spaces.to.is_data) return false;
+  return spaces.from.name != spaces.to.name || !spaces.before.empty() || !spaces.after.empty();
 }
 
 const NodeDef* Resolver::find_config_transform(const ConfigSpaces& spaces, Type type,
                                                const Element& user) {
   const std::string& from = spaces.from.name;
   const std::string& to = spaces.to.name;
-  const auto [place, is_new] = transforms_.try_emplace(fmt::format("{}\n{}", from, to));
+  const auto [place, is_new] =
+      transforms_.try_emplace(fmt::format("{}\n{}\n{}\n{}", spaces.before, from, to, spaces.after));
   Transform& made = place->second;
   if (is_new) {
     made.color = options_.colors->transform(from, to, made.fault);
+    made.spaces = spaces;
     made.name = fmt::format("config_transform_{}", transforms_.size());
     made.where = {fmt::format("{}: '{}' to '{}'", options_.colors->name(), from, to), 1, 0, {}};
     Diagnostics none;
@@ -81,15 +113,25 @@ const Resolver::Transform* Resolver::config_transform_of(const NodeDef& def) con
 
 NodeSource Resolver::config_source(const NodeDef& def, const Transform& transform) const {
   const ColorTransform& color = *transform.color;
+  const ConfigSpaces& spaces = transform.spaces;
   NodeSource source;
   source.nodedef = def.name;
-  source.function = color.function;
-  source.text = color.text;
-  if (def.outputs[0].type == Type::color3) {
-    source.function += "_of_color3";
-    source.text += fmt::format("\nvec3 {}(vec3 rgb) {{ return {}(vec4(rgb, 1.0)).rgb; }}\n",
-                               source.function, color.function);
+  source.text = color.text + '\n';
+  source.function = color.function + "_of_" + std::string(type_name(def.outputs[0].type));
+  std::string before, after;  // Applied to the colour c.
+  if (!spaces.before.empty()) {
+    source.text += color_transform_glsl(spaces.before, aces_interchange, "to_aces_interchange");
+    before = "c.rgb = to_aces_interchange(c.rgb); ";
   }
+  if (!spaces.after.empty()) {
+    source.text += color_transform_glsl(aces_interchange, spaces.after, "from_aces_interchange");
+    after = "c.rgb = from_aces_interchange(c.rgb); ";
+  }
+  const bool is_opaque = def.outputs[0].type == Type::color3;
+  source.text += fmt::format(
+      "{0} {1}({0} given) {{ vec4 c = {2}; {3}c = {4}(c); {5}return c{6}; }}\n",
+      is_opaque ? "vec3" : "vec4", source.function, is_opaque ? "vec4(given, 1.0)" : "given",
+      before, color.function, after, is_opaque ? ".rgb" : "");
   source.document = options_.colors->name();
   source.tables = color.tables;
   source.where = transform.where;

@@ -16,29 +16,42 @@ std::optional<Resolver::Key> Resolver::convert_colour(const Source& source, Type
                                                       const std::string& path,
                                                       const Element& user) {
   if (type != Type::color3 && type != Type::color4) return std::nullopt;
-  if (source.kind == Source::Kind::unconnected) return std::nullopt;
-  if (space.empty()) return std::nullopt;
-  const auto transform = [&](const NodeDef& def, std::string_view from, std::string_view to) {
-    Instance& instance = add_instance(def, fmt::format("{}:{}_to_{}", path, from, to), &user);
-    instance.inputs.emplace_back(def.inputs[0].name, source);
-    return Key{Kind::output, 0, &instance, nullptr};
-  };
-  if (const auto spaces = config_spaces(space, working_space_)) {
-    const auto& [from, to] = *spaces;
-    if (from.is_data || to.is_data || from.name == to.name) return std::nullopt;
-    const NodeDef* def = find_config_transform(*spaces, type, user);
-    return def == nullptr ? std::nullopt : std::optional(transform(*def, from.name, to.name));
-  }
+  if (source.kind == Source::Kind::unconnected || space.empty()) return std::nullopt;
   const std::string_view from = canonical_colorspace(space);
   const std::string_view to = canonical_colorspace(working_space_);
-  if (from.empty() || to.empty() || from == to) return std::nullopt;
-  if (const NodeDef* def = find_transform(from, to, type)) return transform(*def, from, to);
-  error("unknown-colorspace", user, "there is no transform from this colour space",
-        options_.colors == nullptr ? fmt::format("a space with a transform to {}", to)
-                                   : fmt::format("a space of {}, and '{}' to be one too",
-                                                 options_.colors->name(), working_space_),
-        fmt::format("'{}'", space));
-  return std::nullopt;
+  const NodeDef* def = nullptr;
+  auto spaces = config_spaces(space, working_space_);
+  if (!spaces) {
+    if (from.empty() || to.empty() || from == to) return std::nullopt;
+    def = find_transform(from, to, type);
+    if (def == nullptr) spaces = bridged_spaces(space, working_space_);
+    if (def == nullptr && !spaces) {
+      report_no_transform(space, user);
+      return std::nullopt;
+    }
+  }
+  if (spaces) {
+    if (!is_conversion(*spaces)) return std::nullopt;
+    def = find_config_transform(*spaces, type, user);
+    if (def == nullptr) return std::nullopt;
+  }
+  Instance& instance = add_instance(*def, fmt::format("{}:{}_to_{}", path, from, to), &user);
+  instance.inputs.emplace_back(def->inputs[0].name, source);
+  return Key{Kind::output, 0, &instance, nullptr};
+}
+
+void Resolver::report_no_transform(std::string_view from, const Element& user) {
+  const std::string& to = working_space_;
+  if (options_.colors == nullptr) {
+    error("unknown-colorspace", user, "there is no transform from this colour space",
+          fmt::format("a space with a transform to {}", canonical_colorspace(to)),
+          fmt::format("'{}'", from));
+    return;
+  }
+  error("unknown-colorspace", user, "there is no transform between these colour spaces",
+        fmt::format("two of {}, two built in, or one of each and its role aces_interchange",
+                    options_.colors->name()),
+        fmt::format("'{}' to '{}'", from, to));
 }
 
 // The library's transform, or one made from what the spaces are.

@@ -156,13 +156,19 @@ class Resolver {
   // when there is nothing to convert.
   std::optional<Key> convert_colour(const Source& source, Type type, std::string_view space,
                                     const std::string& path, const Element& user);
+  void report_no_transform(std::string_view from, const Element& user);
   const NodeDef* find_transform(std::string_view from, std::string_view to, Type type);
   // Transforms of GraphOptions::colors (config_transform.cpp).
   struct Transform;
   struct ConfigSpaces {
     ColorConfig::Space from, to;
+    /// Built-in spaces on the other side of `from` or of `to`, which then is the space
+    /// of ACES 2065-1; "": none.
+    std::string before, after;
   };
+  static bool is_conversion(const ConfigSpaces& spaces);
   std::optional<ConfigSpaces> config_spaces(std::string_view from, std::string_view to) const;
+  std::optional<ConfigSpaces> bridged_spaces(std::string_view from, std::string_view to) const;
   const NodeDef* find_config_transform(const ConfigSpaces& spaces, Type type, const Element& user);
   const Transform* config_transform_of(const NodeDef& def) const;
   NodeSource config_source(const NodeDef& def, const Transform& transform) const;
@@ -200,6 +206,7 @@ class Resolver {
     std::unique_ptr<Document> document;
     std::unique_ptr<Definitions> definitions;
     std::shared_ptr<const ColorTransform> color;  ///< Of a configuration; null: see `fault`.
+    ConfigSpaces spaces;
     std::string name;
     std::string fault;
     SourceLocation where;

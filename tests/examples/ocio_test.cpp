@@ -1,6 +1,8 @@
 // `nacre --ocio`: the option as a user meets it.
 #include <OpenImageIO/imageio.h>
 
+#include <filesystem>
+
 #include "tests/examples/tool_fixture.h"
 
 namespace nacre {
@@ -65,6 +67,28 @@ TEST_F(OcioTool, BakesInTheSpacesOfTheConfiguration) {
   EXPECT_EQ(run(bake), 1);
   EXPECT_NE(errors_.find("document.mtlx:4:"), std::string::npos) << errors_;
   EXPECT_NE(errors_.find("'film'"), std::string::npos) << errors_;
+}
+
+/// What the document's numbers were as texels: the space of a file name.
+TEST_F(OcioTool, ConvertsTexelsOfImages) {
+  const std::string rest =
+      " --size 2 --no-cache --out " + folder_.path().string() + " --ocio " + file("config.ocio");
+  ASSERT_EQ(run("bake " + file("document.mtlx") + " --working-space film" + rest), 0) << errors_;
+  std::filesystem::rename(file("out.exr"), file("texels.exr"));
+  write("image.mtlx", R"(<?xml version="1.0"?>
+<materialx version="1.39">
+  <image name="i" type="color3">
+    <input name="file" type="filename" value="texels.exr" colorspace="film log"/>
+  </image>
+  <output name="out" type="color3" nodename="i"/>
+</materialx>
+)");
+  ASSERT_EQ(run("bake " + file("image.mtlx") + rest), 0) << errors_;
+  const std::vector<float> linear = baked();
+  ASSERT_EQ(linear.size(), 3u);
+  EXPECT_NEAR(linear[0], 0.1, 1e-4);  // Half floats, before and after.
+  EXPECT_NEAR(linear[1], 1.0, 1e-3);
+  EXPECT_NEAR(linear[2], 2.0, 3e-3);
 }
 
 TEST_F(OcioTool, TheEnvironmentCountsOnlyWhereAskedFor) {

@@ -122,6 +122,34 @@ TEST_F(Names, OneEndInEachIsAnError) {
   expect_complaint("unknown-colorspace", {"'nowhere'"});
 }
 
+/// "reference" said to be ACES 2065-1: what is built in is converted to that and on.
+TEST_F(Names, EndsMeetAtTheInterchangeRole) {
+  std::string text = small_config;
+  text.insert(text.find("  painted"), "  aces_interchange: reference\n");
+  open_text(text);
+  // Curves and matrices, each way, against the built-in transforms made of nodes.
+  for (const char* built_in : {"acescg", "g22_rec709", "lin_rec2020_scene", "srgb_displayp3"}) {
+    for (const char* type : {"color3", "color4"}) {
+      const Numbers to_aces = value(built_in, "lin_ap0", type);
+      const Numbers from_aces = value("lin_ap0", built_in, type);
+      const Numbers there = value(built_in, "wide", type);
+      const Numbers back = value("reference", built_in, type);
+      ASSERT_EQ(there.size(), to_aces.size()) << diagnostics_.to_string();
+      ASSERT_EQ(back.size(), from_aces.size()) << diagnostics_.to_string();
+      for (std::size_t i = 0; i < to_aces.size(); ++i) {
+        const bool is_alpha = i == 3;
+        EXPECT_NEAR(there[i], is_alpha ? 0.75f : to_aces[i] / 10, 4e-7) << built_in;
+        EXPECT_NEAR(back[i], is_alpha ? 0.75f : from_aces[i], 4e-7) << built_in;
+      }
+    }
+  }
+  EXPECT_EQ(value("lin_rec2020", "numbers"), same);
+  EXPECT_EQ(value("reference", std::nullopt), value("reference", "lin_rec709"));
+  EXPECT_EQ(diagnostics_.to_string(), "");
+  EXPECT_TRUE(value("nowhere", "reference").empty());
+  expect_complaint("unknown-colorspace", {"'nowhere' to 'reference'", "aces_interchange"});
+}
+
 /// See GraphOptions::working_space.
 TEST_F(Names, TheWorkingSpaceUnlessTheHostSays) {
   open_text(small_config);
