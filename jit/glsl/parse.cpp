@@ -139,9 +139,9 @@ std::optional<long long> Parser::constant(const Expression& expression) const {
     return static_cast<std::int32_t>(expression.bits);
   }
   if (expression.kind == Expression::Kind::name && into_ != nullptr) {
-    for (const Statement::Variable& global : into_->globals) {
-      if (global.name == expression.text && global.constant && global.initial) {
-        return constant(*global.initial);
+    for (const auto& global : into_->globals) {
+      if (global->name == expression.text && global->constant && global->initial) {
+        return constant(*global->initial);
       }
     }
   }
@@ -175,7 +175,7 @@ void Parser::top_level() {
   Statement declaration;
   variables(declared, declared_name, constant, place, declaration);
   for (Statement::Variable& variable : declaration.variables) {
-    into_->globals.push_back(std::move(variable));
+    into_->globals.push_back(std::make_shared<const Statement::Variable>(std::move(variable)));
   }
 }
 

@@ -67,10 +67,10 @@ Value Recording::expect(Value value, const Type& type, Place place) {
 
 Value Recording::name(const Expression& expression) {
   if (const Variable* variable = find(expression.text)) return variable->value;
-  for (const Statement::Variable& global : context_.syntax.globals) {
-    if (global.name != expression.text) continue;
-    if (!global.initial || std::find(reading_globals_.begin(), reading_globals_.end(),
-                                     global.name) != reading_globals_.end()) {
+  for (const auto& global : context_.syntax.globals) {
+    if (global->name != expression.text) continue;
+    if (!global->initial || std::find(reading_globals_.begin(), reading_globals_.end(),
+                                      global->name) != reading_globals_.end()) {
       error(expression.place, "glsl-undefined",
             fmt::format("the global '{}' has no value", expression.text));
     }
@@ -78,8 +78,8 @@ Value Recording::name(const Expression& expression) {
     Frame alone;
     alone.first = variables_.size();
     frames_.push_back(alone);
-    reading_globals_.push_back(global.name);
-    Value value = initial_value(*global.initial, global.type);
+    reading_globals_.push_back(global->name);
+    Value value = initial_value(*global->initial, global->type);
     reading_globals_.pop_back();
     frames_.pop_back();
     return value;
