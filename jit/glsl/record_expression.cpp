@@ -58,7 +58,7 @@ Value Recording::evaluate(const Expression& expression) {
   error(expression.place, "glsl-syntax", "a list stands only where a variable is declared");
 }
 
-Value Recording::expect(Value value, const Type& type, Place place) {
+Value Recording::expect(const Value& value, const Type& type, Place place) {
   if (!converts(value.type, type)) {
     error(place, "glsl-type", "the types do not agree", to_string(type), to_string(value.type));
   }
@@ -206,6 +206,7 @@ Value Recording::conditional(const Expression& expression) {
 
 Value Recording::construct(const Expression& expression) {
   std::vector<Value> arguments;
+  arguments.reserve(expression.operands.size());
   for (const ExpressionPtr& operand : expression.operands) arguments.push_back(evaluate(*operand));
   const Type& type = expression.type;
   if (type.is_plain()) return construct_plain(expression, arguments);
@@ -266,7 +267,8 @@ Value Recording::construct_matrix(const Type& type, const Value& argument) const
     for (int row = 0; row < type.rows; ++row) {
       Ref part = Ref::literal(row == column ? 1.0f : 0.0f);
       if (argument.type.is_matrix() && row < argument.type.rows && column < argument.type.columns) {
-        part = argument.parts[static_cast<std::size_t>(column * argument.type.rows + row)];
+        part = argument.parts[static_cast<std::size_t>(column) * argument.type.rows +
+                              static_cast<std::size_t>(row)];
       } else if (argument.type.is_scalar() && row == column) {
         part = convert(argument.parts[0], argument.type.base, Base::number);
       }
@@ -282,7 +284,7 @@ Value Recording::initial_value(const Expression& expression, const Type& type) {
     if (type.length < 0 && value.type.is_array() && value.type.element() == type.element()) {
       return value;
     }
-    return expect(std::move(value), type, expression.place);
+    return expect(value, type, expression.place);
   }
   Expression made;
   made.kind = Expression::Kind::construct;
@@ -313,6 +315,7 @@ Value Recording::initial_value(const Expression& expression, const Type& type) {
 
 Value Recording::call_named(const Expression& expression) {
   std::vector<Value> arguments;
+  arguments.reserve(expression.operands.size());
   for (const ExpressionPtr& operand : expression.operands) arguments.push_back(evaluate(*operand));
   const Function* function = select_overload(expression, arguments);
   if (function == nullptr) {
