@@ -167,6 +167,7 @@ class Edges : public ::testing::Test {
 
     std::vector<Enclosure> enclose(testing::FloatRange range) const {
       std::vector<std::uint32_t> values;
+      values.reserve(program.inputs.size());
       for (const Channel& channel : program.inputs) {
         values.push_back(inputs.at(channel.name)[index]);
       }
