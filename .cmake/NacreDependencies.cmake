@@ -26,6 +26,13 @@ add_library(nacre_oiio INTERFACE)
 target_include_directories(nacre_oiio SYSTEM INTERFACE ${NACRE_OIIO_INCLUDE} ${NACRE_OIIO_INCLUDE}/Imath)
 target_link_libraries(nacre_oiio INTERFACE ${NACRE_OIIO_LIBRARY} ${NACRE_OIIO_UTIL_LIBRARY})
 
+# Debian's OpenColorIO package has no CMake configuration.
+find_path(NACRE_OCIO_INCLUDE OpenColorIO/OpenColorIO.h REQUIRED)
+find_library(NACRE_OCIO_LIBRARY OpenColorIO REQUIRED)
+add_library(nacre_opencolorio INTERFACE)
+target_include_directories(nacre_opencolorio SYSTEM INTERFACE ${NACRE_OCIO_INCLUDE})
+target_link_libraries(nacre_opencolorio INTERFACE ${NACRE_OCIO_LIBRARY})
+
 if(NACRE_BUILD_TESTS)
   find_package(GTest REQUIRED)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)

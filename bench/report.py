@@ -12,7 +12,7 @@ import plots
 import results
 
 PEERS = ("chain", "fractal", "conductor")
-FILTERS = ("closest", "bilinear", "trilinear")
+FILTERS = ("closest", "bilinear", "trilinear", "anisotropic")
 WIDTHS = (1, 4, 8, 16)
 
 

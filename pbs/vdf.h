@@ -18,4 +18,15 @@ class Vdf final : public Closure {
 };
 using VdfPtr = std::shared_ptr<const Vdf>;
 
+/// Null where the closure is none.
+VdfPtr as_vdf(const ClosurePtr& closure);
+
+/// Both media in one place: coefficients add up. Scattering by the two is taken for one
+/// with the same mean cosine, the mean of theirs by what each scatters, all components
+/// together; a mixture of two lobes has no anisotropy of its own. Null counts as empty.
+VdfPtr sum(const VdfPtr& a, const VdfPtr& b);
+
+/// Coefficients times `factor`, which is at least 0. Null stays null.
+VdfPtr scaled(const VdfPtr& vdf, Color3 factor);
+
 }  // namespace nacre

@@ -41,6 +41,7 @@ const char* filter_name(Filter filter) {
     case Filter::closest: return "closest";
     case Filter::bilinear: return "bilinear";
     case Filter::trilinear: return "trilinear";
+    case Filter::anisotropic: return "anisotropic";
   }
   return "";
 }

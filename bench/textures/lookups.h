@@ -13,8 +13,9 @@ inline constexpr std::size_t lookup_batches = 64;
 /// Where an image is looked up: `lookup_batches` batches, one after another.
 struct Lookups {
   std::vector<float> u, v;
-  /// Both axes of the footprint, in uv: (texels / size, 0) and (0, texels / size).
+  /// The axes of the footprint, in uv: (aspect * footprint, 0) and (0, footprint).
   float footprint = 0.0f;
+  float aspect = 1.0f;
 };
 
 /// Blocks of 64 x 64 points a texel apart, as a camera or a bake sees a texture.
@@ -25,7 +26,7 @@ Lookups random_lookups(float footprint_texels);
 /// rgba of each point.
 using Rgba = std::array<std::vector<float>, 4>;
 
-enum class Filter { closest, bilinear, trilinear };
+enum class Filter { closest, bilinear, trilinear, anisotropic };
 const char* filter_name(Filter filter);
 
 }  // namespace nacre::bench

@@ -21,8 +21,9 @@ OiioTexture::OiioTexture(const std::string& path, Filter filter)
   s.handle = s.system->get_texture_handle(OIIO::ustring(path), s.thread);
   s.options.swrap = OIIO::TextureOpt::WrapPeriodic;
   s.options.twrap = OIIO::TextureOpt::WrapPeriodic;
-  s.options.mipmode = filter == Filter::trilinear ? OIIO::TextureOpt::MipModeTrilinear
-                                                  : OIIO::TextureOpt::MipModeNoMIP;
+  s.options.mipmode = filter == Filter::anisotropic ? OIIO::TextureOpt::MipModeAniso
+                      : filter == Filter::trilinear ? OIIO::TextureOpt::MipModeTrilinear
+                                                    : OIIO::TextureOpt::MipModeNoMIP;
   s.options.interpmode = filter == Filter::closest ? OIIO::TextureOpt::InterpClosest
                                                    : OIIO::TextureOpt::InterpBilinear;
 }
@@ -37,8 +38,9 @@ bool OiioTexture::look_up(const Lookups& points, std::size_t first, std::size_t 
   for (std::size_t i = 0; i < count; ++i) {
     float texel[4];
     // Its t points down.
-    good &= s.system->texture(s.handle, s.thread, s.options, points.u[first + i],
-                              1.0f - points.v[first + i], d, 0.0f, 0.0f, -d, 4, texel);
+    good &=
+        s.system->texture(s.handle, s.thread, s.options, points.u[first + i],
+                          1.0f - points.v[first + i], points.aspect * d, 0.0f, 0.0f, -d, 4, texel);
     for (std::size_t c = 0; c < 4; ++c) rgba[c][i] = texel[c];
   }
   return good;

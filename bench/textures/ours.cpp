@@ -33,7 +33,8 @@ const float* OurTexture::channel(const std::string& name, const Lookups& points,
                                  std::size_t first) const {
   if (name == "uv0.x") return points.u.data() + first;
   if (name == "uv0.y") return points.v.data() + first;
-  if (name == "duv0dx.x" || name == "duv0dy.y") return footprint_.data();
+  if (name == "duv0dx.x") return long_axis_.data();
+  if (name == "duv0dy.y") return footprint_.data();
   return zero_.data();
 }
 
@@ -41,6 +42,7 @@ void OurTexture::look_up(const Lookups& points, std::size_t first, std::size_t c
                          Rgba& rgba) const {
   if (footprint_.size() != count || footprint_.front() != points.footprint) {
     footprint_.assign(count, points.footprint);
+    long_axis_.assign(count, points.aspect * points.footprint);
     zero_.assign(count, 0.0f);
   }
   std::array<const void*, 6> inputs{};

@@ -25,7 +25,7 @@ class OurTexture {
   const float* channel(const std::string& name, const Lookups& points, std::size_t first) const;
 
   BoundKernel kernel_;
-  mutable std::vector<float> footprint_, zero_;
+  mutable std::vector<float> long_axis_, footprint_, zero_;
 };
 
 }  // namespace nacre::bench

@@ -129,11 +129,17 @@ void register_benchmarks() {
     fmt::print(stderr, "cannot write an image to the folder of temporary files\n");
     std::exit(2);
   }
-  for (const Filter filter : {Filter::closest, Filter::bilinear, Filter::trilinear}) {
-    // Below a texel level 0 alone; 2.8 texels are half-way between two levels.
-    const float footprint = filter == Filter::trilinear ? 2.8f : 0.5f;
-    register_workload("coherent", filter, coherent_lookups(footprint));
-    register_workload("random", filter, random_lookups(footprint));
+  for (const Filter filter :
+       {Filter::closest, Filter::bilinear, Filter::trilinear, Filter::anisotropic}) {
+    // Below a texel level 0 alone; 2.8 texels are between two levels.
+    const bool is_minified = filter == Filter::trilinear || filter == Filter::anisotropic;
+    const float footprint = is_minified ? 2.8f : 0.5f;
+    Lookups coherent = coherent_lookups(footprint);
+    Lookups random = random_lookups(footprint);
+    // A floor seen at about 15 degrees: 7 probes.
+    coherent.aspect = random.aspect = filter == Filter::anisotropic ? 4.0f : 1.0f;
+    register_workload("coherent", filter, std::move(coherent));
+    register_workload("random", filter, std::move(random));
   }
 }
 

@@ -19,7 +19,7 @@ class Baker {
   Baker(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings)
       : kernel_(kernel),
         output_(kernel.outputs[output]),
-        plane_(settings.width, settings.height),
+        plane_(settings.width, settings.height, settings.corner_u, settings.corner_v),
         parameters_(kernel.kernel.parameters()) {
     set("frame", settings.frame);
     set("time", settings.time);
@@ -30,8 +30,8 @@ class Baker {
   /// Bytes that one row takes while it is computed.
   std::size_t row_bytes() const {
     const Program& program = kernel_.kernel.program();
-    const std::size_t channels = program.inputs.size() + program.outputs.size() +
-                                 static_cast<std::size_t>(components());
+    const std::size_t channels =
+        program.inputs.size() + program.outputs.size() + static_cast<std::size_t>(components());
     return channels * sizeof(float) * static_cast<std::size_t>(plane_.width());
   }
 
@@ -82,8 +82,8 @@ bool bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& se
           const std::function<bool(const BakedRows&)>& sink, const BakeControl& control) {
   const Baker baker(kernel, output, settings);
   tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
-  const auto row_texels = static_cast<std::size_t>(settings.width) *
-                          static_cast<std::size_t>(baker.components());
+  const auto row_texels =
+      static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(baker.components());
   // A strip is what one call of the kernel gets: enough points to be worth it.
   const int strip_rows = std::clamp(16384 / settings.width, 1, settings.height);
   const auto band_rows = static_cast<int>(std::clamp<std::size_t>(

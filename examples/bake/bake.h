@@ -10,7 +10,8 @@ namespace nacre::host {
 
 struct BakeSettings {
   int width = 1024, height = 1024;
-  int threads = 0;  ///< 0: as many as the machine has.
+  int corner_u = 0, corner_v = 0;  ///< uv of the image's lower left: the tile of a set.
+  int threads = 0;                 ///< 0: as many as the machine has.
   float frame = 1.0f;
   float time = 0.0f;
   /// Bytes for the rows being computed; the image itself is the sink's business.

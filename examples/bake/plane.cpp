@@ -45,9 +45,9 @@ void Plane::fill(std::string_view channel, int first, int rows, std::vector<floa
   values.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width_));
   std::size_t next = 0;
   for (int j = first; j < first + rows; ++j) {
-    const float v = 1.0f - (static_cast<float>(j) + 0.5f) * dv;
+    const float v = static_cast<float>(corner_v_) + (1.0f - (static_cast<float>(j) + 0.5f) * dv);
     for (int i = 0; i < width_; ++i) {
-      const float u = (static_cast<float>(i) + 0.5f) * du;
+      const float u = static_cast<float>(corner_u_) + (static_cast<float>(i) + 0.5f) * du;
       values[next++] = line.constant + line.u * u + line.v * v;
     }
   }

@@ -77,6 +77,8 @@ struct Job {
   TexelRange* range;
 
   const OutputKernel::Output& output() const { return kernel.outputs[index]; }
+  int components() const { return component_count(output().type); }
+  int channels() const { return encoding.channels > 0 ? encoding.channels : components(); }
   bool is_srgb() const {
     return texture_colorspace(output().type, std::string(format.extension), encoding) ==
            "srgb_texture";
@@ -84,7 +86,7 @@ struct Job {
 };
 
 OIIO::ImageSpec spec_of(const Job& job) {
-  const int channels = component_count(job.output().type);
+  const int channels = job.channels();
   OIIO::ImageSpec spec(job.settings.width, job.settings.height, channels,
                        type_of(job.format, job.encoding.bits));
   spec.channelnames = channel_names(channels);
@@ -107,14 +109,27 @@ void widen(TexelRange& range, const std::vector<float>& texels, std::size_t chan
   }
 }
 
+BakedRows chosen_channels(const Job& job, const BakedRows& rows) {
+  if (job.channels() == job.components()) return rows;
+  BakedRows chosen{rows.first, rows.rows, {}};
+  const auto first = static_cast<std::size_t>(job.encoding.first_channel);
+  const auto stride = static_cast<std::size_t>(job.components());
+  for (std::size_t i = first; i < rows.texels.size(); i += stride) {
+    for (int c = 0; c < job.channels(); ++c) {
+      chosen.texels.push_back(rows.texels[i + static_cast<std::size_t>(c)]);
+    }
+  }
+  return chosen;
+}
+
 /// Bakes, and hands rows to `sink` as the numbers that the file is to hold.
 bool bake_encoded(const Job& job, const std::function<bool(const BakedRows&)>& sink) {
-  const auto channels = static_cast<std::size_t>(component_count(job.output().type));
+  const auto channels = static_cast<std::size_t>(job.channels());
   const bool srgb = job.is_srgb();
   BakedRows encoded;
   const auto encode = [&](const BakedRows& rows) {
-    if (job.range != nullptr) widen(*job.range, rows.texels, channels);
-    encoded = rows;
+    encoded = chosen_channels(job, rows);
+    if (job.range != nullptr) widen(*job.range, encoded.texels, channels);
     for (std::size_t i = 0; i < encoded.texels.size(); ++i) {
       float& texel = encoded.texels[i];
       const bool alpha = channels == 4 && i % 4 == 3;
@@ -163,7 +178,7 @@ std::string fault_of(const Job& job) {
     return fmt::format("a {} file does not hold {}-bit channels", job.format.extension.substr(1),
                        encoding.bits);
   }
-  if (job.format.is_integer && component_count(job.output().type) > 4) {
+  if (job.format.is_integer && job.channels() > 4) {
     return "a png holds at most four channels";
   }
   const bool is_known = encoding.colorspace.empty() || encoding.colorspace == "none" ||

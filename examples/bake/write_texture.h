@@ -17,6 +17,8 @@ struct TextureEncoding {
   std::string colorspace = {};
   /// Unit vectors, stored as (v + 1) / 2 as normal maps are.
   bool is_direction = false;
+  /// The channels of the output to write; 0 of them: all.
+  int first_channel = 0, channels = 0;
 };
 
 /// The smallest and largest value of each channel, as computed; NaN does not count.
@@ -40,7 +42,8 @@ bool holds_unit_range_only(const std::string& extension);
 ///   .tx   a tiled, mip-mapped texture of 32-bit or 16-bit floats
 ///
 /// Other numbers of bits are an error. One channel for float, boolean and integer,
-/// else as many as the type has. Fills in `range` if there is one.
+/// else as many as the type has or `encoding` asks for. Widens `range`, of those
+/// channels, if there is one.
 bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
                   const TextureEncoding& encoding, const std::string& path,
                   Diagnostics& diagnostics, const BakeControl& control = {},

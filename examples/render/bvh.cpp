@@ -23,6 +23,20 @@ RTCRay to_embree(const Ray& ray) {
   return r;
 }
 
+/// Embree's filter for hits: camera rays pass through the backs of one-sided meshes.
+void reject_backs(const RTCFilterFunctionNArguments* arguments) {
+  const unsigned n = arguments->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (arguments->valid[i] == 0 || RTCRayN_mask(arguments->ray, n, i) != ray_camera) continue;
+    const Vec3 ng = {RTCHitN_Ng_x(arguments->hit, n, i), RTCHitN_Ng_y(arguments->hit, n, i),
+                     RTCHitN_Ng_z(arguments->hit, n, i)};
+    const Vec3 direction = {RTCRayN_dir_x(arguments->ray, n, i),
+                            RTCRayN_dir_y(arguments->ray, n, i),
+                            RTCRayN_dir_z(arguments->ray, n, i)};
+    if (dot(ng, direction) > 0.f) arguments->valid[i] = 0;
+  }
+}
+
 bool add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -34,6 +48,7 @@ bool add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
     std::memcpy(vertices, mesh.position.data(), mesh.position.size() * sizeof(Vec3));
     std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
     rtcSetGeometryMask(geometry, mesh.visible_to);
+    if (!mesh.two_sided) rtcSetGeometryIntersectFilterFunction(geometry, reject_backs);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);  // numbered as they come: the mesh index
   }
@@ -61,9 +76,15 @@ Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_uniqu
     rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
     const bool masks =
         rtcGetDeviceProperty(embree_->device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0;
+    const bool filters =
+        rtcGetDeviceProperty(embree_->device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED) != 0;
     bool ok = true;
     for (const Mesh& mesh : scene.meshes) {
       ok = ok && add_mesh(embree_->device, embree_->scene, mesh);
+      if (!filters && !mesh.two_sided) {
+        diagnostics.warning("no-ray-filters", {}, "this Embree cannot hide the backs of meshes",
+                            "one built with EMBREE_FILTER_FUNCTION", mesh.object_name);
+      }
       if (!masks && mesh.visible_to != ray_any) {
         diagnostics.warning("no-ray-masks", {}, "this Embree cannot hide meshes from some rays",
                             "one built with EMBREE_RAY_MASK", mesh.object_name);

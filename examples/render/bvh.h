@@ -11,8 +11,8 @@ namespace nacre::host {
 
 struct Ray {
   Vec3 origin;
-  Vec3 direction;        ///< Unit length.
-  float far = INFINITY;  ///< Hits at or beyond do not count.
+  Vec3 direction;                ///< Unit length.
+  float far = INFINITY;          ///< Hits at or beyond do not count.
   std::uint32_t kind = ray_any;  ///< RayKind: meshes that none of the bits see do not count.
 };
 

@@ -11,7 +11,13 @@ namespace nacre::host {
 /// An image of radiance estimates, rows from the top.
 class Film {
  public:
-  Film(int width, int height) : width_(width), height_(height), mean_(size()), variance_(size()) {}
+  /// Without alpha it is 1 everywhere.
+  Film(int width, int height, bool has_alpha = false)
+      : width_(width),
+        height_(height),
+        mean_(size()),
+        variance_(size()),
+        alpha_(has_alpha ? size() : 0, 1.f) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -24,6 +30,11 @@ class Film {
   /// overestimate for stratified ones.
   Vec3& variance(int x, int y) { return variance_[index(x, y)]; }
   Vec3 variance(int x, int y) const { return variance_[index(x, y)]; }
+
+  /// Share of the pixel that is not held out by a matte; `mean` is multiplied by it.
+  bool has_alpha() const { return !alpha_.empty(); }
+  float alpha(int x, int y) const { return has_alpha() ? alpha_[index(x, y)] : 1.f; }
+  void set_alpha(int x, int y, float alpha) { alpha_[index(x, y)] = alpha; }
 
   /// width * height rgb triples.
   const std::vector<Vec3>& pixels() const { return mean_; }
@@ -39,17 +50,20 @@ class Film {
 
   int width_, height_;
   std::vector<Vec3> mean_, variance_;
+  std::vector<float> alpha_;
 };
 
 /// Samples of one pixel, added in the order of their index, in double so that
 /// many thousand do not stall.
 class PixelSum {
  public:
-  void add(Vec3 rgb) {
+  void add(Vec3 rgb, float alpha = 1.f) {
     const double v[3] = {rgb.x, rgb.y, rgb.z};
     for (int c = 0; c < 3; ++c) sum_[c] += v[c], squares_[c] += v[c] * v[c];
+    alpha_ += alpha;
     ++count_;
   }
+  float alpha() const { return count_ == 0 ? 1.f : static_cast<float>(alpha_ / count_); }
   Vec3 mean() const { return {mean(0), mean(1), mean(2)}; }
   Vec3 variance_of_mean() const { return {variance(0), variance(1), variance(2)}; }
 
@@ -61,7 +75,7 @@ class PixelSum {
     return static_cast<float>(std::max(0.0, spread) / (count_ - 1) / count_);
   }
 
-  double sum_[3] = {}, squares_[3] = {};
+  double sum_[3] = {}, squares_[3] = {}, alpha_ = 0;
   std::uint32_t count_ = 0;
 };
 

@@ -19,6 +19,8 @@ struct WriteOptions {
 /// Writes .exr (linear Rec. 709 radiance) or .png (8 bits, tone curve, sRGB
 /// transfer). A file appears complete or not at all: it is written beside its
 /// place and renamed. The bytes depend on nothing but the image and options.
+/// A film with alpha gives four channels; colours are multiplied by alpha in .exr and
+/// not in .png, as is the custom of either.
 bool write_image(const Film& film, const std::string& path, const WriteOptions& options,
                  Diagnostics& diagnostics);
 

@@ -72,12 +72,15 @@ bool render_tile(const RenderContext& context, const Tile& tile, const std::stop
       }
     }
     wavefront.trace(paths);
-    for (std::size_t i = 0; i < paths.size(); ++i) sums[i % sums.size()].add(paths[i].radiance);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      sums[i % sums.size()].add(paths[i].radiance, paths[i].alpha);
+    }
   }
   for (int i = 0; i < tile.pixels(); ++i) {
     const PixelSum& sum = sums[static_cast<std::size_t>(i)];
     film.mean(tile.x0 + i % width, tile.y0 + i / width) = sum.mean();
     film.variance(tile.x0 + i % width, tile.y0 + i / width) = sum.variance_of_mean();
+    if (film.has_alpha()) film.set_alpha(tile.x0 + i % width, tile.y0 + i / width, sum.alpha());
   }
   return true;
 }
@@ -131,7 +134,7 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
   const RenderContext context(input, settings, diagnostics);
   if (!context.bvh.ok()) return {};
   const std::vector<Tile> tiles = make_tiles(settings);
-  Film film(settings.width, settings.height);
+  Film film(settings.width, settings.height, context.any_matte);
   Shared shared;
   const auto run = [&] {
     try {

@@ -51,6 +51,9 @@ struct RenderInput {
   std::vector<const Shader*> shaders;
   const Environment* environment = nullptr;  ///< Null: black.
   Camera camera;
+  /// Those of the backs, where dot(Ng, wo) < 0: null where the front's is on both
+  /// sides, and empty where that is so for every mesh.
+  std::vector<const Shader*> back_shaders = {};
 };
 
 struct RenderControl {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <map>
 #include <utility>
 
 namespace nacre::host {
@@ -37,26 +36,33 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
 }
 
 void RenderContext::collect_materials(const RenderInput& input) {
-  std::map<std::pair<const Shader*, std::uint32_t>, std::uint32_t> known;
   for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
     const Mesh& m = scene.meshes[mesh];
-    const Shader* shader = input.shaders[mesh];
+    any_matte = any_matte || m.matte;
+    const Shader* front = input.shaders[mesh];
+    const Shader* back = input.back_shaders.empty() ? nullptr : input.back_shaders[mesh];
     if (m.light_radiance) {
       emitters_.push_back(std::make_unique<ConstantEmitter>(*m.light_radiance, m.light_two_sided));
-      shader = emitters_.back().get();
+      front = emitters_.back().get();
+      back = nullptr;
     }
-    assert(shader != nullptr);
-    Capabilities capabilities = shader->capabilities();
-    const std::uint32_t split = wants_one_mesh(capabilities) ? mesh : ~0u;
-    const auto [slot, fresh] =
-        known.try_emplace({shader, split}, static_cast<std::uint32_t>(materials.size()));
-    material_of_mesh.push_back(slot->second);
-    if (!fresh) continue;
-    any_opacity = any_opacity || capabilities.has_opacity;
-    state_bytes = std::max(state_bytes, shader->state_bytes(settings.batch_size));
-    primvars = std::max(primvars, capabilities.primvars.size());
-    materials.push_back({shader, std::move(capabilities)});
+    assert(front != nullptr);
+    front_materials.push_back(add_material(*front, mesh));
+    back_materials.push_back(back == nullptr ? front_materials.back() : add_material(*back, mesh));
   }
+}
+
+std::uint32_t RenderContext::add_material(const Shader& shader, std::uint32_t mesh) {
+  Capabilities capabilities = shader.capabilities();
+  const std::uint32_t split = wants_one_mesh(capabilities) ? mesh : ~0u;
+  const auto [slot, fresh] =
+      known_.try_emplace({&shader, split}, static_cast<std::uint32_t>(materials.size()));
+  if (!fresh) return slot->second;
+  any_opacity = any_opacity || capabilities.has_opacity;
+  state_bytes = std::max(state_bytes, shader.state_bytes(settings.batch_size));
+  primvars = std::max(primvars, capabilities.primvars.size());
+  materials.push_back({&shader, std::move(capabilities)});
+  return slot->second;
 }
 
 void RenderContext::collect_lights() {
@@ -64,7 +70,10 @@ void RenderContext::collect_lights() {
   buffer.batch.time = settings.time;
   buffer.batch.frame = settings.frame;
   for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-    if (!materials[material_of_mesh[mesh]].capabilities.emits) continue;
+    const bool emits = materials[front_materials[mesh]].capabilities.emits ||
+                       materials[back_materials[mesh]].capabilities.emits;
+    // What nothing sees is no light either (Geometry Extensions, "Visibility Elements").
+    if (!emits || scene.meshes[mesh].visible_to == 0) continue;
     lights.add(scene, mesh, triangle_luminance(mesh, buffer));
   }
   lights.finish();
@@ -74,43 +83,47 @@ void RenderContext::collect_lights() {
 /// perpendicularly, from its centroid and three points halfway to the corners.
 std::vector<float> RenderContext::triangle_luminance(std::uint32_t mesh,
                                                      BatchBuffer& buffer) const {
+  std::vector<float> result(scene.meshes[mesh].triangles.size(), 0.f);
+  for (const bool back : {false, true}) brighten(result, mesh, back, buffer);
+  // Where the probes saw nothing a texture may still glow: keep some chance there.
+  const float brightest = *std::max_element(result.begin(), result.end());
+  for (float& l : result) l = std::max(l, 0.02f * brightest);
+  return result;
+}
+
+/// Raises the luminance of each triangle to that of its front or back.
+void RenderContext::brighten(std::vector<float>& luminances, std::uint32_t mesh, bool back,
+                             BatchBuffer& buffer) const {
   constexpr float probes[4][2] = {{1.f / 3.f, 1.f / 3.f},
                                   {1.f / 6.f, 1.f / 6.f},
                                   {2.f / 3.f, 1.f / 6.f},
                                   {1.f / 6.f, 2.f / 3.f}};
   const Mesh& m = scene.meshes[mesh];
-  const Material& material = materials[material_of_mesh[mesh]];
-  std::vector<float> result(m.triangles.size(), 0.f);
+  const Material& material = materials[(back ? back_materials : front_materials)[mesh]];
+  if (!material.capabilities.emits) return;
   std::vector<SurfacePoint> points;
-  std::vector<float> sums;
   for (std::size_t first = 0; first < m.triangles.size();) {
     const std::size_t last =
-        std::min(m.triangles.size(), first + std::max(1u, settings.batch_size / 8));
+        std::min(m.triangles.size(), first + std::max(1u, settings.batch_size / 4));
     points.clear();
     for (std::size_t t = first; t < last; ++t) {
       const auto triangle = static_cast<std::uint32_t>(t);
       const Vec3 n = surface_normal(m, triangle);
-      for (const Vec3 wo : {n, -n}) {
-        for (const auto& [u, v] : probes) {
-          points.push_back({mesh, triangle, u, v, wo, false, 0.f, 0.f});
-        }
+      for (const auto& [u, v] : probes) {
+        points.push_back({mesh, triangle, u, v, back ? -n : n, false, 0.f, 0.f});
       }
     }
     geometry.fill(points, material.capabilities, camera, buffer);
     material.shader->emission(buffer.batch, buffer.rgb);
-    sums.assign(2 * (last - first), 0.f);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      sums[i / 4] += 0.25f * std::max(0.f, luminance(load(buffer.rgb, i)));
-    }
     for (std::size_t t = first; t < last; ++t) {
-      result[t] = std::max(sums[2 * (t - first)], sums[2 * (t - first) + 1]);
+      float sum = 0.f;
+      for (std::size_t i = 4 * (t - first); i < 4 * (t - first) + 4; ++i) {
+        sum += 0.25f * std::max(0.f, luminance(load(buffer.rgb, i)));
+      }
+      luminances[t] = std::max(luminances[t], sum);
     }
     first = last;
   }
-  // Where the probes saw nothing a texture may still glow: keep some chance there.
-  const float brightest = *std::max_element(result.begin(), result.end());
-  for (float& l : result) l = std::max(l, 0.02f * brightest);
-  return result;
 }
 
 }  // namespace nacre::host

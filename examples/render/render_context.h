@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "examples/render/area_light.h"
@@ -33,18 +35,31 @@ class RenderContext {
   Bvh bvh;
   AreaLights lights;
   std::vector<Material> materials;
-  std::vector<std::uint32_t> material_of_mesh;
+  /// By mesh, of either side: indices of `materials`.
+  std::vector<std::uint32_t> front_materials, back_materials;
   bool any_opacity = false;
+  bool any_matte = false;
   /// Chance that light sampling asks the environment rather than the area lights.
   float environment_chance = 0.f;
   std::size_t state_bytes = 0;  ///< Of the neediest shader at the batch size.
   std::size_t primvars = 0;     ///< Of the neediest shader.
 
+  /// The material of the side that `wo` is on.
+  std::uint32_t material_of(std::uint32_t mesh, std::uint32_t triangle, Vec3 wo) const {
+    const std::uint32_t front = front_materials[mesh], back = back_materials[mesh];
+    if (front == back) return front;
+    return dot(surface_normal(scene.meshes[mesh], triangle), wo) < 0.f ? back : front;
+  }
+
  private:
   void collect_materials(const RenderInput& input);
+  std::uint32_t add_material(const Shader& shader, std::uint32_t mesh);
   void collect_lights();
   std::vector<float> triangle_luminance(std::uint32_t mesh, BatchBuffer& buffer) const;
+  void brighten(std::vector<float>& luminance, std::uint32_t mesh, bool back,
+                BatchBuffer& buffer) const;
 
+  std::map<std::pair<const Shader*, std::uint32_t>, std::uint32_t> known_;
   std::vector<std::unique_ptr<const Shader>> emitters_;
 };
 

@@ -41,6 +41,12 @@ struct Mesh {
   std::string path;           ///< "/parent/object"; empty: the object stands at the top.
 
   std::uint32_t visible_to = ray_any;  ///< RayKind bits of the rays that meet it.
+  bool two_sided = true;               ///< False: camera rays pass through its back.
+  /// Held out: where the camera sees it the image is black with alpha 0. Other rays
+  /// meet it as it is.
+  bool matte = false;
+  /// False: light straight from lights and the environment does not scatter from it.
+  bool illuminated = true;
 
   std::vector<Triangle> triangles;    ///< Counter-clockwise seen from the front.
   std::vector<Vec3> position;         ///< World.

@@ -1,5 +1,6 @@
 #include "examples/render/wavefront.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "examples/render/mis.h"
@@ -50,6 +51,7 @@ void Wavefront::trace(std::span<Path> paths) {
     add_environment();
     group_by_material();
     if (context_.any_opacity) apply_opacity();
+    if (context_.any_matte) hold_out();
     if (connects()) sample_lights();
     shade();
     trace_shadows();
@@ -77,8 +79,8 @@ void Wavefront::intersect() {
 void Wavefront::add_environment() {
   if (context_.environment == nullptr) return;
   for (const std::uint32_t i : active_) {
-    if (!hits_[i].missed()) continue;
     Path& path = paths_[i];
+    if (!hits_[i].missed() || path.unlit) continue;
     const Vec3 direction = path.ray.direction;
     const float light_pdf = context_.environment_chance * context_.environment->pdf(direction);
     path.radiance +=
@@ -89,9 +91,24 @@ void Wavefront::add_environment() {
 void Wavefront::group_by_material() {
   group_by(active_.size(), sorted_, groups_, [this](std::size_t i) {
     const Hit& hit = hits_[active_[i]];
-    return hit.missed() ? ~0u : context_.material_of_mesh[hit.mesh];
+    if (hit.missed()) return ~0u;
+    return context_.material_of(hit.mesh, hit.triangle, -paths_[active_[i]].ray.direction);
   });
   for (std::uint32_t& i : sorted_) i = active_[i];
+}
+
+/// Ends the camera's paths on mattes, and takes them out of their group.
+void Wavefront::hold_out() {
+  for (Group& group : groups_) {
+    const auto begin = sorted_.begin() + group.begin, end = sorted_.begin() + group.end;
+    const auto kept = std::remove_if(begin, end, [this](std::uint32_t i) {
+      Path& path = paths_[i];
+      const bool held_out = path.from_camera && context_.scene.meshes[hits_[i].mesh].matte;
+      if (held_out) path.alpha = 0.f;
+      return held_out;
+    });
+    group.end = static_cast<std::uint32_t>(kept - sorted_.begin());
+  }
 }
 
 SurfacePoint Wavefront::surface_point(std::uint32_t i) const {

@@ -15,14 +15,16 @@ struct Path {
   SampleKey key;  ///< key.event counts intersections.
   Ray ray;
   Vec3 throughput = {1.f, 1.f, 1.f};
-  Vec3 radiance;   ///< What the path has brought so far.
-  int depth = 0;   ///< Scattering events.
-  int passes = 0;  ///< Transparent surfaces passed.
+  Vec3 radiance;      ///< What the path has brought so far.
+  float alpha = 1.f;  ///< 0: it ended on a matte.
+  int depth = 0;      ///< Scattering events.
+  int passes = 0;     ///< Transparent surfaces passed.
 
   /// How the direction of `ray` was drawn, for multiple importance sampling.
   Vec3 vertex;              ///< Where.
   float pdf = 0.f;          ///< Per solid angle.
   bool light_blind = true;  ///< By camera or Dirac lobe: light sampling cannot find it.
+  bool unlit = false;       ///< From a mesh that lights do not illuminate.
 
   /// Footprint: exact while the path is straight from the camera, then a cone
   /// (Akenine-Möller et al. 2021, "Improved Shader and Texture Level of Detail
@@ -73,6 +75,7 @@ class Wavefront {
   void intersect();
   void add_environment();
   void group_by_material();
+  void hold_out();
   SurfacePoint surface_point(std::uint32_t path) const;
   void fill(std::span<const std::uint32_t> paths, const Material& material);
   Uniform2 draw(const Path& path, Draw what) const;

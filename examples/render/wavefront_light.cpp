@@ -13,7 +13,8 @@ void Wavefront::sample_lights() {
     for (std::uint32_t k = groups_[m].begin; k < groups_[m].end; ++k) sample_light(sorted_[k]);
   }
   group_by(light_points_.size(), light_order_, light_groups_, [this](std::size_t i) {
-    return context_.material_of_mesh[light_points_[i].point.mesh];
+    const SurfacePoint& point = light_points_[i].point;
+    return context_.material_of(point.mesh, point.triangle, point.wo);
   });
   for (std::size_t m = 0; m < light_groups_.size(); ++m) {
     const Group g = light_groups_[m];
@@ -29,6 +30,7 @@ void Wavefront::sample_light(std::uint32_t i) {
   LightSample& light = light_samples_[i];
   light = {};
   if (path.depth >= context_.settings.max_depth) return;
+  if (!context_.scene.meshes[hits_[i].mesh].illuminated) return;
   const Uniform2 choice = draw(path, Draw::light_choice);
   const Uniform2 position = draw(path, Draw::light);
   if (choice.x < context_.environment_chance) {
@@ -55,6 +57,7 @@ void Wavefront::sample_light(std::uint32_t i) {
 }
 
 void Wavefront::light_emission(const Material& material, std::span<const std::uint32_t> points) {
+  if (!material.capabilities.emits) return;  // The dark side of a light.
   points_.clear();
   for (const std::uint32_t k : points) points_.push_back(light_points_[k].point);
   context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);

@@ -99,7 +99,8 @@ void Wavefront::trace_transparent_shadows() {
     }
     group_by(count, shadow_order_, shadow_groups_, [this](std::size_t i) {
       if (ray_hits_[i].missed()) return ~0u;
-      const std::uint32_t material = context_.material_of_mesh[ray_hits_[i].mesh];
+      const std::uint32_t material = context_.material_of(ray_hits_[i].mesh, ray_hits_[i].triangle,
+                                                          -shadows_[i].ray.direction);
       return context_.materials[material].capabilities.has_opacity ? material : ~0u;
     });
     for (std::size_t i = 0; i < count; ++i) {

@@ -52,7 +52,7 @@ void Wavefront::add_emission(const Material& material, std::span<const std::uint
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
     Path& path = paths_[paths[lane]];
     const Vec3 emitted = load(buffer_.rgb, lane);
-    if (is_zero(emitted)) continue;
+    if (is_zero(emitted) || path.unlit) continue;
     if (!is_finite(emitted)) {
       ++statistics_.invalid_results;
       continue;
@@ -111,7 +111,9 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
     Path& path = paths_[paths[lane]];
     if (path.depth >= context_.settings.max_depth) continue;
-    if (scatter(path, lane, hits_[paths[lane]].distance)) next_.push_back(paths[lane]);
+    const Hit& hit = hits_[paths[lane]];
+    path.unlit = !context_.scene.meshes[hit.mesh].illuminated;
+    if (scatter(path, lane, hit.distance)) next_.push_back(paths[lane]);
   }
 }
 

@@ -14,22 +14,23 @@ namespace {
 
 using host::Mesh;
 
-std::string path_of(const Mesh& mesh) {
+std::string path_of_object(const Mesh& mesh) {
   return mesh.path.empty() ? '/' + mesh.object_name : mesh.path;
 }
 
-/// The path, then the names that a document may know the mesh by.
-std::vector<std::string> names_of(const Mesh& mesh) {
-  std::vector<std::string> names{path_of(mesh)};
-  for (const std::string* name : {&mesh.object_name, &mesh.mesh_name, &mesh.material_name}) {
-    if (!name->empty()) names.push_back('/' + *name);
-  }
-  return names;
+/// This renderer's name, for properties that are meant for one.
+constexpr std::string_view target = "nacre";
+
+bool lacks_surface(const Document& document, const FoundMaterial& material) {
+  if (!material.surfaceshader.empty() || !material.backsurfaceshader.empty()) return false;
+  const std::string_view category = document.root().child(material.name)->category();
+  return category == "surfacematerial" || category == "volumematerial";
 }
 
 class Assigner {
  public:
-  Assigner(const Document& document, const AssignmentOptions& options, Diagnostics& diagnostics)
+  Assigner(const Document& document, const host::Scene& scene, const AssignmentOptions& options,
+           Diagnostics& diagnostics)
       : document_(document),
         options_(options),
         diagnostics_(diagnostics),
@@ -37,7 +38,9 @@ class Assigner {
     for (const FoundMaterial& material : find_materials(document)) {
       known_.insert(material.name);
       if (first_.empty()) first_ = material.name;
+      if (lacks_surface(document, material)) without_surface_.insert(material.name);
     }
+    for (const Mesh& mesh : scene.meshes) ++pieces_[path_of_object(mesh)];
     read_assigns();
     read_look();
     if (!options.material.empty()) check_known(options.material);
@@ -50,6 +53,9 @@ class Assigner {
     if (look_) {
       result.variants = look_->variants;
       result.visible_to = visible_to(mesh);
+      result.illuminated = is_visible(mesh, "illumination");
+      result.two_sided = property_of(mesh, "twosided", true);
+      result.matte = property_of(mesh, "matte", false);
     }
     const std::string named = named_material(mesh);
     const Assignment* assigned = named.empty() && look_ ? from_look(mesh) : nullptr;
@@ -64,6 +70,23 @@ class Assigner {
   }
 
  private:
+  /// The path of an object; of a piece of one, path and material (Geometry Extensions,
+  /// "Geometry Representation": the partitions of a mesh).
+  std::string path_of(const Mesh& mesh) const {
+    const std::string path = path_of_object(mesh);
+    const bool is_piece = pieces_.at(path) > 1 && !mesh.material_name.empty();
+    return is_piece ? path + '/' + mesh.material_name : path;
+  }
+
+  /// The path, then the names that a document may know the mesh by.
+  std::vector<std::string> names_of(const Mesh& mesh) const {
+    std::vector<std::string> names{path_of(mesh)};
+    for (const std::string* name : {&mesh.object_name, &mesh.mesh_name, &mesh.material_name}) {
+      if (!name->empty()) names.push_back('/' + *name);
+    }
+    return names;
+  }
+
   std::string named_material(const Mesh& mesh) const {
     for (const std::string& name : {mesh.object_name, mesh.mesh_name, mesh.material_name}) {
       if (const auto found = assigns_.find(name); found != assigns_.end()) return found->second;
@@ -84,9 +107,32 @@ class Assigner {
   const Assignment* from_look(const Mesh& mesh) const {
     for (const std::string& name : names_of(mesh)) {
       const Assignment* found = rules_.material_of(*look_, name);
-      if (found != nullptr && rules_.reach(*found, name) == name.size()) return found;
+      if (found != nullptr && rules_.reach(*found, name) == name.size()) return with_surface(name);
     }
-    return rules_.material_of(*look_, path_of(mesh));
+    return with_surface(path_of(mesh));
+  }
+
+  /// The strongest assignment whose material has a surface; if none has, the strongest.
+  const Assignment* with_surface(const std::string& name) const {
+    const std::vector<const Assignment*> all = rules_.materials_of(*look_, name);
+    for (const Assignment* each : all) {
+      if (!without_surface_.contains(each->material)) return each;
+    }
+    return all.empty() ? nullptr : all.front();
+  }
+
+  /// What the look says of a mesh under its own names counts for more than what it says
+  /// of something above it.
+  bool property_of(const Mesh& mesh, std::string_view property, bool otherwise) const {
+    const PropertyAssignment* said = rules_.property_of(*look_, path_of(mesh), property, target);
+    for (const std::string& name : names_of(mesh)) {
+      const PropertyAssignment* found = rules_.property_of(*look_, name, property, target);
+      if (found == nullptr || rules_.reach(*found, name) != name.size()) continue;
+      said = found;
+      break;
+    }
+    return said != nullptr && said->value.type == Type::boolean ? said->value.ints[0] != 0
+                                                                : otherwise;
   }
 
   std::uint32_t visible_to(const Mesh& mesh) const {
@@ -94,13 +140,16 @@ class Assigner {
     for (const auto& [kind, vistype] :
          {std::pair{host::ray_camera, "camera"}, std::pair{host::ray_shadow, "shadow"},
           std::pair{host::ray_secondary, "secondary"}}) {
-      const auto names = names_of(mesh);
-      const bool visible = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-        return rules_.is_visible(*look_, name, vistype);
-      });
-      if (visible) kinds |= kind;
+      if (is_visible(mesh, vistype)) kinds |= kind;
     }
     return kinds;
+  }
+
+  bool is_visible(const Mesh& mesh, std::string_view vistype) const {
+    const auto names = names_of(mesh);
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+      return rules_.is_visible(*look_, name, vistype);
+    });
   }
 
   void check_known(const std::string& material) {
@@ -145,26 +194,19 @@ class Assigner {
     for (const Look& look : looks) {
       if (!wanted.empty() && look.name != wanted) continue;
       look_ = look;
-      warn_of_shared_geometry();
       return;
     }
     diagnostics_.error("unknown-look", {document_.files().front(), 0, 0, {}},
                        "there is no look '" + wanted + "'");
   }
 
-  void warn_of_shared_geometry() {
-    const bool shares = std::any_of(look_->assignments.begin(), look_->assignments.end(),
-                                    [](const Assignment& each) { return !each.exclusive; });
-    if (!shares) return;
-    diagnostics_.warning("not-exclusive", {document_.files().front(), 0, 0, look_->name},
-                         "each mesh gets one material: the last one assigned");
-  }
-
   const Document& document_;
   const AssignmentOptions& options_;
   Diagnostics& diagnostics_;
   GeometryRules rules_;
+  std::map<std::string, int> pieces_;  ///< Meshes of an object, by its path.
   std::set<std::string> known_;
+  std::set<std::string, std::less<>> without_surface_;  ///< Such as a <volumematerial>.
   std::string first_;
   std::map<std::string, std::string> assigns_;
   std::optional<Look> look_;
@@ -193,7 +235,7 @@ std::string MeshAssignment::key() const {
 std::vector<MeshAssignment> assign_materials(const Document& document, const host::Scene& scene,
                                              const AssignmentOptions& options,
                                              Diagnostics& diagnostics) {
-  const Assigner assigner(document, options, diagnostics);
+  const Assigner assigner(document, scene, options, diagnostics);
   std::vector<MeshAssignment> assignments;
   for (const Mesh& mesh : scene.meshes) assignments.push_back(assigner.assignment_of(mesh));
   return assignments;

@@ -28,6 +28,12 @@ struct MeshAssignment {
   std::vector<VariantChoice> variants;
   std::map<std::string, std::string, std::less<>> tokens;  ///< Of its geometry.
   std::uint32_t visible_to = host::ray_any;                ///< RayKind bits.
+  /// The look's properties "twosided" and "matte" and visibility "illumination", as in
+  /// host::Mesh. A mesh that no look says anything of is two-sided, though the property's
+  /// own default is false: light has to leave solids through their backs.
+  bool two_sided = true;
+  bool matte = false;
+  bool illuminated = true;
 
   /// The same for assignments that the same kernels serve.
   std::string key() const;
@@ -35,8 +41,9 @@ struct MeshAssignment {
 
 /// One for every mesh. Materials in order of strength: --assign for an object, mesh
 /// or material of that name in the scene; the look's materialassigns, by the mesh's
-/// path or by its names at the top; a material of the document called as the mesh's
-/// material; --material, or the document's first material, for what is left. With
+/// path or by its names at the top, where an assignment that is not exclusive lets the
+/// one behind it through if its own material has no surface; a material of the document called as
+/// the mesh's material; --material, or the document's first material, for what is left. With
 /// --material alone, and neither look nor matching names, it goes on everything but
 /// the built-in scene's ground and base. The look is the one named, the default of a
 /// look group of that name, or the first group's default, or the first look.

@@ -10,6 +10,7 @@
 #include "examples/tool/options.h"
 #include "examples/tool/stop.h"
 #include "examples/tool/texture_request.h"
+#include "examples/tool/udim.h"
 #include "jit/graph/find.h"
 
 namespace nacre::tool {
@@ -25,6 +26,7 @@ struct BakeOptions {
   std::string document;
   TextureRequest textures;
   std::string out = ".";
+  std::string udim;  ///< --udim: numbers, or "auto".
   float frame = 1.0f;
   float time = 0.0f;
 };
@@ -65,9 +67,23 @@ const Element* output_element(const Document& document, const std::string& name)
   return element != nullptr && element->category() == "output" ? element : nullptr;
 }
 
+/// One output into one file.
+void bake_file(const BakeOptions& options, const OutputKernel& kernel, const std::string& stem,
+               const host::BakeSettings& settings, const TextureSettings& texture,
+               const std::stop_token& stop, Diagnostics& diagnostics) {
+  const std::string path = (fs::path(options.out) / (stem + texture.extension)).string();
+  ProgressLine line(stem, options.common.quiet);
+  const host::BakeControl control{.stop = stop,
+                                  .progress = [&](double share) { line.update(share); }};
+  if (host::bake_to_file(kernel, 0, settings, texture.encoding, path, diagnostics, control) &&
+      !options.common.quiet) {
+    fmt::print("{}\n", path);
+  }
+}
+
 void bake_outputs(const BakeOptions& options, const Opened& opened, host::BakeSettings settings,
-                  const ShaderOptions& shader, const std::stop_token& stop,
-                  Diagnostics& diagnostics) {
+                  const std::vector<UdimTile>& tiles, const ShaderOptions& shader,
+                  const std::stop_token& stop, Diagnostics& diagnostics) {
   for (const std::string& name : wanted(options, opened, diagnostics)) {
     if (stop.stop_requested()) break;
     TextureSettings texture;
@@ -80,14 +96,14 @@ void bake_outputs(const BakeOptions& options, const Opened& opened, host::BakeSe
     if (kernel == nullptr) continue;
     settings.width = texture.width;
     settings.height = texture.height;
-    const std::string path =
-        (fs::path(options.out) / (file_stem(name) + texture.extension)).string();
-    ProgressLine line(name, options.common.quiet);
-    const host::BakeControl control{.stop = stop,
-                                    .progress = [&](double share) { line.update(share); }};
-    if (host::bake_to_file(*kernel, 0, settings, texture.encoding, path, diagnostics, control) &&
-        !options.common.quiet) {
-      fmt::print("{}\n", path);
+    if (tiles.empty()) {
+      bake_file(options, *kernel, file_stem(name), settings, texture, stop, diagnostics);
+    }
+    for (const UdimTile& tile : tiles) {
+      settings.corner_u = tile.u;
+      settings.corner_v = tile.v;
+      const std::string stem = file_stem(name) + "." + tile.number();
+      bake_file(options, *kernel, stem, settings, texture, stop, diagnostics);
     }
   }
 }
@@ -120,22 +136,23 @@ int run(const BakeOptions& options) {
   settings.time = options.time;
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
+  const std::vector<UdimTile> tiles =
+      read_tiles(options.udim, *opened.document, options.common.search_paths, diagnostics);
+  if (diagnostics.has_errors()) return report(diagnostics);
   std::error_code status;
   fs::create_directories(options.out, status);
   ShaderOptions shader = options.common.shader_options();
   shader.graph.frame = static_cast<int>(options.frame);
   const StopOnSignal stop;
   if (options.document.empty()) {
-    bake_outputs(options, opened, settings, shader, stop.token(), diagnostics);
+    bake_outputs(options, opened, settings, tiles, shader, stop.token(), diagnostics);
   } else {
     shader.graph.working_space = "lin_rec709";  // What the textures are tagged with.
-    const DocumentBake bake{options.document,
-                            wanted_materials(options, *opened.document, diagnostics),
-                            options.out,
-                            options.textures,
-                            settings,
-                            shader,
-                            options.common.quiet};
+    const DocumentBake bake{
+        options.document, wanted_materials(options, *opened.document, diagnostics),
+        options.out,      options.textures,
+        settings,         tiles,
+        shader,           options.common.quiet};
     if (!bake.materials.empty()) bake_document(bake, opened, stop.token(), diagnostics);
   }
   return report(diagnostics);
@@ -163,6 +180,11 @@ void add_bake(CLI::App& app, int& status) {
       ->type_name("FILE.mtlx")
       ->excludes(outputs);
   options->textures.add(command);
+  command
+      .add_option("--udim", options->udim,
+                  "Tiles, an image each: numbers as 1001,1002, or auto for those of the "
+                  "document's udimset or images (default: one image of uv from 0 to 1)")
+      ->type_name("N,N...|auto");
   command.add_option("--out", options->out, "Folder for the images")->capture_default_str();
   command.add_option("--frame", options->frame, "Frame number")->capture_default_str();
   command.add_option("--time", options->time, "Seconds")->capture_default_str();

@@ -21,6 +21,17 @@ fs::path absolute_path(const fs::path& path) {
   return fs::absolute(path, error).lexically_normal();
 }
 
+const std::vector<UdimTile> one_tile(1);
+
+/// Textures have at most four channels: a matrix takes one for each of its rows.
+int matrix_rows(Type type) {
+  if (type == Type::matrix33) return 3;
+  return type == Type::matrix44 ? 4 : 1;
+}
+
+/// The whole numbers that channels of so many bits hold without a gap.
+float largest_integer(int bits) { return bits == 16 ? 2048.0f : 16777216.0f; }
+
 class MaterialBaker {
  public:
   MaterialBaker(const DocumentBake& options, const Opened& opened, const Definitions& definitions,
@@ -62,27 +73,64 @@ class MaterialBaker {
     bake_texture(job, *kernel, settings, texture);
   }
 
+  /// A texture for every tile, of a matrix for every row; or a value, where all
+  /// texels of all of them are alike.
   void bake_texture(const BakedDocument::Job& job, const OutputKernel& kernel,
-                    const host::BakeSettings& settings, const TextureSettings& texture) {
-    const fs::path file = absolute_path(fs::path(options_.folder) / (job.stem + texture.extension));
-    host::TexelRange range;
-    ProgressLine line(job.stem, options_.quiet);
-    const host::BakeControl control{.stop = stop_,
-                                    .progress = [&](double share) { line.update(share); }};
-    if (!host::bake_to_file(kernel, 0, settings, texture.encoding, file.string(), diagnostics_,
-                            control, &range)) {
-      return;
+                    host::BakeSettings settings, TextureSettings& texture) {
+    std::vector<fs::path> files;
+    std::vector<std::string> names;
+    host::TexelRange all;
+    const int rows = matrix_rows(job.type);
+    for (int row = 0; row < rows; ++row) {
+      host::TexelRange range;
+      texture.encoding.first_channel = row * rows;
+      texture.encoding.channels = rows == 1 ? 0 : rows;
+      const std::string stem = rows == 1 ? job.stem : fmt::format("{}.row{}", job.stem, row + 1);
+      for (const UdimTile& tile : options_.tiles.empty() ? one_tile : options_.tiles) {
+        settings.corner_u = tile.u;
+        settings.corner_v = tile.v;
+        files.push_back(file_of(stem, options_.tiles.empty() ? "" : tile.number(), texture));
+        if (!bake_file(kernel, settings, texture, files.back(), range)) return;
+      }
+      names.push_back(relative(file_of(stem, options_.tiles.empty() ? "" : "<UDIM>", texture)));
+      all.least.insert(all.least.end(), range.least.begin(), range.least.end());
+      all.most.insert(all.most.end(), range.most.begin(), range.most.end());
     }
     std::error_code error;
-    if (range.is_uniform()) {
-      fs::remove(file, error);
-      return set_value(job, range.least);
+    if (all.is_uniform()) {
+      for (const fs::path& file : files) fs::remove(file, error);
+      return set_value(job, all.least);
     }
-    check_range(job, texture, range);
-    const std::string relative = file.lexically_relative(folder_).generic_string();
-    baked_.set_texture(job, relative.empty() ? file.string() : relative,
+    check_range(job, texture, all);
+    baked_.set_texture(job, names,
                        host::texture_colorspace(job.type, texture.extension, texture.encoding));
-    if (!options_.quiet) fmt::print("{}\n", file.lexically_relative(absolute_path(".")).string());
+    if (!options_.tiles.empty()) baked_.set_tiles(options_.tiles);
+    if (options_.quiet) return;
+    for (const fs::path& file : files) {
+      fmt::print("{}\n", file.lexically_relative(absolute_path(".")).string());
+    }
+  }
+
+  fs::path file_of(const std::string& stem, const std::string& tile,
+                   const TextureSettings& texture) const {
+    const std::string name =
+        fmt::format("{}{}{}{}", stem, tile.empty() ? "" : ".", tile, texture.extension);
+    return absolute_path(fs::path(options_.folder) / name);
+  }
+
+  /// As it reads from the document's folder.
+  std::string relative(const fs::path& file) const {
+    const std::string name = file.lexically_relative(folder_).generic_string();
+    return name.empty() ? file.string() : name;
+  }
+
+  bool bake_file(const OutputKernel& kernel, const host::BakeSettings& settings,
+                 const TextureSettings& texture, const fs::path& file, host::TexelRange& range) {
+    ProgressLine line(file.stem().string(), options_.quiet);
+    const host::BakeControl control{.stop = stop_,
+                                    .progress = [&](double share) { line.update(share); }};
+    return host::bake_to_file(kernel, 0, settings, texture.encoding, file.string(), diagnostics_,
+                              control, &range);
   }
 
   void set_value(const BakedDocument::Job& job, const std::vector<float>& texel) {
@@ -96,6 +144,7 @@ class MaterialBaker {
   /// Whole numbers hold 0 to 1, or -1 to 1 for directions; more would be cut off.
   void check_range(const BakedDocument::Job& job, const TextureSettings& texture,
                    const host::TexelRange& range) {
+    if (job.type == Type::integer) check_integers(job, texture.encoding.bits, range);
     const bool is_limited =
         host::holds_unit_range_only(texture.extension) ||
         host::texture_colorspace(job.type, texture.extension, texture.encoding) == "srgb_texture";
@@ -108,6 +157,14 @@ class MaterialBaker {
     diagnostics_.error("out-of-range", {options_.document, 0, 0, job.stem},
                        "the texture cannot hold these values; exr and tx can",
                        fmt::format("{} to 1", lowest), fmt::format("{} to {}", least, most));
+  }
+
+  void check_integers(const BakedDocument::Job& job, int bits, const host::TexelRange& range) {
+    const float limit = largest_integer(bits);
+    if (range.least[0] >= -limit && range.most[0] <= limit) return;
+    diagnostics_.error("out-of-range", {options_.document, 0, 0, job.stem},
+                       "the texture cannot hold these integers", fmt::format("-{0} to {0}", limit),
+                       fmt::format("{} to {}", range.least[0], range.most[0]));
   }
 
   void write() {

@@ -7,6 +7,7 @@
 #include "examples/bake/write_texture.h"
 #include "examples/tool/options.h"
 #include "examples/tool/texture_request.h"
+#include "examples/tool/udim.h"
 
 namespace nacre::tool {
 
@@ -15,7 +16,8 @@ struct DocumentBake {
   std::vector<std::string> materials;  ///< Names of material nodes.
   std::string folder;                  ///< Of the textures.
   TextureRequest textures;
-  host::BakeSettings settings;  ///< But for the size.
+  host::BakeSettings settings;  ///< But for the size and the tile.
+  std::vector<UdimTile> tiles;  ///< One texture for each; none: one for uv from 0 to 1.
   ShaderOptions shader;
   bool quiet = false;
 };

@@ -22,12 +22,6 @@ Type type_of(const Element& port) {
 
 bool is_color(Type type) { return type == Type::color3 || type == Type::color4; }
 
-/// What an image node can give.
-bool fits_an_image(Type type) {
-  return type == Type::float_ || is_color(type) || type == Type::vector2 || type == Type::vector3 ||
-         type == Type::vector4;
-}
-
 /// A vector of the surface's frame, as the plane has it; null for other inputs.
 const std::array<float, 3>* plane_axis(std::string_view geomprop) {
   static constexpr std::array<float, 3> tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};
@@ -55,6 +49,7 @@ std::vector<const Element*> inputs_of(const Element& node) {
 
 std::string value_text(Type type, std::span<const float> texel) {
   if (type == Type::boolean) return texel[0] != 0.0f ? "true" : "false";
+  if (type == Type::integer) return std::to_string(static_cast<long>(texel[0]));
   std::string text;
   for (const float number : texel) {
     if (!text.empty()) text += ", ";
@@ -205,46 +200,81 @@ void BakedDocument::finish_source() { source_.build_index(); }
 void BakedDocument::set_value(const Job& job, std::span<const float> texel) {
   if (const std::array<float, 3>* axis = plane_axis(job.frame)) {
     if (std::equal(axis->begin(), axis->end(), texel.begin())) return;  // It is the default.
-    Element& normalmap = document_.create("normalmap", 0, 0);
-    set(normalmap, "name", job.input + "_direction");
-    set(normalmap, "type", "vector3");
+    Element& normalmap = add_node(job, "normalmap", "_direction", "vector3");
     const std::array<float, 3> coded{0.5f * texel[0] + 0.5f, 0.5f * texel[1] + 0.5f,
                                      0.5f * texel[2] + 0.5f};
     set(add_input(normalmap, "in", "vector3"), "value", value_text(job.type, coded));
-    document_.append(graph_of(job), normalmap);
-    connect(job, normalmap);
-    return;
+    return connect(job, normalmap);
   }
   set(add_input(*job.node, job.input, type_name(job.type)), "value", value_text(job.type, texel));
 }
 
-void BakedDocument::set_texture(const Job& job, const std::string& file,
+void BakedDocument::set_texture(const Job& job, const std::vector<std::string>& files,
                                 std::string_view colorspace) {
-  if (!fits_an_image(job.type)) {
-    diagnostics_.error("cannot-bake", {file, 0, 0, {}},
-                       fmt::format("no image node gives a {} that varies", type_name(job.type)));
-    return;
+  if (job.type == Type::matrix33 || job.type == Type::matrix44) {
+    const std::string_view row_type = job.type == Type::matrix33 ? "vector3" : "vector4";
+    std::vector<const Element*> rows;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      rows.push_back(&add_image(job, fmt::format("_row{}", i + 1), row_type, files[i], {}));
+    }
+    Element& matrix = add_node(job, "creatematrix", "_matrix", type_name(job.type));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      set(add_input(matrix, fmt::format("in{}", i + 1), row_type), "nodename", rows[i]->name());
+    }
+    return connect(job, matrix);
   }
-  Element& graph = graph_of(job);
-  Element& image = document_.create("image", 0, 0);
-  set(image, "name", job.input + "_image");
-  set(image, "type", type_name(job.type));
+  const bool is_whole = job.type == Type::boolean || job.type == Type::integer;
+  Element& image =
+      add_image(job, "_image", is_whole ? "float" : type_name(job.type), files.front(), colorspace);
+  if (is_whole) {
+    // Between texels there is nothing; half an 8-bit step is nothing either.
+    set(add_input(image, "filtertype", "string"), "value", "closest");
+    const bool is_boolean = job.type == Type::boolean;
+    Element& whole =
+        add_node(job, is_boolean ? "ifgreater" : "round", "_whole", type_name(job.type));
+    set(add_input(whole, is_boolean ? "value1" : "in", "float"), "nodename", image.name());
+    if (is_boolean) set(add_input(whole, "value2", "float"), "value", "0.5");
+    return connect(job, whole);
+  }
+  if (job.frame.empty()) return connect(job, image);
+  Element& normalmap = add_node(job, "normalmap", "_direction", "vector3");
+  set(add_input(normalmap, "in", "vector3"), "nodename", image.name());
+  connect(job, normalmap);
+}
+
+/// A node in the job's graph, called by its input.
+Element& BakedDocument::add_node(const Job& job, std::string_view category,
+                                 const std::string& suffix, std::string_view type) {
+  Element& node = make(category, job.input + suffix, type);
+  document_.append(graph_of(job), node);
+  return node;
+}
+
+Element& BakedDocument::add_image(const Job& job, const std::string& suffix, std::string_view type,
+                                  const std::string& file, std::string_view colorspace) {
+  Element& image = add_node(job, "image", suffix, type);
   Element& name = add_input(image, "file", "filename");
   set(name, "value", file);
   if (!colorspace.empty()) set(name, "colorspace", colorspace);
-  document_.append(graph, image);
-  if (job.frame.empty()) return connect(job, image);
-  Element& normalmap = document_.create("normalmap", 0, 0);
-  set(normalmap, "name", job.input + "_direction");
-  set(normalmap, "type", "vector3");
-  set(add_input(normalmap, "in", "vector3"), "nodename", image.name());
-  document_.append(graph, normalmap);
-  connect(job, normalmap);
+  return image;
+}
+
+/// Geometry Extensions, "Reserved GeomProp Names".
+void BakedDocument::add_tiles() {
+  std::string numbers;
+  for (const UdimTile& tile : tiles_) numbers += (numbers.empty() ? "" : ",") + tile.number();
+  Element& info = make("geominfo", free_name("baked_tiles"), "");
+  set(info, "geom", "/");
+  Element& property = make("geomprop", "udimset", "stringarray");
+  set(property, "value", numbers);
+  document_.append(info, property);
+  document_.append(*root_, info);
 }
 
 std::string BakedDocument::text() {
   document_.take_children(*root_);
   if (uses_own_definitions_) copy_definitions();
+  if (!tiles_.empty()) add_tiles();
   for (Element* graph : graphs_) document_.append(*root_, *graph);
   for (Element* node : nodes_) document_.append(*root_, *node);
   return write_document(document_);

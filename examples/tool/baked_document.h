@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "examples/tool/udim.h"
 #include "jit/document/definitions.h"
 #include "jit/document/document.h"
 #include "runtime/diagnostic.h"
@@ -45,8 +46,12 @@ class BakedDocument {
 
   /// Finishes a job whose texels are all alike.
   void set_value(const Job& job, std::span<const float> texel);
-  /// Finishes a job with a texture, tagged with the colour space given, if any.
-  void set_texture(const Job& job, const std::string& file, std::string_view colorspace);
+  /// Finishes a job with a texture, of a matrix one for every row, tagged with the colour
+  /// space given, if any. Textures of booleans and integers are read texel by texel.
+  void set_texture(const Job& job, const std::vector<std::string>& files,
+                   std::string_view colorspace);
+  /// The tiles that textures with <UDIM> in their names have: the document's udimset.
+  void set_tiles(const std::vector<UdimTile>& tiles) { tiles_ = tiles; }
 
   /// The XML, once all jobs are finished.
   std::string text();
@@ -63,6 +68,11 @@ class BakedDocument {
   Element& make(std::string_view category, const std::string& name, std::string_view type);
   Element& add_input(Element& node, std::string_view name, std::string_view type);
   void set(Element& element, std::string_view name, std::string_view value);
+  Element& add_node(const Job& job, std::string_view category, const std::string& suffix,
+                    std::string_view type);
+  Element& add_image(const Job& job, const std::string& suffix, std::string_view type,
+                     const std::string& file, std::string_view colorspace);
+  void add_tiles();
   void connect(const Job& job, const Element& node);
   Element& graph_of(const Job& job);
   std::string free_name(const std::string& wanted);
@@ -81,6 +91,7 @@ class BakedDocument {
   std::unordered_map<const Element*, Element*> graph_of_node_;
   std::unordered_map<std::string, int> names_;
   bool uses_own_definitions_ = false;
+  std::vector<UdimTile> tiles_;
 };
 
 }  // namespace nacre::tool

@@ -86,7 +86,8 @@ Json inspect_material(const Opened& opened, const std::string& material,
   const std::pair<const char*, const std::optional<BoundKernel>*> all[]{
       {"begin", &kernels->begin},       {"sample", &kernels->sample},
       {"evaluate", &kernels->evaluate}, {"albedo", &kernels->albedo},
-      {"emission", &kernels->emission}, {"opacity", &kernels->opacity}};
+      {"emission", &kernels->emission}, {"opacity", &kernels->opacity},
+      {"volume", &kernels->volume},     {"displacement", &kernels->displacement}};
   for (const auto& [name, kernel] : all) {
     if (kernel->has_value()) list[name] = describe(**kernel);
   }

@@ -43,6 +43,11 @@ void CommonOptions::add_document(CLI::App& command) {
       ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case))
       ->default_str("body")
       ->type_name("KIND");
+  command
+      .add_option("--ocio", ocio,
+                  "OpenColorIO configuration whose colour spaces count before those built in; "
+                  "env: the one that the environment variable OCIO names")
+      ->type_name("FILE");
   command.add_flag("-q,--quiet", quiet, "No progress on standard error");
   add_limits(command);
 }
@@ -87,14 +92,19 @@ void CommonOptions::add_compile(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--lanes", lanes, "Points side by side in compiled code (default: by CPU)")
       ->check(CLI::IsMember({1, 4, 8, 16}));
+  command
+      .add_option("--anisotropy", anisotropy,
+                  "How much longer than wide a pixel may be on an image without blur; 1: no care")
+      ->check(CLI::Range(1, largest_anisotropy))
+      ->capture_default_str();
   command.add_option("--threads", threads, "Threads (default: all)")->check(CLI::NonNegativeNumber);
   command.add_option("--cache", cache, "Folder of compiled kernels (default: in the user's cache)")
       ->type_name("DIR");
   command
       .add_option("--working-space", working_space,
-                  "Colour space to compute in; \"\": the one the document's root names")
-      ->type_name("NAME")
-      ->capture_default_str();
+                  "Colour space to compute in; \"\": the one the document's root names (default: "
+                  "lin_rec709, or the role scene_linear of a configuration without that)")
+      ->type_name("NAME");
   command.add_flag("--no-cache", no_cache, "Neither read nor write compiled kernels");
 }
 
@@ -115,6 +125,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.lanes = lanes;
   options.compile.max_instructions = compile_limits.max_instructions;
   options.compile.max_seconds = compile_limits.max_seconds;
+  options.max_anisotropy = anisotropy;
   options.graph.prefer = graph_limits.prefer;
   options.graph.max_nodes = graph_limits.max_nodes;
   options.graph.max_inputs = graph_limits.max_inputs;
@@ -122,6 +133,20 @@ ShaderOptions CommonOptions::shader_options() const {
   for (const std::string& path : search_paths) options.search_paths.emplace_back(path);
   return options;
 }
+
+namespace {
+
+/// Nothing, with a diagnostic, where the environment is asked and names no file.
+std::optional<fs::path> ocio_config(const std::string& option, Diagnostics& diagnostics) {
+  if (option != "env") return fs::path(option);
+  if (const char* file = std::getenv("OCIO"); file != nullptr && *file != '\0')
+    return fs::path(file);
+  diagnostics.error("no-color-config", {}, "--ocio env asks for the file that OCIO names",
+                    "the environment variable OCIO", "none");
+  return std::nullopt;
+}
+
+}  // namespace
 
 Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   Opened opened;
@@ -135,6 +160,9 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   system.libraries.push_back(data);
   system.standard_sources = options.graph_limits.prefer == Preference::source;
   for (const std::string& library : options.libraries) system.libraries.emplace_back(library);
+  const auto config = ocio_config(options.ocio, diagnostics);
+  if (!config) return opened;
+  system.ocio_config = *config;
   system.compile_threads = options.threads;
   system.textures = options.texture_limits;
   if (!options.no_cache) {

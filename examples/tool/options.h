@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,10 @@ struct CommonOptions {
   std::vector<std::string> search_paths;
   std::string accuracy = "standard";
   std::string backend = "jit";
-  std::string working_space = "lin_rec709";
+  std::optional<std::string> working_space;
+  std::string ocio;  ///< A file, or "env".
   int lanes = 0;
+  int anisotropy = default_anisotropy;
   int threads = 0;
   bool no_cache = false;
   std::string cache;

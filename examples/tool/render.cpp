@@ -67,8 +67,13 @@ host::Camera camera(const RenderOptions& options, const host::Scene& scene) {
   return result;
 }
 
+struct TwoShaders {
+  std::unique_ptr<KernelShader> front;
+  std::unique_ptr<KernelShader> back;  ///< Null: as the front.
+};
+
 /// By MeshAssignment::key.
-using Shaders = std::map<std::string, std::unique_ptr<KernelShader>>;
+using Shaders = std::map<std::string, TwoShaders>;
 
 bool compile_shaders(const RenderOptions& options, const Opened& opened,
                      const std::vector<MeshAssignment>& assignments, Shaders& shaders,
@@ -82,7 +87,22 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened,
     auto kernels =
         opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
-    shaders.emplace(assignment.key(), std::make_unique<KernelShader>(std::move(kernels)));
+    if (!kernels->has_surface) {
+      diagnostics.error(
+          "no-surface", {},
+          "material '" + assignment.material + "' has only a volume, which is not rendered",
+          "a surface shader");
+      return false;
+    }
+    TwoShaders& place = shaders[assignment.key()];
+    const bool has_back = kernels->has_back;
+    place.front = std::make_unique<KernelShader>(std::move(kernels));
+    if (!has_back) continue;
+    shader.side = Side::back;
+    kernels =
+        opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
+    if (kernels == nullptr) return false;
+    place.back = std::make_unique<KernelShader>(std::move(kernels));
   }
   return true;
 }
@@ -124,8 +144,14 @@ int run(RenderOptions& options) {
   const KernelShader neutral(std::move(grey));
   for (std::size_t i = 0; i < assignments.size(); ++i) {
     const MeshAssignment& each = assignments[i];
-    world.meshes[i].visible_to = each.visible_to;
-    input.shaders.push_back(each.material.empty() ? &neutral : shaders.at(each.key()).get());
+    host::Mesh& mesh = world.meshes[i];
+    mesh.visible_to = each.visible_to;
+    mesh.two_sided = each.two_sided;
+    mesh.matte = each.matte;
+    mesh.illuminated = each.illuminated;
+    const TwoShaders* both = each.material.empty() ? nullptr : &shaders.at(each.key());
+    input.shaders.push_back(both == nullptr ? &neutral : both->front.get());
+    input.back_shaders.push_back(both == nullptr ? nullptr : both->back.get());
   }
 
   const StopOnSignal stop;

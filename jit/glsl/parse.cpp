@@ -99,6 +99,12 @@ bool Parser::at_type() const {
   return type_named(token).has_value() && !peek(1).is("(") && !is_array_constructor();
 }
 
+bool Parser::at_sampler(std::size_t ahead) const {
+  while (contains(qualifiers, peek(ahead).text)) ++ahead;
+  const std::optional<Type> found = type_named(peek(ahead));
+  return found && found->base == Base::sampler;
+}
+
 bool Parser::is_array_constructor() const {
   if (!peek(1).is("[")) return false;
   std::size_t ahead = 2;
@@ -165,6 +171,8 @@ void Parser::top_level() {
     return;
   }
   const Place place = peek().place;
+  const bool is_uniform = peek().is("uniform") && at_sampler(1);
+  if (is_uniform) take("uniform");
   const bool constant = take("const");
   const Type declared = type();
   const std::string_view declared_name = name();
@@ -175,6 +183,11 @@ void Parser::top_level() {
   Statement declaration;
   variables(declared, declared_name, constant, place, declaration);
   for (Statement::Variable& variable : declaration.variables) {
+    const bool is_sampler = variable.type.base == Base::sampler && !variable.type.is_array();
+    if (is_sampler != is_uniform || (is_sampler && variable.initial != nullptr)) {
+      error(place, "glsl-type", fmt::format("'{}' cannot be declared so", variable.name),
+            "samplers as 'uniform sampler2D NAME;', nothing else as uniform");
+    }
     into_->globals.push_back(std::make_shared<const Statement::Variable>(std::move(variable)));
   }
 }

@@ -57,6 +57,7 @@ class Parser {
   const Struct* find_struct(std::string_view text) const;
   std::optional<Type> type_named(const Token& token) const;
   bool at_type() const;
+  bool at_sampler(std::size_t ahead) const;
   bool is_array_constructor() const;
   void skip_qualifiers();
   Type type();

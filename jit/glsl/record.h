@@ -21,9 +21,10 @@ struct RecordLimits {
   int call_depth = 64;
 };
 
-/// Reads an image: four floats. The derivatives of uv are null where the text
-/// leaves them to the footprint.
-using TextureLookup = std::function<std::optional<Value>(const std::string& image, const Value& uv,
+/// Reads what a sampler stands for: four floats. The place has as many components
+/// as the sampler axes; its derivatives are null where the text leaves them to the
+/// footprint. Nothing: cannot be read.
+using TextureLookup = std::function<std::optional<Value>(const Value& sampler, const Value& place,
                                                          const Value* ddx, const Value* ddy)>;
 
 struct RecordContext {

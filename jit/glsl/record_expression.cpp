@@ -69,6 +69,7 @@ Value Recording::name(const Expression& expression) {
   if (const Variable* variable = find(expression.text)) return variable->value;
   for (const auto& global : context_.syntax.globals) {
     if (global->name != expression.text) continue;
+    if (global->type.base == Base::sampler) return uniform_sampler(*global);
     if (!global->initial || std::find(reading_globals_.begin(), reading_globals_.end(),
                                       global->name) != reading_globals_.end()) {
       error(expression.place, "glsl-undefined",
@@ -85,6 +86,12 @@ Value Recording::name(const Expression& expression) {
     return value;
   }
   error(expression.place, "glsl-undefined", fmt::format("there is no '{}'", expression.text));
+}
+
+Value Recording::uniform_sampler(const Statement::Variable& global) {
+  Value value{global.type, {}, std::string(global.name)};
+  value.is_uniform = true;
+  return value;
 }
 
 Value Recording::member(const Expression& expression) {
@@ -378,20 +385,24 @@ const Function* Recording::select_overload(const Expression& expression,
 Value Recording::call_texture(const Expression& expression, const std::vector<Value>& arguments) {
   const bool with_gradient = expression.text == "textureGrad";
   const std::size_t count = with_gradient ? 4 : 2;
-  const Type vec2 = float_type.with_rows(2);
   bool fits = (expression.text == "texture" || with_gradient) && arguments.size() == count &&
-              arguments[0].type.base == Base::sampler;
-  for (std::size_t i = 1; i < count && fits; ++i) fits = arguments[i].type == vec2;
+              arguments[0].type.base == Base::sampler && !arguments[0].type.is_array();
+  for (std::size_t i = 1; i < count && fits; ++i) {
+    fits = arguments[i].type == float_type.with_rows(arguments[0].type.rows);
+  }
   if (!fits) {
     error(expression.place, "glsl-call",
           fmt::format("there is no function {}{}", expression.text, type_list(arguments)),
-          "texture(sampler2D, vec2) or textureGrad(sampler2D, vec2, vec2, vec2)");
+          "texture(sampler2D, vec2), textureGrad(sampler2D, vec2, vec2, vec2), or of other axes");
   }
   std::optional<Value> result;
   if (context_.texture) {
-    result =
-        context_.texture(arguments[0].text, arguments[1], with_gradient ? &arguments[2] : nullptr,
-                         with_gradient ? &arguments[3] : nullptr);
+    result = context_.texture(arguments[0], arguments[1], with_gradient ? &arguments[2] : nullptr,
+                              with_gradient ? &arguments[3] : nullptr);
+  }
+  if (!result && arguments[0].is_uniform) {
+    error(expression.place, "glsl-texture",
+          fmt::format("nothing is bound to the sampler '{}'", arguments[0].text));
   }
   if (!result) error(expression.place, "glsl-texture", "images cannot be read here");
   return *result;

@@ -49,6 +49,7 @@ class Recording {
 
   // Expressions (record_expression.cpp).
   Value name(const Expression& expression);
+  static Value uniform_sampler(const Statement::Variable& global);
   Value member(const Expression& expression);
   Value index(const Expression& expression);
   Value element(const Value& whole, const Value& index, Place place);

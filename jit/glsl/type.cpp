@@ -11,8 +11,9 @@ namespace {
 
 constexpr Type vector(Base base, std::uint8_t rows) { return {base, rows}; }
 constexpr Type matrix(std::uint8_t size) { return {Base::number, size, size}; }
+constexpr Type sampler(std::uint8_t axes) { return {Base::sampler, axes}; }
 
-constexpr std::array<std::pair<std::string_view, Type>, 27> builtin_types{{
+constexpr std::array<std::pair<std::string_view, Type>, 28> builtin_types{{
     {"void", void_type},
     {"bool", bool_type},
     {"int", int_type},
@@ -36,11 +37,12 @@ constexpr std::array<std::pair<std::string_view, Type>, 27> builtin_types{{
     {"mat2x2", matrix(2)},
     {"mat3x3", matrix(3)},
     {"mat4x4", matrix(4)},
-    {"sampler2D", {Base::sampler}},
-    // Without a texture or a name there is nothing to tell these apart.
-    {"samplerCube", {Base::sampler}},
-    {"sampler3D", {Base::sampler}},
-    {"sampler2DArray", {Base::sampler}},
+    {"sampler1D", sampler(1)},
+    {"sampler2D", sampler(2)},
+    {"sampler3D", sampler(3)},
+    // Read at three numbers as well; without such images nothing tells them apart.
+    {"samplerCube", sampler(3)},
+    {"sampler2DArray", sampler(3)},
 }};
 
 std::string_view scalar_name(Base base) {
@@ -49,13 +51,13 @@ std::string_view scalar_name(Base base) {
     case Base::integer: return "int";
     case Base::natural: return "uint";
     case Base::number: return "float";
-    case Base::sampler: return "sampler2D";
     default: return "void";
   }
 }
 
 std::string element_name(const Type& type) {
   if (type.base == Base::structure) return std::string(type.structure->name);
+  if (type.base == Base::sampler) return fmt::format("sampler{}D", type.rows);
   if (type.columns > 1) return fmt::format("mat{}", type.columns);
   if (type.rows == 1) return std::string(scalar_name(type.base));
   std::string_view prefix;

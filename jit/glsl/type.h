@@ -15,7 +15,7 @@ enum class Base : std::uint8_t { none, boolean, integer, natural, number, struct
 /// one-dimensional arrays of these.
 struct Type {
   Base base = Base::none;
-  std::uint8_t rows = 1;     ///< Components of a vector, or of a matrix's column.
+  std::uint8_t rows = 1;     ///< Components of a vector, or of a matrix's column; a sampler's axes.
   std::uint8_t columns = 1;  ///< Above 1: a matrix.
   int length = 0;            ///< Elements of an array; 0: not an array.
   const Struct* structure = nullptr;

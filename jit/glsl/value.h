@@ -13,7 +13,8 @@ namespace nacre::glsl {
 struct Value {
   Type type;
   std::vector<Ref> parts;
-  std::string text;  ///< Of a sampler: the name of the image.
+  std::string text;         ///< Of a sampler: the name of the image, or of the uniform.
+  bool is_uniform = false;  ///< A sampler that the text itself declares.
 
   Float number(std::size_t i) const { return Float(parts[i]); }
   Int whole(std::size_t i) const { return Int(parts[i]); }

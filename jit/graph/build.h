@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "jit/document/definitions.h"
 #include "jit/document/document.h"
 #include "jit/document/library.h"
+#include "jit/graph/color_config.h"
 #include "jit/graph/graph.h"
 #include "jit/graph/look.h"
 #include "runtime/diagnostic.h"
@@ -32,10 +34,15 @@ struct GraphOptions {
   /// `defaultinput` or `default` through, with a warning.
   std::function<bool(std::string_view nodedef)> is_native;
   Preference prefer = Preference::body;
-  /// Colour space that the graph computes in, by any name that
-  /// `canonical_colorspace` knows; "": what the document's root says, or lin_rec709.
-  /// "none": nothing is converted.
-  std::string working_space = "lin_rec709";
+  /// Colour spaces of the host, looked at before those that are built in. Where it
+  /// lacks one end of a conversion the built-in spaces serve, if they have both.
+  std::shared_ptr<const ColorConfig> colors;
+  /// Colour space that the graph computes in, by any name that `colors` or
+  /// `canonical_colorspace` knows; "": what the document's root says. "none": nothing
+  /// is converted. Unset, or where the root says nothing: lin_rec709, which is what
+  /// nodes that make colours of numbers (blackbody, artistic_ior) and the tool's
+  /// pictures take for granted; only where `colors` lacks that, its role scene_linear.
+  std::optional<std::string> working_space;
   /// What one unit of scene length is; lengths are converted to it.
   std::string distance_unit = "meter";
   /// Chooses the file of a sequence: replaces "{frame}" and "{0Nframe}" in file names
@@ -57,6 +64,9 @@ struct GraphOptions {
   /// A node with more inputs is refused.
   std::size_t max_inputs = 1024;
 };
+
+/// The working space that the options mean for a document, by the name that says so.
+std::string find_working_space(const GraphOptions& options, const Document& document);
 
 /// What to build; several may be given at once.
 struct GraphRequest {

@@ -17,26 +17,28 @@ std::optional<Resolver::Key> Resolver::convert_colour(const Source& source, Type
                                                       const Element& user) {
   if (type != Type::color3 && type != Type::color4) return std::nullopt;
   if (source.kind == Source::Kind::unconnected) return std::nullopt;
-  const std::string_view from = canonical_colorspace(space);
-  const std::string_view to = working_space();
-  if (from.empty() || to.empty() || from == to) return std::nullopt;
-  const NodeDef* def = find_transform(from, to, type);
-  if (def == nullptr) {
-    error("unknown-colorspace", user, "there is no transform from this colour space",
-          fmt::format("a space with a transform to {}", to), fmt::format("'{}'", space));
-    return std::nullopt;
+  if (space.empty()) return std::nullopt;
+  const auto transform = [&](const NodeDef& def, std::string_view from, std::string_view to) {
+    Instance& instance = add_instance(def, fmt::format("{}:{}_to_{}", path, from, to), &user);
+    instance.inputs.emplace_back(def.inputs[0].name, source);
+    return Key{Kind::output, 0, &instance, nullptr};
+  };
+  if (const auto spaces = config_spaces(space, working_space_)) {
+    const auto& [from, to] = *spaces;
+    if (from.is_data || to.is_data || from.name == to.name) return std::nullopt;
+    const NodeDef* def = find_config_transform(*spaces, type, user);
+    return def == nullptr ? std::nullopt : std::optional(transform(*def, from.name, to.name));
   }
-  Instance& instance = add_instance(*def, fmt::format("{}:{}_to_{}", path, from, to), &user);
-  instance.inputs.emplace_back(def->inputs[0].name, source);
-  return Key{Kind::output, 0, &instance, nullptr};
-}
-
-// What the host asks for; without, the document's own (Specification, "Color Spaces
-// and Color Management Systems"), or else what the library's transforms lead to.
-std::string_view Resolver::working_space() const {
-  std::string_view name = options_.working_space;
-  if (name.empty()) name = document_.root().attribute("colorspace");
-  return name.empty() ? "lin_rec709" : canonical_colorspace(name);
+  const std::string_view from = canonical_colorspace(space);
+  const std::string_view to = canonical_colorspace(working_space_);
+  if (from.empty() || to.empty() || from == to) return std::nullopt;
+  if (const NodeDef* def = find_transform(from, to, type)) return transform(*def, from, to);
+  error("unknown-colorspace", user, "there is no transform from this colour space",
+        options_.colors == nullptr ? fmt::format("a space with a transform to {}", to)
+                                   : fmt::format("a space of {}, and '{}' to be one too",
+                                                 options_.colors->name(), working_space_),
+        fmt::format("'{}'", space));
+  return std::nullopt;
 }
 
 // The library's transform, or one made from what the spaces are.

@@ -110,6 +110,23 @@ const Assignment* GeometryRules::material_of(const Look& look, std::string_view 
   return nearest(*this, look.assignments, geometry, [](const Assignment&) { return true; });
 }
 
+std::vector<const Assignment*> GeometryRules::materials_of(const Look& look,
+                                                           std::string_view geometry) const {
+  std::vector<std::pair<std::size_t, const Assignment*>> found;
+  for (const Assignment& assignment : look.assignments) {
+    if (const auto reached = reach(assignment, geometry)) found.emplace_back(*reached, &assignment);
+  }
+  std::reverse(found.begin(), found.end());
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<const Assignment*> materials;
+  for (const auto& [reached, assignment] : found) {
+    materials.push_back(assignment);
+    if (assignment->exclusive) break;
+  }
+  return materials;
+}
+
 bool GeometryRules::is_visible(const Look& look, std::string_view geometry,
                                std::string_view vistype, std::string_view viewer) const {
   // Hidden from everything is stronger than any one kind.
@@ -124,13 +141,12 @@ bool GeometryRules::is_visible(const Look& look, std::string_view geometry,
   return true;
 }
 
-const Value* GeometryRules::property_of(const Look& look, std::string_view geometry,
-                                        std::string_view property, std::string_view target) const {
-  const auto* found =
-      nearest(*this, look.properties, geometry, [&](const PropertyAssignment& said) {
-        return said.property == property && (said.target.empty() || said.target == target);
-      });
-  return found == nullptr ? nullptr : &found->value;
+const PropertyAssignment* GeometryRules::property_of(const Look& look, std::string_view geometry,
+                                                     std::string_view property,
+                                                     std::string_view target) const {
+  return nearest(*this, look.properties, geometry, [&](const PropertyAssignment& said) {
+    return said.property == property && (said.target.empty() || said.target == target);
+  });
 }
 
 std::map<std::string, std::string, std::less<>> GeometryRules::tokens_of(

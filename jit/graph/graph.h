@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "jit/graph/source_table.h"
 #include "runtime/diagnostic.h"
 #include "runtime/type.h"
 #include "runtime/value.h"
@@ -96,6 +97,7 @@ struct NodeSource {
   std::string document;  ///< The file that names it.
   /// Allowed values of string inputs; a text gets the index of one.
   std::vector<std::pair<std::string, std::vector<std::string>>> enums;
+  std::vector<SourceTable> tables;  ///< Bound to the uniform samplers of the text.
   SourceLocation where;
 };
 

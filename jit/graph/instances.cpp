@@ -53,6 +53,7 @@ bool Resolver::has_body(const NodeDef& def) const {
 
 /// Whether the text of an <implementation> stands for the nodedef.
 bool Resolver::runs_source(const NodeDef& def) const {
+  if (config_transform_of(def) != nullptr) return true;
   if (definitions_.source_of(def) == nullptr || !may_be_source(def)) return false;
   if (options_.prefer == Preference::source) return true;
   return !has_body(def) && graph_of(def) == nullptr;
@@ -61,7 +62,9 @@ bool Resolver::runs_source(const NodeDef& def) const {
 void Resolver::add_source(const NodeDef& def) {
   const auto same = [&](const NodeSource& known) { return known.nodedef == def.name; };
   if (std::any_of(graph_.sources.begin(), graph_.sources.end(), same)) return;
-  graph_.sources.push_back(node_source(def, *definitions_.source_of(def)));
+  const Transform* transform = config_transform_of(def);
+  graph_.sources.push_back(transform == nullptr ? node_source(def, *definitions_.source_of(def))
+                                                : config_source(def, *transform));
 }
 
 // Colour transforms made here have definitions of their own.

@@ -96,11 +96,15 @@ class GeometryRules {
 
   /// The material on a geometry, or null. (Several that are not exclusive: the last.)
   const Assignment* material_of(const Look& look, std::string_view geometry) const;
+  /// The same, and behind it those that it and the ones between, not being exclusive,
+  /// let through for shaders that they lack.
+  std::vector<const Assignment*> materials_of(const Look& look, std::string_view geometry) const;
   bool is_visible(const Look& look, std::string_view geometry, std::string_view vistype,
                   std::string_view viewer = {}) const;
-  /// The value for this renderer, or null. `target`: its name, for target-specific ones.
-  const Value* property_of(const Look& look, std::string_view geometry, std::string_view property,
-                           std::string_view target = {}) const;
+  /// Who says it for this renderer, or null. `target`: its name, for target-specific ones.
+  const PropertyAssignment* property_of(const Look& look, std::string_view geometry,
+                                        std::string_view property,
+                                        std::string_view target = {}) const;
 
   /// For GraphOptions::geometry_tokens: tokens of the geometry, and tokendefaults.
   std::map<std::string, std::string, std::less<>> tokens_of(std::string_view geometry) const;

@@ -82,6 +82,13 @@ void print_node(Out out, const Graph& graph, std::size_t index) {
   fmt::format_to(out, "\n");
 }
 
+void print_table(Out out, const SourceTable& table) {
+  fmt::format_to(out, " {}={}x{}x{}x{} {} {}", table.name, table.size[0], table.size[1],
+                 table.size[2], table.channels,
+                 table.filter == SourceTable::Filter::linear ? "linear" : "nearest",
+                 table.values == nullptr ? "none" : table.values->digest());
+}
+
 // Nodes and what they are connected to, without anything that may change while
 // a kernel stays the same.
 std::string print_nodes(const Graph& graph) {
@@ -95,6 +102,7 @@ std::string print_nodes(const Graph& graph) {
     if (!source.function.empty()) {
       fmt::format_to(std::back_inserter(text), " {}", source.function);
     }
+    for (const SourceTable& table : source.tables) print_table(std::back_inserter(text), table);
     text += '\n';
   }
   return text;

@@ -50,7 +50,8 @@ class Resolver {
       : document_(document),
         definitions_(definitions),
         options_(options),
-        diagnostics_(diagnostics) {}
+        diagnostics_(diagnostics),
+        working_space_(find_working_space(options, document)) {}
 
   struct Result {
     bool failed = false;
@@ -155,8 +156,16 @@ class Resolver {
   // when there is nothing to convert.
   std::optional<Key> convert_colour(const Source& source, Type type, std::string_view space,
                                     const std::string& path, const Element& user);
-  std::string_view working_space() const;
   const NodeDef* find_transform(std::string_view from, std::string_view to, Type type);
+  // Transforms of GraphOptions::colors (config_transform.cpp).
+  struct Transform;
+  struct ConfigSpaces {
+    ColorConfig::Space from, to;
+  };
+  std::optional<ConfigSpaces> config_spaces(std::string_view from, std::string_view to) const;
+  const NodeDef* find_config_transform(const ConfigSpaces& spaces, Type type, const Element& user);
+  const Transform* config_transform_of(const NodeDef& def) const;
+  NodeSource config_source(const NodeDef& def, const Transform& transform) const;
   std::optional<Key> convert_unit(Result& result, const NodeDefInput& input,
                                   const std::string& path, const Element& user);
   std::optional<double> unit_factor(std::string_view from, const NodeDefInput* input,
@@ -173,6 +182,7 @@ class Resolver {
   const Definitions& definitions_;
   const GraphOptions& options_;
   Diagnostics& diagnostics_;
+  const std::string working_space_;
   Graph graph_;
 
   std::unordered_map<Key, Slot, KeyHash> slots_;
@@ -184,10 +194,15 @@ class Resolver {
   std::unordered_map<const Element*, const NodeDef*> nodedefs_;
   std::map<std::string_view, const Instance*> geomprops_;
   std::unordered_map<const Element*, std::uint32_t> parameters_;
-  /// Colour transforms that the library lacks, by "from_to_to"; null: not known.
+  /// Colour transforms that the library lacks, by "from_to_to"; null: not known. Those
+  /// of a configuration by "from\nto".
   struct Transform {
     std::unique_ptr<Document> document;
     std::unique_ptr<Definitions> definitions;
+    std::shared_ptr<const ColorTransform> color;  ///< Of a configuration; null: see `fault`.
+    std::string name;
+    std::string fault;
+    SourceLocation where;
   };
   std::map<std::string, Transform, std::less<>> transforms_;
   std::unordered_map<std::string, bool> reported_;  // warnings given once

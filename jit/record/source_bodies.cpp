@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "jit/record/sample_table.h"
 #include "jit/record/source_ports.h"
 #include "nodes/texture2d/sampler.h"
 
@@ -65,18 +66,51 @@ std::string with_names(std::string text) {
   return text;
 }
 
-glsl::TextureLookup texture_lookup(NodeCall& call) {
-  return [&call](const std::string& image, const glsl::Value& uv, const glsl::Value* ddx,
-                 const glsl::Value*) -> std::optional<glsl::Value> {
+/// Reads the tables that come with a text.
+class Tables {
+ public:
+  Tables(const NodeSource& source, Recorder& recorder) : source_(source), recorder_(recorder) {}
+
+  std::optional<glsl::Value> read(const glsl::Value& sampler, const glsl::Value& place) {
+    const auto table = std::find_if(source_.tables.begin(), source_.tables.end(),
+                                    [&](const SourceTable& t) { return t.name == sampler.text; });
+    if (table == source_.tables.end() || !is_whole(*table)) return std::nullopt;
+    const auto [known, is_new] = added_.try_emplace(table->name, 0);
+    if (is_new) known->second = add_table(recorder_, *table);
+    std::vector<Float> coordinates;
+    for (std::size_t i = 0; i < place.parts.size(); ++i) coordinates.push_back(place.number(i));
+    glsl::Value result{glsl::float_type.with_rows(4), {}, {}};
+    for (const Float& part : sample_table(recorder_, *table, known->second, coordinates)) {
+      result.parts.push_back(part.ref());
+    }
+    return result;
+  }
+
+ private:
+  const NodeSource& source_;
+  Recorder& recorder_;
+  std::map<std::string, std::uint32_t> added_;
+};
+
+std::optional<glsl::Value> read_image(NodeCall& call, const std::string& image,
+                                      const glsl::Value& uv) {
+  const ImageLookup lookup{.uv = {uv.number(0), uv.number(1)}};
+  const TextureSources images =
+      call.textures() == nullptr ? TextureSources{} : call.textures()->find(image, "");
+  const Float4 texel = sample_images(call.recorder(), images, lookup);
+  return glsl::Value{glsl::float_type.with_rows(4),
+                     {texel.x.ref(), texel.y.ref(), texel.z.ref(), texel.w.ref()},
+                     {}};
+}
+
+glsl::TextureLookup texture_lookup(const NodeSource& source, NodeCall& call) {
+  const auto tables = std::make_shared<Tables>(source, call.recorder());
+  return [&call, tables](const glsl::Value& sampler, const glsl::Value& place,
+                         const glsl::Value* ddx, const glsl::Value*) -> std::optional<glsl::Value> {
+    if (sampler.is_uniform) return tables->read(sampler, place);
     // Footprints are derived from uv itself; others cannot be given.
-    if (ddx != nullptr) return std::nullopt;
-    const ImageLookup lookup{.uv = {uv.number(0), uv.number(1)}};
-    const TextureSources images =
-        call.textures() == nullptr ? TextureSources{} : call.textures()->find(image, "");
-    const Float4 texel = sample_images(call.recorder(), images, lookup);
-    return glsl::Value{glsl::float_type.with_rows(4),
-                       {texel.x.ref(), texel.y.ref(), texel.z.ref(), texel.w.ref()},
-                       {}};
+    if (ddx != nullptr || place.parts.size() != 2) return std::nullopt;
+    return read_image(call, sampler.text, place);
   };
 }
 
@@ -182,7 +216,7 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
     arguments.push_back(std::move(*argument));
   }
   const auto result = module.record(*function, std::move(arguments), call.recorder(),
-                                    call.diagnostics(), texture_lookup(call));
+                                    call.diagnostics(), texture_lookup(source, call));
   if (!result) return false;
   if (returns) {
     return set_only_output(source, call, outputs,

@@ -89,7 +89,7 @@ glsl::Type glsl_type(Type type) {
     case Type::vector4: return vector(4);
     case Type::matrix33: return {glsl::Base::number, 3, 3};
     case Type::matrix44: return {glsl::Base::number, 4, 4};
-    case Type::filename: return {glsl::Base::sampler};
+    case Type::filename: return {glsl::Base::sampler, 2};
     case Type::string:
     case Type::geomname: return glsl::int_type;
     default: return glsl::void_type;

@@ -41,6 +41,7 @@ TextureSources RecordedTextures::find(const std::string& name, const std::string
   const std::string key = name + '|' + layer;
   if (const auto known = found_.find(key); known != found_.end()) return known->second;
   TextureSources sources;
+  sources.max_anisotropy = max_anisotropy_;
   Diagnostics problems;
   if (name.empty()) {
     // No file named: the node's default, without a complaint.
@@ -80,7 +81,8 @@ void RecordedTextures::look_up(void* user, const TextureCall* call) {
                           .dvdy = call->dvdy,
                           .filter = modes.filter,
                           .u_mode = modes.u,
-                          .v_mode = modes.v};
+                          .v_mode = modes.v,
+                          .max_anisotropy = modes.max_anisotropy};
   self->slots_[call->slot]->host()->lookup(
       lookup, {call->rgba, call->rgba + lanes, call->rgba + 2 * lanes, call->rgba + 3 * lanes});
 }

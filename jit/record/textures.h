@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,8 +19,12 @@ namespace nacre {
 /// must live as long as a kernel runs.
 class RecordedTextures final : public TextureProvider {
  public:
-  RecordedTextures(TextureStore& store, Recorder& recorder, Diagnostics& diagnostics)
-      : store_(store), recorder_(recorder), diagnostics_(diagnostics) {}
+  RecordedTextures(TextureStore& store, Recorder& recorder, Diagnostics& diagnostics,
+                   int max_anisotropy = default_anisotropy)
+      : store_(store),
+        recorder_(recorder),
+        diagnostics_(diagnostics),
+        max_anisotropy_(std::clamp(max_anisotropy, 1, largest_anisotropy)) {}
 
   TextureSources find(const std::string& name, const std::string& layer) override;
 
@@ -38,6 +43,7 @@ class RecordedTextures final : public TextureProvider {
   TextureStore& store_;
   Recorder& recorder_;
   Diagnostics& diagnostics_;
+  int max_anisotropy_;
   SourceLocation where_;
   std::vector<TextureHandle> slots_;
   std::map<std::string, TextureSources> found_;

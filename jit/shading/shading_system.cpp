@@ -8,9 +8,12 @@
 #include "jit/graph/check.h"
 #include "jit/graph/find.h"
 #include "jit/graph/node_source.h"
+#include "jit/ocio/ocio_config.h"
 #include "jit/record/source_bodies.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
+#include "pbs/shader_channels.h"
+#include "pbs/sides.h"
 #include "runtime/program/fix_inputs.h"
 #include "runtime/program/slice.h"
 
@@ -54,7 +57,8 @@ class Compilation {
         sources_(sources),
         service_(service),
         diagnostics_(diagnostics),
-        textures_(std::make_shared<RecordedTextures>(store, recorder_, diagnostics)) {}
+        textures_(std::make_shared<RecordedTextures>(store, recorder_, diagnostics,
+                                                     options.max_anisotropy)) {}
 
   std::optional<std::vector<Recorded>> record(const Graph& graph) {
     const RecordOptions record{
@@ -127,6 +131,34 @@ std::vector<SliceOutput> channels(const std::string& name, const Recorded& value
   return list;
 }
 
+/// The sides of the material that a graph is of. Reports a back that is not shown.
+SurfaceSides sides_of(const Graph& graph, const std::vector<Recorded>& values,
+                      Diagnostics& diagnostics) {
+  SurfacePtr front;
+  SurfacePtr back;
+  const GraphOutput* back_output = nullptr;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const GraphOutput& output = graph.outputs[i];
+    if (output.type != Type::surfaceshader) continue;
+    if (output.name == "backsurfaceshader") {
+      back = as_surface(values[i].closure);
+      back_output = &output;
+    } else if (front == nullptr) {
+      front = as_surface(values[i].closure);
+    }
+  }
+  const bool two_shaders = front != nullptr && back != nullptr && front != back;
+  SurfaceSides sides = surface_sides(std::move(front), std::move(back));
+  if (two_shaders && sides.back == nullptr) {
+    const bool is_node = back_output->source.kind == Source::Kind::link;
+    diagnostics.warning("back-not-shown",
+                        is_node ? graph.nodes[back_output->source.node].where : SourceLocation{},
+                        "the backsurfaceshader is not shown, for neither side is thin-walled",
+                        "a thin-walled surface on one of the sides");
+  }
+  return sides;
+}
+
 }  // namespace
 
 ShadingSystem::~ShadingSystem() = default;
@@ -140,11 +172,16 @@ std::unique_ptr<ShadingSystem> ShadingSystem::create(const SystemOptions& option
   system->bodies_ = std::make_unique<Bodies>(system->library_->definitions());
   for (const HostBody& body : options.bodies) {
     if (system->bodies_->add(body.nodedef, body.record, system->library_->definitions())) continue;
-    diagnostics.error("unknown-nodedef", {}, "the host has a body for a nodedef that no library declares",
+    diagnostics.error("unknown-nodedef", {},
+                      "the host has a body for a nodedef that no library declares",
                       "the name of a nodedef", body.nodedef);
     return nullptr;
   }
   system->sources_ = std::make_unique<SourceBodies>(source_roots(options.libraries));
+  if (!options.ocio_config.empty()) {
+    system->colors_ = load_ocio_config(options.ocio_config, diagnostics);
+    if (system->colors_ == nullptr) return nullptr;
+  }
   system->textures_ = std::make_unique<TextureStore>(options.textures);
   system->service_ = CompileService::create(
       {.threads = options.compile_threads, .cache = options.cache, .session = {}}, diagnostics);
@@ -160,6 +197,7 @@ std::optional<Graph> ShadingSystem::build(const Document& document, const GraphR
 GraphOptions ShadingSystem::graph_options(const ShaderOptions& options) const {
   GraphOptions result = options.graph;
   result.is_native = [this](std::string_view nodedef) { return bodies_->contains(nodedef); };
+  if (result.colors == nullptr) result.colors = colors_;
   return result;
 }
 
@@ -178,7 +216,8 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
     Diagnostics already_known;
     const auto graph = build(document, request, options, already_known);
     if (!graph) return;
-    Compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics).record(*graph);
+    Compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics)
+        .record(*graph);
   };
   // All at once, so that what they share is recorded once. A material that names its
   // shader node adds that; those that name graphs come one by one.
@@ -221,15 +260,22 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
   std::vector<OutputKernel::Output> outputs;
   for (std::size_t i = 0; i < values->size(); ++i) {
     const Recorded& value = (*values)[i];
+    const std::string& name = graph.outputs[i].name;
+    std::vector<SliceOutput> list =
+        is_numeric(value.type)
+            ? channels(name, value)
+            : shader_channels(compilation.recorder(), options.compile.accuracy, value);
     if (!is_numeric(value.type)) {
-      diagnostics.error("not-numeric", {}, "output '" + graph.outputs[i].name + "' has no numbers",
-                        "a numeric type", std::string(type_name(value.type)));
+      for (SliceOutput& channel : list) channel.name = name + '.' + channel.name;
+    }
+    if (list.empty()) {
+      diagnostics.error("not-numeric", {}, "output '" + name + "' has no numbers",
+                        "a numeric type, a medium, displacement or light",
+                        std::string(type_name(value.type)));
       return nullptr;
     }
-    outputs.push_back({graph.outputs[i].name, value.type, slices.size()});
-    for (SliceOutput& channel : channels(graph.outputs[i].name, value)) {
-      slices.push_back(std::move(channel));
-    }
+    outputs.push_back({name, value.type, slices.size(), list.size()});
+    std::ranges::move(list, std::back_inserter(slices));
   }
   std::vector<StageReport> stages;
   auto kernel = std::move(
@@ -250,25 +296,31 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& graph,
                                                                  const ShaderOptions& options,
                                                                  Diagnostics& diagnostics) {
-  const auto found =
-      std::find_if(graph.outputs.begin(), graph.outputs.end(),
-                   [](const GraphOutput& output) { return output.type == Type::surfaceshader; });
-  if (found == graph.outputs.end()) {
+  const auto has = [&](Type type) {
+    return std::ranges::any_of(graph.outputs,
+                               [&](const GraphOutput& output) { return output.type == type; });
+  };
+  if (!has(Type::surfaceshader) && !has(Type::volumeshader)) {
     diagnostics.error("no-surface", {}, "the material has no surface shader");
     return nullptr;
   }
   Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics);
   const auto values = compilation.record(graph);
   if (!values) return nullptr;
-  const auto index = static_cast<std::size_t>(found - graph.outputs.begin());
-  const SurfacePtr surface = as_surface((*values)[index].closure);
-  if (surface == nullptr) {
+  const SurfaceSides sides = sides_of(graph, *values, diagnostics);
+  const bool is_back = options.side == Side::back && sides.back != nullptr;
+  const SurfacePtr surface = is_back ? sides.back : sides.front;
+  if (surface == nullptr && has(Type::surfaceshader)) {
     diagnostics.error("no-surface", {}, "the material's surface shader is not connected");
     return nullptr;
   }
-  const SurfaceKernels recorded =
-      record_kernels(compilation.recorder(), *surface, options.compile.accuracy, options.kernels);
+  const SurfaceKernels recorded = surface == nullptr
+                                      ? SurfaceKernels{}
+                                      : record_kernels(compilation.recorder(), *surface,
+                                                       options.compile.accuracy, options.kernels);
   auto kernels = std::make_unique<MaterialKernels>();
+  kernels->has_surface = surface != nullptr;
+  kernels->has_back = sides.back != nullptr;
   std::vector<Program> programs;
   std::vector<std::optional<BoundKernel>*> places;
   std::set<std::uint32_t> state;
@@ -292,6 +344,14 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
   add_entry(kernels->albedo, "albedo", recorded.albedo, Keeps::pass);
   add_entry(kernels->emission, "emission", recorded.emission, Keeps::pass);
   add_entry(kernels->opacity, "opacity", recorded.opacity, Keeps::pass);
+  for (const Recorded& value : *values) {
+    const bool is_displacement = value.type == Type::displacementshader;
+    if (!is_displacement && value.type != Type::volumeshader) continue;
+    add_entry(is_displacement ? kernels->displacement : kernels->volume,
+              is_displacement ? "displacement" : "volume",
+              shader_channels(compilation.recorder(), options.compile.accuracy, value),
+              Keeps::pass);
+  }
   add_entry(kernels->begin, "begin", state_outputs(compilation.recorder(), kernels->state),
             Keeps::pass);
   auto compiled = compilation.compile(std::move(programs), kernels->stages);

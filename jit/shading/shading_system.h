@@ -32,38 +32,55 @@ struct SystemOptions {
   /// Read the data library's own GLSL too, so that GraphOptions::prefer can ask for
   /// it. Node packs' texts are always read.
   bool standard_sources = false;
+  /// An OpenColorIO configuration, whose colour spaces documents may name (see
+  /// load_ocio_config); empty: none. A host with colour spaces of its own gives
+  /// GraphOptions::colors instead, which counts before this.
+  std::filesystem::path ocio_config = {};
   TextureOptions textures = {};
   /// Where compiled kernels are kept between runs; empty: nowhere.
   std::filesystem::path cache = {};
   int compile_threads = 0;  ///< 0: one a core.
 };
 
+/// Which side of a surface; the front is where the geometric normal points.
+enum class Side { front, back };
+
 struct ShaderOptions {
   CompileOptions compile;
   ParameterMode parameters = ParameterMode::frozen;
   KernelRequest kernels;
-  GraphOptions graph;  ///< `is_native` is filled in.
+  GraphOptions graph;  ///< `is_native` is filled in, and `colors` where it is null.
   bool lazy = true;    ///< See RecordOptions.
+  /// Of footprints on images, 1 .. largest_anisotropy; see runtime/texture/sampling.h.
+  int max_anisotropy = default_anisotropy;
+  Side side = Side::front;  ///< Of a material; see MaterialKernels::has_back.
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;
 };
 
 /// Outputs of node graphs as one kernel: channel "<name>", or "<name>.x" ... for
-/// types of several components, in the order asked for.
+/// types of several components, in the order asked for. A medium, displacement or light
+/// has the channels of pbs/shader_channels.h.
 struct OutputKernel {
   struct Output {
     std::string name;  ///< "NG_marble/out"
     Type type = Type::none;
-    std::size_t first_channel = 0;  ///< component_count(type) of them follow.
+    std::size_t first_channel = 0;
+    std::size_t channels = 0;  ///< component_count(type) of a numeric type.
   };
   BoundKernel kernel;
   std::vector<Output> outputs;
   std::vector<StageReport> stages;
 };
 
-/// The kernels of one surface material; see pbs/kernels.h for their channels.
-/// A kernel that has nothing to compute is absent.
+/// The kernels of one material; see pbs/kernels.h for the channels of its surface and
+/// pbs/shader_channels.h for the rest. A kernel that has nothing to compute is absent; a
+/// volumematerial has `volume` alone.
 struct MaterialKernels {
+  bool has_surface = true;
+  /// The back shows another shader: to be compiled with ShaderOptions::side and used
+  /// where dot(Ng, wo) < 0. Else these kernels are those of both sides (pbs/sides.h).
+  bool has_back = false;
   /// Stores the state channels "state.<k>" that sample and evaluate read.
   std::optional<BoundKernel> begin;
   std::optional<BoundKernel> sample, evaluate, albedo, emission, opacity;
@@ -71,6 +88,7 @@ struct MaterialKernels {
   /// wi.*; every other channel of evaluate, state and geometry, is a slot of the
   /// parameter block under the channel's name, for the host to fill from the point.
   std::optional<BoundKernel> evaluate_at;
+  std::optional<BoundKernel> displacement, volume;
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
   std::vector<std::string> lobes;
@@ -82,7 +100,7 @@ struct MaterialKernels {
 /// and the compiler. All members may be called from any thread.
 class ShadingSystem {
  public:
-  /// Null, with diagnostics, if the library cannot be read.
+  /// Null, with diagnostics, if the library or the colour configuration cannot be read.
   static std::unique_ptr<ShadingSystem> create(const SystemOptions& options,
                                                Diagnostics& diagnostics);
   ~ShadingSystem();
@@ -125,6 +143,7 @@ class ShadingSystem {
   std::shared_ptr<const Library> library_;
   std::unique_ptr<Bodies> bodies_;
   std::unique_ptr<SourceBodies> sources_;
+  std::shared_ptr<const ColorConfig> colors_;
   std::unique_ptr<TextureStore> textures_;
   std::unique_ptr<CompileService> service_;
 };

@@ -1,8 +1,9 @@
 #include "nodes/texture2d/sampler.h"
 
+#include <algorithm>
 #include <string>
 
-#include "nodes/texture2d/mip_level.h"
+#include "nodes/texture2d/footprint.h"
 #include "runtime/value/control.h"
 
 namespace nacre {
@@ -15,29 +16,6 @@ Float2 derivative(Recorder& recorder, Float2 uv, int axis) {
     return recorder.is_varying(x.ref()) ? footprint_derivative(x, axis) : Float(0.0f);
   };
   return {along(uv.x), along(uv.y)};
-}
-
-/// The squared length, in texels of level 0, of the footprint's longer axis.
-Float footprint_texels(Recorder& recorder, Float2 uv, const MipLevel& finest) {
-  const auto squared = [&](Float2 d) {
-    return square(d.x * finest.x.numeric) + square(d.y * finest.y.numeric);
-  };
-  return max(squared(derivative(recorder, uv, 0)), squared(derivative(recorder, uv, 1)));
-}
-
-/// log2(sqrt(x)) for normal x > 0, within 1.1e-6 and exact at powers of two, where it is
-/// continuous: log2(1 + m) as m + m (1 - m) q(m) of the mantissa m, q by Remez' exchange.
-/// Infinity gives more than 64, so the last level.
-Float half_log2(Float x) {
-  const Int bits = bits_of(x);
-  const Float exponent = to_float((bits >> Int(23)) - Int(127));
-  const Float m = float_of_bits((bits & Int(0x007fffff)) | Int(0x3f800000)) - 1.0f;
-  Float q(0.025841450318694115f);
-  for (const float c :
-       {-0.0959564596414566f, 0.18194888532161713f, -0.2756003141403198f, 0.44254493713378906f}) {
-    q = fma(q, m, c);
-  }
-  return 0.5f * (exponent + fma(m * (1.0f - m), q, m));
 }
 
 /// One level by its number, as a function: both levels of a blend, and all such look-ups
@@ -58,16 +36,55 @@ Float4 filter_any_level(const TexelFetch& fetch, Int index, Float2 uv, TextureMo
   return fetch.completed(outline<Float4>(fetch.recorder, name, body, fetch.slot, index, uv));
 }
 
-/// The blend of the two levels around the level of detail.
-Float4 filter_two_levels(const TexelFetch& fetch, Float2 uv, Float squared_texels,
+/// The blend of the two levels of the probes, at one of them.
+Float4 filter_two_levels(const TexelFetch& fetch, Float2 uv, const Probes& probes,
                          TextureModes modes) {
-  const Float last = float_of_bits(fetch.word(Int(texture_layout::word_max_level_float)));
-  const Float lambda = clamp(half_log2(squared_texels), 0.0f, last);
-  const Float below = floor(lambda);
-  const Int index = to_int(below);
+  const Int index = to_int(probes.level);
   const Float4 fine = filter_any_level(fetch, index, uv, modes);
   const Float4 coarse = filter_any_level(fetch, index + Int(1), uv, modes);
-  return mix_steps(fine, coarse, lambda - below);
+  return mix_steps(fine, coarse, probes.blend);
+}
+
+/// A mean as it grows, of the components that count.
+struct RunningMean {
+  Float weight;
+  Float4 mean;
+  int components;
+};
+
+template <class F>
+void visit(RunningMean& sum, F&& f) {
+  f(sum.weight);
+  int c = 0;
+  visit(sum.mean, [&](Float& component) {
+    if (c++ < sum.components) f(component);
+  });
+}
+
+/// A probe beyond the edge has the texels of the edge; outside() is for the point itself.
+AddressMode within(AddressMode mode) {
+  return mode == AddressMode::constant ? AddressMode::clamp : mode;
+}
+
+Float4 filter_probes(const TexelFetch& fetch, Float2 uv, const Probes& probes, TextureModes modes) {
+  const auto probe = [&](Float p) {
+    const Float u = fma(p, probes.reach.x, uv.x);
+    const Float v = fma(p, probes.reach.y, uv.y);
+    return filter_two_levels(fetch, {address(u, within(modes.u)), address(v, within(modes.v))},
+                             probes, modes);
+  };
+  if (modes.max_anisotropy <= 1) return probe(0.0f);
+  const RunningMean none{
+      .weight = 0.0f, .mean = {}, .components = std::min(fetch.channels, fetch.wanted)};
+  const int most = 2 * modes.max_anisotropy - 1;
+  const RunningMean all = loop(fetch.recorder, true, most, none, [&](Int i, RunningMean& sum) {
+    const Float p = probe_position(probes, to_float(i));
+    const Float weight = probe_weight(probes, p);
+    sum.weight = sum.weight + weight;
+    sum.mean = mix_steps(sum.mean, probe(p), weight / sum.weight);
+    return to_float(i) + 1.5f < probes.count;
+  });
+  return fetch.completed(all.mean);
 }
 
 Float4 sample_resident(const TexelFetch& fetch, const TextureSource& source,
@@ -79,11 +96,14 @@ Float4 sample_resident(const TexelFetch& fetch, const TextureSource& source,
   const auto magnified = [&] { return filter_level(fetch, finest, uv.x, uv.y, modes); };
   if (modes.filter == TextureFilter::closest) return magnified();
 
-  // Usually all lanes take one side, and level 0 costs less than any other. NaN: level 0.
-  const Float squared = footprint_texels(fetch.recorder, lookup.uv, finest);
-  const Bool minified = squared > 1.0f;
-  const Float4 near = if_any(!minified, Float4{}, magnified);
-  return if_any(minified, near, [&] { return filter_two_levels(fetch, uv, squared, modes); });
+  const Float last = float_of_bits(fetch.word(Int(texture_layout::word_max_level_float)));
+  const Probes probes =
+      find_probes(derivative(fetch.recorder, lookup.uv, 0),
+                  derivative(fetch.recorder, lookup.uv, 1), finest, last, modes.max_anisotropy);
+  // Usually all lanes take one side, and level 0 costs less than any other.
+  const Bool near = is_magnified(probes);
+  const Float4 found = if_any(near, Float4{}, magnified);
+  return if_any(!near, found, [&] { return filter_probes(fetch, lookup.uv, probes, modes); });
 }
 
 Float4 sample_on_host(Recorder& recorder, const TextureSource& source, const ImageLookup& lookup) {

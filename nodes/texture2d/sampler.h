@@ -9,10 +9,10 @@ namespace nacre {
 
 /// A look-up of an image file, with what the node says about it.
 struct ImageLookup {
-  Float2 uv{};  ///< Any floats.
-  TextureModes modes{};
-  int channels = 4;    ///< Components that the result needs, 1..4; the others are 0.
-  Float4 otherwise{};  ///< The node's `default`.
+  Float2 uv{};           ///< Any floats.
+  TextureModes modes{};  ///< sample_images fills in max_anisotropy.
+  int channels = 4;      ///< Components that the result needs, 1..4; the others are 0.
+  Float4 otherwise{};    ///< The node's `default`.
 };
 
 /// Records a look-up of one image, as runtime/texture/sampling.h says, with the
@@ -28,6 +28,6 @@ Float4 sample_image(Recorder& recorder, const TextureSource& source, const Image
 /// The same for what a file name stands for: one image, or tiles by floor(u), floor(v).
 /// Within a tile taps clamp at its edge, and the address modes do not count; where no
 /// tile is the result is `otherwise`.
-Float4 sample_images(Recorder& recorder, const TextureSources& sources, const ImageLookup& lookup);
+Float4 sample_images(Recorder& recorder, const TextureSources& sources, ImageLookup lookup);
 
 }  // namespace nacre

@@ -82,7 +82,8 @@ Float4 sample_tiles(Recorder& recorder, const TextureSources& sources, ImageLook
 
 }  // namespace
 
-Float4 sample_images(Recorder& recorder, const TextureSources& sources, const ImageLookup& lookup) {
+Float4 sample_images(Recorder& recorder, const TextureSources& sources, ImageLookup lookup) {
+  lookup.modes.max_anisotropy = sources.max_anisotropy;
   if (!sources.directory.empty()) return sample_tiles(recorder, sources, lookup);
   if (sources.images.empty()) return lookup.otherwise;
   return sample_image(recorder, sources.images.front(), lookup);

@@ -1,5 +1,6 @@
 #include "pbs/bsdf.h"
 #include "pbs/edf.h"
+#include "pbs/vdf.h"
 #include "runtime/node/node_call.h"
 
 namespace nacre {
@@ -26,10 +27,10 @@ class AddEdf final : public Edf {
 void record_closure_add(NodeCall& call) {
   const ClosurePtr& in1 = call.closure("in1");
   const ClosurePtr& in2 = call.closure("in2");
-  if (call.out_type() == Type::edf) {
-    call.set(std::make_shared<AddEdf>(as_edf(in1), as_edf(in2)));
-  } else {
-    call.set(std::make_shared<AddBsdf>(as_bsdf(in1), as_bsdf(in2)));
+  switch (call.out_type()) {
+    case Type::edf: call.set(std::make_shared<AddEdf>(as_edf(in1), as_edf(in2))); break;
+    case Type::vdf: call.set(sum(as_vdf(in1), as_vdf(in2))); break;
+    default: call.set(std::make_shared<AddBsdf>(as_bsdf(in1), as_bsdf(in2))); break;
   }
 }
 

@@ -1,6 +1,8 @@
 #include "pbs/bsdf.h"
+#include "pbs/displacement.h"
 #include "pbs/edf.h"
 #include "pbs/surface.h"
+#include "pbs/volume.h"
 #include "runtime/node/node_call.h"
 
 namespace nacre {
@@ -39,16 +41,43 @@ std::shared_ptr<Surface> mix_surfaces(SurfacePtr fg, SurfacePtr bg, Float mix) {
   return surface;
 }
 
+VdfPtr mix_media(const VdfPtr& fg, const VdfPtr& bg, Float mix) {
+  return sum(scaled(fg, Color3(mix)), scaled(bg, Color3(1.0f - mix)));
+}
+
+std::shared_ptr<Volume> mix_volumes(const VolumePtr& fg, const VolumePtr& bg, Float mix) {
+  const Volume& a = fg == nullptr ? Volume() : *fg;
+  const Volume& b = bg == nullptr ? Volume() : *bg;
+  auto volume = std::make_shared<Volume>();
+  volume->vdf = mix_media(a.vdf, b.vdf, mix);
+  volume->edf = std::make_shared<MixEdf>(a.edf, b.edf, mix);
+  return volume;
+}
+
+std::shared_ptr<Displacement> mix_displacements(const DisplacementPtr& fg,
+                                                const DisplacementPtr& bg, Float mix) {
+  const Float3 a = fg == nullptr ? Float3(0.0f) : fg->offset;
+  const Float3 b = bg == nullptr ? Float3(0.0f) : bg->offset;
+  auto displacement = std::make_shared<Displacement>();
+  displacement->offset = lerp(b, a, mix);
+  return displacement;
+}
+
 }  // namespace
 
 /// mix of closures: fg in proportion mix, bg in 1 - mix, mix clamped to [0, 1].
-/// MaterialX PBS 1.39, "mix"; of surface shaders, their closures and opacities.
+/// MaterialX PBS 1.39, "mix"; of shaders, their closures, opacities and offsets.
 void record_closure_mix(NodeCall& call) {
   const Float mix = keep(call.recorder(), saturate(call.number("mix")));
   const ClosurePtr& fg = call.closure("fg");
   const ClosurePtr& bg = call.closure("bg");
   switch (call.out_type()) {
     case Type::edf: call.set(std::make_shared<MixEdf>(as_edf(fg), as_edf(bg), mix)); break;
+    case Type::vdf: call.set(mix_media(as_vdf(fg), as_vdf(bg), mix)); break;
+    case Type::volumeshader: call.set(mix_volumes(as_volume(fg), as_volume(bg), mix)); break;
+    case Type::displacementshader:
+      call.set(mix_displacements(as_displacement(fg), as_displacement(bg), mix));
+      break;
     case Type::surfaceshader:
       call.set(mix_surfaces(or_black(as_surface(fg)), or_black(as_surface(bg)), mix));
       break;

@@ -1,5 +1,6 @@
 #include "pbs/bsdf.h"
 #include "pbs/edf.h"
+#include "pbs/vdf.h"
 #include "runtime/node/node_call.h"
 
 namespace nacre {
@@ -22,16 +23,19 @@ class MultiplyEdf final : public Edf {
 
 /// multiply of a closure by a float or colour. MaterialX PBS 1.39, "multiply".
 /// For a BSDF the factor is clamped to [0, 1], as the data library's own
-/// implementations do; an EDF's only from below.
+/// implementations do; an EDF's and a VDF's only
+/// from below.
 void record_closure_multiply(NodeCall& call) {
   const Recorded& factor = call.in("in2");
-  const Color3 tint =
-      factor.parts.size() == 1 ? Color3(factor.number()) : call.vector3("in2");
-  if (call.out_type() == Type::edf) {
-    call.set(std::make_shared<MultiplyEdf>(as_edf(call.closure("in1")), max(tint, Color3(0.0f))));
-  } else {
-    call.set(std::make_shared<MultiplyBsdf>(as_bsdf(call.closure("in1")),
-                                            keep(call.recorder(), saturate(tint))));
+  const Color3 tint = factor.parts.size() == 1 ? Color3(factor.number()) : call.vector3("in2");
+  const ClosurePtr& in1 = call.closure("in1");
+  const Color3 positive = max(tint, Color3(0.0f));
+  switch (call.out_type()) {
+    case Type::edf: call.set(std::make_shared<MultiplyEdf>(as_edf(in1), positive)); break;
+    case Type::vdf: call.set(scaled(as_vdf(in1), positive)); break;
+    default:
+      call.set(std::make_shared<MultiplyBsdf>(as_bsdf(in1), keep(call.recorder(), saturate(tint))));
+      break;
   }
 }
 

@@ -29,6 +29,7 @@ struct TextureSources {
   std::vector<TextureSource> images;  ///< One, or one a tile; empty: missing.
   /// For tile sets the table of runtime/texture/tile_set.h; empty for one image.
   std::vector<std::uint32_t> directory;
+  int max_anisotropy = 1;  ///< Of look-ups; runtime/texture/sampling.h.
 };
 
 /// Finds images for node bodies; the compiler of a document implements it.

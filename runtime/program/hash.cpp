@@ -26,7 +26,7 @@ class Mixer {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
     return z ^ (z >> 31);
   }
-  std::uint64_t low_ = 0x243f6a8885a308d3ull;   // Digits of pi: nothing up the sleeve.
+  std::uint64_t low_ = 0x243f6a8885a308d3ull;  // Digits of pi: nothing up the sleeve.
   std::uint64_t high_ = 0x13198a2e03707344ull;
 };
 
@@ -41,7 +41,18 @@ void mix(Mixer& mixer, const Function& function) {
   }
 }
 
+void mix(Mixer& mixer, std::span<const float> values) {
+  mixer.word(values.size());
+  for (const float value : values) mixer.word(std::bit_cast<std::uint32_t>(value));
+}
+
 }  // namespace
+
+std::array<std::uint64_t, 2> hash(std::span<const float> values) {
+  Mixer mixer;
+  mix(mixer, values);
+  return mixer.result();
+}
 
 std::array<std::uint64_t, 2> hash(const Program& program) {
   Mixer mixer;
@@ -60,10 +71,7 @@ std::array<std::uint64_t, 2> hash(const Program& program) {
     mixer.word(static_cast<std::uint64_t>(slot.type));
   }
   mixer.word(program.textures.size());
-  for (const Table& table : program.tables) {
-    mixer.word(table.values.size());
-    for (const float value : table.values) mixer.word(std::bit_cast<std::uint32_t>(value));
-  }
+  for (const Table& table : program.tables) mix(mixer, table.values);
   return mixer.result();
 }
 

@@ -13,11 +13,23 @@ struct HostTexture::Taps {
   std::array<float, 4> weight{};
 };
 
+/// See Footprint in sampling.h.
+struct HostTexture::Probes {
+  int level = 0;
+  float blend = 0.f;
+  int count = 1;
+  std::array<float, 2> reach{};  ///< In uv, to the ends of the line.
+  float spread = 0.f;            ///< Weights are exp(-2 (spread p)^2).
+};
+
 namespace {
 
 bool is_finite(float value) {
   return (std::bit_cast<std::uint32_t>(value) & 0x7f800000u) != 0x7f800000u;
 }
+
+/// A derivative of uv that counts; NaN stays.
+float bounded(float d) { return d > 1024.f ? 1024.f : d < -1024.f ? -1024.f : d; }
 
 float at(const float* values, int lane) { return values ? values[lane] : 0.f; }
 
@@ -81,28 +93,62 @@ void HostTexture::lookup(const HostLookup& points, const std::array<float*, 4>& 
 }
 
 Rgba HostTexture::sample(const HostLookup& points, int lane) const {
-  const float u = address(points.u[lane], points.u_mode);
-  const float v = address(points.v[lane], points.v_mode);
-  if (points.filter == TextureFilter::closest) return filter_level(u, v, 0, points);
-  const float lambda = level_of_detail(points, lane);
-  const int level = static_cast<int>(lambda);
-  const float blend = lambda - static_cast<float>(level);
-  Rgba value = filter_level(u, v, level, points);
-  if (blend > 0.f) {
-    const Rgba coarse = filter_level(u, v, level + 1, points);
-    for (std::size_t c = 0; c < 4; ++c) value[c] += blend * (coarse[c] - value[c]);
+  if (points.filter == TextureFilter::closest) {
+    return filter_level(address(points.u[lane], points.u_mode),
+                        address(points.v[lane], points.v_mode), 0, points);
   }
-  return value;
+  const Probes probes = find_probes(points, lane);
+  Rgba mean{};
+  float sum = 0.f;
+  for (int i = 0; i < probes.count; ++i) {
+    const float p = (2.f * static_cast<float>(i) + 1.f) / static_cast<float>(probes.count) - 1.f;
+    const float u = address(points.u[lane] + p * probes.reach[0], points.u_mode);
+    const float v = address(points.v[lane] + p * probes.reach[1], points.v_mode);
+    Rgba value = filter_level(u, v, probes.level, points);
+    if (probes.blend > 0.f) {
+      const Rgba coarse = filter_level(u, v, probes.level + 1, points);
+      for (std::size_t c = 0; c < 4; ++c) value[c] += probes.blend * (coarse[c] - value[c]);
+    }
+    const float weight = std::exp(-2.f * p * p * probes.spread * probes.spread);
+    sum += weight;
+    for (std::size_t c = 0; c < 4; ++c) mean[c] += weight / sum * (value[c] - mean[c]);
+  }
+  return mean;
 }
 
-float HostTexture::level_of_detail(const HostLookup& points, int lane) const {
+HostTexture::Probes HostTexture::find_probes(const HostLookup& points, int lane) const {
   const auto width = static_cast<float>(info_.width);
   const auto height = static_cast<float>(info_.height);
-  const float length_x = std::hypot(at(points.dudx, lane) * width, at(points.dvdx, lane) * height);
-  const float length_y = std::hypot(at(points.dudy, lane) * width, at(points.dvdy, lane) * height);
-  const float rho = std::max(length_x, length_y);
-  if (!(rho > 1.f)) return 0.f;  // Also NaN.
-  return std::min(std::log2(rho), static_cast<float>(levels_ - 1));
+  const auto texels = [&](const float* values, float size) {
+    return bounded(at(values, lane)) * size;
+  };
+  const std::array<float, 2> x{texels(points.dudx, width), texels(points.dvdx, height)};
+  const std::array<float, 2> y{texels(points.dudy, width), texels(points.dvdy, height)};
+  const float c = x[0] * x[0] + y[0] * y[0];
+  const float a = x[1] * x[1] + y[1] * y[1];
+  const float b = x[0] * x[1] + y[0] * y[1];
+  Probes probes;
+  if (!(c + a > 9.f / 16.f)) return probes;  // Also NaN.
+  const float root = std::hypot(c - a, 2.f * b);
+  float major = std::sqrt(0.5f * (c + a + root));
+  float minor = std::fabs(x[0] * y[1] - x[1] * y[0]) / major;
+  const auto most = static_cast<float>(points.max_anisotropy);
+  if (major > most * minor) {
+    major = 0.5f * (major + most * minor);
+    minor = major / most;
+  }
+  int exponent = 0;
+  const float mantissa = std::frexp(std::max(minor, 1.f), &exponent);  // In [1/2, 1).
+  probes.level = std::min(exponent - 1, levels_ - 1);
+  if (exponent <= levels_ - 1) probes.blend = 2.f * mantissa - 1.f;
+  const float aspect = std::clamp(major / std::max(minor, 0.5f), 1.f, most);
+  probes.count = std::max(static_cast<int>(2.f * aspect - 1.f + 0x1p-10f), 1);
+  const float length = major - minor;
+  if (probes.count == 1) return probes;
+  const float angle = 0.5f * std::atan2(2.f * b, c - a);
+  probes.reach = {length * std::cos(angle) / width, length * std::sin(angle) / height};
+  probes.spread = 0.5f * major / length;
+  return probes;
 }
 
 Rgba HostTexture::filter_level(float u, float v, int level, const HostLookup& points) const {

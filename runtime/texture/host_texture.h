@@ -25,6 +25,7 @@ struct HostLookup {
   TextureFilter filter = TextureFilter::linear;
   AddressMode u_mode = AddressMode::periodic;
   AddressMode v_mode = AddressMode::periodic;
+  int max_anisotropy = 1;
 };
 
 /// An image too large to be resident, sampled as sampling.h says from tiles that
@@ -49,11 +50,12 @@ class HostTexture {
 
  private:
   struct Taps;
+  struct Probes;
   Rgba sample(const HostLookup& points, int lane) const;
   Rgba filter_level(float u, float v, int level, const HostLookup& points) const;
   Rgba gather(const Taps& across, const Taps& up, int level) const;
   void read_texels(int level, int x0, int x1, int y0, int y1, Rgba* out) const;
-  float level_of_detail(const HostLookup& points, int lane) const;
+  Probes find_probes(const HostLookup& points, int lane) const;
 
   std::shared_ptr<TileCache> cache_;
   std::shared_ptr<TileCache::File> file_;

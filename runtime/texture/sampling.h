@@ -17,10 +17,28 @@
 /// image is: the edge texel (constant, clamp), the texel modulo the width (periodic),
 /// the reflected texel, -1 being 0 and -2 being 1 (mirror).
 ///
-/// Level. With the footprint (dudx, dvdx), (dudy, dvdy) and level 0 of w x h texels,
-/// rho^2 = max((dudx w)^2 + (dvdx h)^2, (dudy w)^2 + (dvdy h)^2), isotropic by the larger
-/// axis; lambda = log2(rho) between 0 and the last level (NaN counts as 0). The result
-/// is the linear blend of the levels floor(lambda) and floor(lambda) + 1.
+/// Footprint. In texels of level 0, which is w x h, a pixel has the axes X = (dudx w,
+/// dvdx h) and Y = (dudy w, dvdy h), each number first bounded to [-1024, 1024] uv; a
+/// footprint with a NaN counts as none. The circle through them is an ellipse with half
+/// axes major >= minor, the singular values of [X Y]. It is read as Feline does
+/// (McCormack, Perry, Farkas, Jouppi, SIGGRAPH 1999): by probes as wide as the minor axis
+/// along the major one. With A the largest anisotropy allowed:
+///
+///   width   r = minor; beyond an anisotropy of A the two halves of the error are shared
+///           out: major' = (major + A minor) / 2 and r = major' / A stand for the axes
+///   level   k = floor(log2(max(r, 1))), at most the last; the blend of the levels k and
+///           k + 1 by t = r / 2^k - 1 (none on the last level): linear in the width, at
+///           most 0.09 from log2(r) and without a logarithm
+///   probes  a = major / max(r, 1/2) in [1, A], n = max(1, floor(2 a - 1 + 1/1024)):
+///           the last term keeps whole ratios, which are common, from rounding either way
+///   places  p (major - r) along the major axis, p = (2 i + 1) / n - 1 for i in 0 .. n - 1
+///   weights exp(-2 (p major / (2 (major - r)))^2) over their sum
+///
+/// A = 1 is trilinear filtering by the mean of the axes. Numbers of probes, blend and weights
+/// are OpenImageIO's (texturesys.cpp, 2.4: compute_miplevels, compute_ellipse_sampling,
+/// anisotropic_aspect), so that a look keeps its sharpness between renderers that use it
+/// and this one; Feline's paper has flatter weights. Unlike there, the ellipse is that of
+/// texels, not of uv: on images that are not square the shape of a texel counts.
 ///
 /// Filters, on a level of w x h texels:
 ///
@@ -36,6 +54,9 @@
 ///            Catmull-Rom would interpolate but overshoot. Used on both levels.
 namespace nacre {
 
+inline constexpr int default_anisotropy = 32;
+inline constexpr int largest_anisotropy = 64;
+
 enum class TextureFilter { closest, linear, cubic };
 enum class AddressMode { constant, clamp, periodic, mirror };
 
@@ -44,14 +65,16 @@ struct TextureModes {
   TextureFilter filter = TextureFilter::linear;
   AddressMode u = AddressMode::periodic;
   AddressMode v = AddressMode::periodic;
+  int max_anisotropy = 1;  ///< 1 .. largest_anisotropy.
 };
 constexpr std::uint32_t pack_modes(TextureModes modes) {
   return static_cast<std::uint32_t>(modes.filter) | static_cast<std::uint32_t>(modes.u) << 4 |
-         static_cast<std::uint32_t>(modes.v) << 8;
+         static_cast<std::uint32_t>(modes.v) << 8 |
+         static_cast<std::uint32_t>(modes.max_anisotropy) << 12;
 }
 constexpr TextureModes unpack_modes(std::uint32_t packed) {
   return {static_cast<TextureFilter>(packed & 3u), static_cast<AddressMode>((packed >> 4) & 3u),
-          static_cast<AddressMode>((packed >> 8) & 3u)};
+          static_cast<AddressMode>((packed >> 8) & 3u), static_cast<int>(packed >> 12)};
 }
 
 }  // namespace nacre

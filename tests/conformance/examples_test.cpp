@@ -46,8 +46,7 @@ class ExampleDocuments : public ::testing::Test {
     ShaderOptions options;
     for (const FoundOutput& output : find_outputs(*document)) {
       if (!is_numeric(output.type)) continue;
-      const auto kernel =
-          system_->compile_outputs(*document, {output.name}, options, diagnostics);
+      const auto kernel = system_->compile_outputs(*document, {output.name}, options, diagnostics);
       ASSERT_NE(kernel, nullptr) << diagnostics.to_string();
       for (const float texel : host::bake_image(*kernel, 0, {.width = 8, .height = 8})) {
         EXPECT_TRUE(std::isfinite(texel)) << output.name;
@@ -58,8 +57,7 @@ class ExampleDocuments : public ::testing::Test {
       const auto kernels =
           system_->compile_material(*document, material.name, options, diagnostics);
       ASSERT_NE(kernels, nullptr) << diagnostics.to_string();
-      EXPECT_TRUE(kernels->evaluate.has_value() || kernels->emission.has_value())
-          << material.name;
+      EXPECT_TRUE(kernels->evaluate.has_value() || kernels->emission.has_value()) << material.name;
     }
     for (const Diagnostic& diagnostic : diagnostics.all()) {
       EXPECT_EQ(diagnostic.code, "missing-image") << diagnostic.to_string();

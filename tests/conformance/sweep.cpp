@@ -9,6 +9,15 @@ namespace nacre::testing {
 
 namespace {
 
+bool is_shader(Type type) {
+  return type == Type::surfaceshader || type == Type::displacementshader ||
+         type == Type::volumeshader || type == Type::lightshader;
+}
+
+}  // namespace
+
+namespace {
+
 /// Random numbers that the channel's name decides (FNV-1a).
 Random numbers_of(const Channel& channel) {
   std::uint64_t seed = 1469598103934665603ull;
@@ -48,13 +57,15 @@ Sweep::Sweep(const Library& library, const NodeDef& def) : def_(def), builder_(l
   for (const NodeDefInput& input : def.inputs) {
     if (!input.uniform && is_numeric(input.type))
       builder_.connect(node_, input.name, varying(input));
-    if (is_closure(input.type)) builder_.connect(node_, input.name, closure(input.type));
+    if (is_closure(input.type) || is_shader(input.type)) {
+      builder_.connect(node_, input.name, closure(input.type, std::string(input.name)));
+    }
   }
 }
 
 std::optional<Graph> Sweep::finish(const GraphOptions& options, Diagnostics& diagnostics) {
   const Type type = def_.outputs.front().type;
-  if (is_closure(type)) {
+  if (type == Type::bsdf || type == Type::edf) {
     const auto surface = builder_.add_node("ND_surface", "surface");
     builder_.connect(surface, type == Type::bsdf ? "bsdf" : "edf", node_);
     builder_.output("surfaceshader", surface);
@@ -88,10 +99,36 @@ GraphBuilder::Node Sweep::varying(const NodeDefInput& input) {
   return matrix;
 }
 
-GraphBuilder::Node Sweep::closure(Type type) {
-  if (type == Type::bsdf) return builder_.add_node("ND_oren_nayar_diffuse_bsdf", "bsdf");
-  if (type == Type::edf) return builder_.add_node("ND_uniform_edf", "edf");
-  return builder_.add_node("ND_absorption_vdf", "vdf");
+GraphBuilder::Node Sweep::closure(Type type, const std::string& name) {
+  const auto varies = [&](GraphBuilder::Node node, const char* input, Type of) {
+    builder_.connect(node, input, geomprop(of, name + '_' + input));
+    return node;
+  };
+  switch (type) {
+    case Type::bsdf: return builder_.add_node("ND_oren_nayar_diffuse_bsdf", name);
+    case Type::edf: return builder_.add_node("ND_uniform_edf", name);
+    case Type::vdf: {
+      const auto vdf = builder_.add_node("ND_anisotropic_vdf", name);
+      varies(vdf, "absorption", Type::vector3);
+      varies(vdf, "scattering", Type::vector3);
+      return varies(vdf, "anisotropy", Type::float_);
+    }
+    case Type::surfaceshader: {
+      const auto surface = builder_.add_node("ND_surface", name);
+      builder_.connect(surface, "bsdf", closure(Type::bsdf, name + "_bsdf"));
+      return varies(surface, "opacity", Type::float_);
+    }
+    case Type::displacementshader:
+      return varies(builder_.add_node("ND_displacement_vector3", name), "displacement",
+                    Type::vector3);
+    case Type::volumeshader: {
+      const auto volume = builder_.add_node("ND_volume", name);
+      builder_.connect(volume, "vdf", closure(Type::vdf, name + "_vdf"));
+      builder_.connect(volume, "edf", closure(Type::edf, name + "_edf"));
+      return volume;
+    }
+    default: return varies(builder_.add_node("ND_point_light", name), "position", Type::vector3);
+  }
 }
 
 std::vector<std::uint32_t> edge_values(const Channel& channel, bool wild, std::size_t count) {

@@ -15,13 +15,13 @@ class Sweep {
  public:
   Sweep(const Library& library, const NodeDef& def);
 
-  /// Every output of the nodedef; of a closure, a surface that has it.
+  /// Every output of the nodedef; of a BSDF or EDF, a surface that has it.
   std::optional<Graph> finish(const GraphOptions& options, Diagnostics& diagnostics);
 
  private:
   GraphBuilder::Node geomprop(Type type, const std::string& name);
   GraphBuilder::Node varying(const NodeDefInput& input);
-  GraphBuilder::Node closure(Type type);
+  GraphBuilder::Node closure(Type type, const std::string& name);
 
   const NodeDef& def_;
   GraphBuilder builder_;

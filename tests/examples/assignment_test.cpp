@@ -70,5 +70,30 @@ TEST_F(AssignMaterials, LooksHideMeshesAndGiveTokens) {
   EXPECT_NE(assign("/car/body", "").key(), assign("/bus", "").key());
 }
 
+/// Geometry Extensions, "Geometry Representation": /path/mesh/partition.
+TEST_F(AssignMaterials, PiecesOfAnObjectHaveNamesOfTheirOwn) {
+  const auto document = read_document_text(R"(<materialx version="1.39">
+    <surfacematerial name="M1" type="material"/>
+    <surfacematerial name="M2" type="material"/>
+    <surfacematerial name="M3" type="material"/>
+    <look name="l"><materialassign name="a" material="M1" geom="/car/body"/>
+      <materialassign name="b" material="M2" geom="/car/body/paint"/>
+      <materialassign name="c" material="M3" geom="/car/seat/paint"/></look>
+  </materialx>)",
+                                           "test.mtlx", {}, diagnostics_);
+  host::Scene scene;
+  for (const auto& [path, material] :
+       {std::pair{"/car/body", "paint"}, {"/car/body", "chrome"}, {"/car/seat", "paint"}}) {
+    host::Mesh& mesh = scene.meshes.emplace_back();
+    mesh.path = path;
+    mesh.object_name = std::string(path).substr(5);
+    mesh.material_name = material;
+  }
+  const auto assignments = assign_materials(*document, scene, {}, diagnostics_);
+  EXPECT_EQ(assignments[0].material, "M2");
+  EXPECT_EQ(assignments[1].material, "M1");
+  EXPECT_EQ(assignments[2].material, "M1");  // It is whole: it has no partition.
+}
+
 }  // namespace
 }  // namespace nacre::tool

@@ -105,6 +105,30 @@ TEST_F(Looks, TheNearestAssignmentWinsThenTheLast) {
   EXPECT_TRUE(diagnostics_.all().empty()) << diagnostics_.to_string();
 }
 
+TEST(Assignments, ThatAreNotExclusiveLetOthersThrough) {
+  Diagnostics diagnostics;
+  const auto document = document_of(R"(
+    <surfacematerial name="M" type="material"/>
+    <look name="l">
+      <materialassign name="a" material="A" geom="/"/>
+      <materialassign name="b" material="B" geom="/x"/>
+      <materialassign name="c" material="C" geom="/x" exclusive="false"/>
+      <materialassign name="d" material="D" geom="/x/y" exclusive="false"/>
+      <materialassign name="e" material="E" geom="/x" exclusive="false"/>
+    </look>)",
+                                    diagnostics);
+  const Look look = find_looks(*document, diagnostics).at(0);
+  const GeometryRules rules(*document, diagnostics);
+  const auto names = [&](std::string_view geometry) {
+    std::string text;
+    for (const Assignment* each : rules.materials_of(look, geometry)) text += each->material;
+    return text;
+  };
+  EXPECT_EQ(names("/x/y"), "DECB");
+  EXPECT_EQ(names("/x"), "ECB");
+  EXPECT_EQ(names("/z"), "A");
+}
+
 TEST_F(Looks, CollectionsIncludeThenExclude) {
   EXPECT_EQ(material(1, "/a/g1"), "M3");
   EXPECT_EQ(material(1, "/b/g4"), "M3");
@@ -127,12 +151,12 @@ TEST_F(Looks, VisibilityWithoutATypeIsTheStrongest) {
 }
 
 TEST_F(Looks, PropertiesComeFromSetsAndAssignments) {
-  EXPECT_EQ(rules_.property_of(looks_[0], "/a/g1", "twosided")->ints.at(0), 1);
-  EXPECT_EQ(rules_.property_of(looks_[1], "/a/g1", "twosided")->ints.at(0), 0);
-  EXPECT_EQ(rules_.property_of(looks_[0], "/a/g1", "matte")->ints.at(0), 1);
+  EXPECT_EQ(rules_.property_of(looks_[0], "/a/g1", "twosided")->value.ints.at(0), 1);
+  EXPECT_EQ(rules_.property_of(looks_[1], "/a/g1", "twosided")->value.ints.at(0), 0);
+  EXPECT_EQ(rules_.property_of(looks_[0], "/a/g1", "matte")->value.ints.at(0), 1);
   EXPECT_EQ(rules_.property_of(looks_[0], "/a/g2", "matte"), nullptr);
   EXPECT_EQ(rules_.property_of(looks_[0], "/a/g2", "depth"), nullptr);
-  EXPECT_EQ(rules_.property_of(looks_[0], "/a/g2", "depth", "rmanris")->floats.at(0), 3.0f);
+  EXPECT_EQ(rules_.property_of(looks_[0], "/a/g2", "depth", "rmanris")->value.floats.at(0), 3.0f);
 }
 
 TEST_F(Looks, GeometryHasTokensAndProperties) {

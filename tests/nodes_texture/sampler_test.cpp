@@ -61,14 +61,16 @@ class SamplerTest : public testing::Test {
                                .modes = mode,
                                .channels = channels,
                                .otherwise = {fallback[0], fallback[1], fallback[2], fallback[3]}};
-      return sample_images(recorder, textures.find(path_, ""), lookup);
+      TextureSources sources = textures.find(path_, "");
+      sources.max_anisotropy = mode.max_anisotropy;
+      return sample_images(recorder, sources, lookup);
     });
   }
 
   Rgba64 exact(const LookupPoints& points, std::size_t i, const TextureModes& mode,
                double shift_u = 0, double shift_v = 0) const {
     return reference_->sample(points.u[i] + shift_u, points.v[i] + shift_v, points.footprint(i),
-                              {mode.filter, mode.u, mode.v},
+                              {mode.filter, mode.u, mode.v, mode.max_anisotropy},
                               {fallback[0], fallback[1], fallback[2], fallback[3]});
   }
 
@@ -136,9 +138,25 @@ TEST_F(SamplerTest, FootprintsOfEveryFormatFilterAndMode) {
       const LookupPoints points = random_points(1500, width, height, 3);
       for (const TextureFilter filter : filters) {
         for (const AddressMode mode : modes) {
-          // Besides: 1.1e-6 of the level of detail, its rounding, and that of coarser levels.
+          // Besides: the rounding of the blend, and that of coarser levels.
           expect_close(points, {filter, mode, mode},
                        position_error(width, height) + format.level_step + 3e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(SamplerTest, LongFootprintsTakeSeveralProbes) {
+  for (const Format& format : {formats[0], formats[2], formats[6]}) {
+    write(format, 61, 33);
+    const LookupPoints points = random_points(300, 61, 33, 7);
+    for (const TextureFilter filter : filters) {
+      for (const AddressMode mode : modes) {
+        for (const int most : {2, 5, 32}) {
+          // Besides: half an ulp of a position of up to 3 images, at each probe.
+          expect_close(points, {filter, mode, mode, most},
+                       2 * position_error(61, 33) + format.level_step + 3e-6);
         }
       }
     }
@@ -170,9 +188,12 @@ TEST_F(SamplerTest, FootprintsOfAnySize) {
   without.add(0.3f, 0.7f);
   without.add(0.3f, 0.7f);
   TextureStore store;
-  const auto values = record(store, {}).run(points);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    EXPECT_LE(distance(values[i], exact(without, i, {})), 1e-5) << i;
+  for (const int most : {1, 32}) {
+    const TextureModes filtering{.max_anisotropy = most};
+    const auto values = record(store, filtering).run(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_LE(distance(values[i], exact(without, i, filtering)), 2e-5) << i << ' ' << most;
+    }
   }
 }
 
@@ -210,7 +231,8 @@ TEST_F(SamplerTest, FlatImagesAreExactlyFlat) {
     path_ = folder_.file(std::string("flat") + format.file);
     ASSERT_TRUE(write_image(path_, image, options));
     TextureStore store;
-    for (const auto& value : record(store, {}).run(random_points(500, 20, 12, 6))) {
+    for (const auto& value :
+         record(store, {.max_anisotropy = 8}).run(random_points(500, 20, 12, 6))) {
       for (std::size_t c = 0; c < static_cast<std::size_t>(format.channels); ++c) {
         ASSERT_EQ(value[c], 1.0f) << format.name;
       }
@@ -222,13 +244,18 @@ TEST_F(SamplerTest, HostGivesWhatIsResident) {
   for (const Format& format : formats) {
     write(format, 61, 33);
     LookupPoints points = edge_points(61, 33);
+    // Several probes on level 0: coarser ones the cache rounds otherwise.
+    for (float turn = 0; turn < 6.3f; turn += 0.1f) {
+      const std::array footprint{6 * std::cos(turn) / 61, 6 * std::sin(turn) / 33, 0.01f, 0.0f};
+      points.add(turn - 3, 0.3f + turn, footprint);
+    }
     for (const TextureFilter filter : filters) {
       for (const AddressMode mode : modes) {
         TextureOptions none_resident;
         none_resident.budget = 0;
         TextureStore resident;
         TextureStore host(none_resident);
-        const TextureModes both{filter, mode, mode};
+        const TextureModes both{filter, mode, mode, 8};
         const auto a = record(resident, both).run(points);
         const RecordedLookup on_host = record(host, both);
         const auto b = on_host.run(points);
@@ -263,6 +290,7 @@ TEST_F(SamplerTest, DerivativeIsThatOfTheFilter) {
     const Float4 value = sample_images(recorder, textures.find(path_, ""), {.uv = uv});
     return Float4{footprint_derivative(value.x, 0), footprint_derivative(value.x, 1), 0.0f, 0.0f};
   });
+  const TextureModes filtering{.max_anisotropy = default_anisotropy};
   for (const float d : {0.01f, 0.2f}) {
     LookupPoints points;
     for (float u = -1.0f; u < 2.0f; u += 0.0713f) points.add(u, 0.37f, {d, 0, 0, 2 * d});
@@ -270,9 +298,11 @@ TEST_F(SamplerTest, DerivativeIsThatOfTheFilter) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       constexpr double step = 1e-6;
       const double along_u =
-          (exact(points, i, {}, step)[0] - exact(points, i, {}, -step)[0]) / (2 * step);
+          (exact(points, i, filtering, step)[0] - exact(points, i, filtering, -step)[0]) /
+          (2 * step);
       const double along_v =
-          (exact(points, i, {}, 0, step)[0] - exact(points, i, {}, 0, -step)[0]) / (2 * step);
+          (exact(points, i, filtering, 0, step)[0] - exact(points, i, filtering, 0, -step)[0]) /
+          (2 * step);
       EXPECT_NEAR(values[i][0], d * along_u, 1e-3 * d) << points.u[i];
       EXPECT_NEAR(values[i][1], 2 * d * along_v, 2e-3 * d) << points.u[i];
     }

@@ -33,7 +33,8 @@ class TilesTest : public testing::Test {
   Rgba64 exact(const std::string& name, const LookupPoints& points, std::size_t i) const {
     const auto tile = ReferenceSampler::open(folder_.file(name));
     if (!tile) return {fallback[0], fallback[1], fallback[2], fallback[3]};
-    const ReferenceModes clamp{TextureFilter::linear, AddressMode::clamp, AddressMode::clamp};
+    const ReferenceModes clamp{TextureFilter::linear, AddressMode::clamp, AddressMode::clamp,
+                               default_anisotropy};
     const double u = points.u[i];
     const double v = points.v[i];
     return tile->sample(u - std::floor(u), v - std::floor(v), points.footprint(i), clamp, {});

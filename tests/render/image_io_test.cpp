@@ -21,11 +21,11 @@ Film gradient() {
   return film;
 }
 
-std::vector<float> read_back(const std::string& path) {
+std::vector<float> read_back(const std::string& path, int channels = 3) {
   const auto in = OIIO::ImageInput::open(path);
   if (!in) return {};
-  std::vector<float> v(static_cast<std::size_t>(in->spec().width * in->spec().height * 3));
-  in->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, v.data());
+  std::vector<float> v(static_cast<std::size_t>(in->spec().width * in->spec().height * channels));
+  in->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, v.data());
   return v;
 }
 
@@ -70,6 +70,27 @@ TEST(WriteImage, PngIsToneMappedSrgb) {
   EXPECT_EQ(v[0], 1.f);
   EXPECT_EQ(std::lround(255 * v[3]), 193);
   EXPECT_EQ(v[6], 0.f);
+}
+
+// Alpha 128 / 255 in 8 bits; sRGB of 0.5 is 0.73536 (IEC 61966-2-1), 187.5 / 255.
+TEST(WriteImage, AlphaIsAFourthChannel) {
+  const TemporaryFolder folder;
+  Film film(2, 1, true);
+  film.mean(0, 0) = {0.25f, 0.125f, 0.f};
+  film.set_alpha(0, 0, 0.5f);
+  film.set_alpha(1, 0, 0.f);
+  Diagnostics diagnostics;
+  ASSERT_TRUE(write_image(film, folder.file("a.exr"), {}, diagnostics));
+  EXPECT_EQ(read_back(folder.file("a.exr"), 4),
+            (std::vector<float>{0.25f, 0.125f, 0.f, 0.5f, 0.f, 0.f, 0.f, 0.f}));
+  ASSERT_TRUE(write_image(film, folder.file("a.png"), {.white = 0.f}, diagnostics));
+  OIIO::ImageSpec as_stored;
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);
+  const auto in = OIIO::ImageInput::open(folder.file("a.png"), &as_stored);
+  ASSERT_NE(in, nullptr);
+  std::vector<std::uint8_t> v(8);
+  ASSERT_TRUE(in->read_image(0, 0, 0, 4, OIIO::TypeDesc::UINT8, v.data()));
+  EXPECT_EQ(v, (std::vector<std::uint8_t>{188, 137, 0, 128, 0, 0, 0, 0}));
 }
 
 TEST(WriteImage, SameImageSameBytesAndNothingLeftBehind) {

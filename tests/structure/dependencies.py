@@ -23,6 +23,7 @@ JIT_STAGES = ("jit/document", "jit/graph", "jit/passes", "jit/llvm")
 
 # Start of an include from outside -> the folders that may have it.
 QUARANTINE = {
+    "OpenColorIO/": ("jit/ocio", "tests/ocio"),
     "benchmark/": ("bench",),
     "embree": ("examples",),
     "gtest/": ("tests",),

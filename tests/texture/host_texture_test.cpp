@@ -37,7 +37,8 @@ struct Lookups {
                       nullptr,
                       modes.filter,
                       modes.u,
-                      modes.v};
+                      modes.v,
+                      modes.max_anisotropy};
     if (!dudx.empty()) {
       lookup.dudx = dudx.data();
       lookup.dvdx = dvdx.data();
@@ -139,7 +140,10 @@ TEST_F(HostTextureTest, FootprintSelectsAndBlendsLevels) {
     lookups.dvdy.push_back(size * sign(random));
   }
   for (const TextureFilter filter : filters) {
-    EXPECT_LT(worst(*texture->host(), lookups, {filter}), 1e-4);
+    for (const int most : {1, 8}) {
+      const ReferenceModes modes{filter, AddressMode::periodic, AddressMode::periodic, most};
+      EXPECT_LT(worst(*texture->host(), lookups, modes), 1e-4);
+    }
   }
 }
 

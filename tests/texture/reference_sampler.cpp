@@ -111,31 +111,84 @@ const Rgba64& ReferenceSampler::texel(int level, int x, int y) const {
   return in.texels[static_cast<std::size_t>(y * in.width + x)];
 }
 
-double ReferenceSampler::level(const ReferenceFootprint& footprint) const {
-  const double x = std::hypot(footprint.dudx * width(0), footprint.dvdx * height(0));
-  const double y = std::hypot(footprint.dudy * width(0), footprint.dvdy * height(0));
-  const double lambda = std::log2(std::max(x, y));
-  return lambda > 0 ? std::min(lambda, static_cast<double>(levels() - 1)) : 0;
+/// By turning the axes until they are longest: no formula for eigenvectors.
+ReferenceSampler::Ellipse ReferenceSampler::ellipse(const ReferenceFootprint& footprint) const {
+  const auto bounded = [](double d) { return std::min(std::max(d, -1024.0), 1024.0); };
+  const double xu = bounded(footprint.dudx) * width(0);
+  const double xv = bounded(footprint.dvdx) * height(0);
+  const double yu = bounded(footprint.dudy) * width(0);
+  const double yv = bounded(footprint.dvdy) * height(0);
+  // What cos(s) X + sin(s) Y is; its length has one largest value for s in [0, pi).
+  const auto point = [&](double s) {
+    return std::array{std::cos(s) * xu + std::sin(s) * yu, std::cos(s) * xv + std::sin(s) * yv};
+  };
+  const auto length = [&](double s) { return std::hypot(point(s)[0], point(s)[1]); };
+  const double pi = std::acos(-1.0);
+  double best = 0;
+  for (double s = 0; s < pi; s += pi / 64) {
+    if (length(s) > length(best)) best = s;
+  }
+  double low = best - pi / 64;
+  double high = best + pi / 64;
+  for (int i = 0; i < 100; ++i) {
+    const double left = low + (high - low) * 0.382;
+    const double right = low + (high - low) * 0.618;
+    (length(left) < length(right) ? low : high) = length(left) < length(right) ? left : right;
+  }
+  best = (low + high) / 2;
+  return {length(best), length(best + pi / 2), std::atan2(point(best)[1], point(best)[0])};
 }
 
 Rgba64 ReferenceSampler::sample(double u, double v, const ReferenceFootprint& footprint,
                                 const ReferenceModes& modes, const Rgba64& default_value) const {
   if (outside(u, modes.u) || outside(v, modes.v)) return default_value;
-  u = address(u, modes.u);
-  v = address(v, modes.v);
   if (modes.filter == TextureFilter::closest) {
-    const int x = std::min(static_cast<int>(u * width(0)), width(0) - 1);
-    const int y = std::min(static_cast<int>(v * height(0)), height(0) - 1);
+    const int x = std::min(static_cast<int>(address(u, modes.u) * width(0)), width(0) - 1);
+    const int y = std::min(static_cast<int>(address(v, modes.v) * height(0)), height(0) - 1);
     return texel(0, x, y);
   }
-  const double lambda = level(footprint);
-  const int fine = static_cast<int>(lambda);
-  const Rgba64 near = sample_level(u, v, fine, modes);
-  const Rgba64 far = sample_level(u, v, std::min(fine + 1, levels() - 1), modes);
-  Rgba64 result;
-  for (std::size_t c = 0; c < 4; ++c) {
-    result[c] = (1 - (lambda - fine)) * near[c] + (lambda - fine) * far[c];
+  Ellipse axes;
+  const double sum = footprint.dudx + footprint.dvdx + footprint.dudy + footprint.dvdy;
+  if (!std::isnan(sum)) axes = ellipse(footprint);
+  double narrow = axes.minor;
+  if (axes.major / axes.minor > modes.max_anisotropy) {
+    axes.major = (axes.major + axes.minor * modes.max_anisotropy) / 2;
+    narrow = axes.major / modes.max_anisotropy;
   }
+  const double aspect = axes.major / std::max(narrow, 0.5);
+  const int probes = std::max(
+      1, static_cast<int>(2 * std::min<double>(aspect, modes.max_anisotropy) - 1 + 1.0 / 1024));
+  if (probes == 1) return sample_levels(u, v, narrow, modes);
+  Rgba64 result{};
+  double weights = 0;
+  for (int i = 0; i < probes; ++i) {
+    const double p = (2.0 * i + 1) / probes - 1;
+    const double way = p * (axes.major - narrow);
+    const double x = p * axes.major / (2 * (axes.major - narrow));
+    const double weight = std::exp(-2 * x * x);
+    const Rgba64 value = sample_levels(u + way * std::cos(axes.angle) / width(0),
+                                       v + way * std::sin(axes.angle) / height(0), narrow, modes);
+    weights += weight;
+    for (std::size_t c = 0; c < 4; ++c) result[c] += weight * value[c];
+  }
+  for (double& component : result) component /= weights;
+  return result;
+}
+
+Rgba64 ReferenceSampler::sample_levels(double u, double v, double narrow,
+                                       const ReferenceModes& modes) const {
+  u = address(u, modes.u);
+  v = address(v, modes.v);
+  int level = 0;
+  while (level + 1 < levels() && narrow >= 2) {
+    narrow /= 2;
+    ++level;
+  }
+  const Rgba64 near = sample_level(u, v, level, modes);
+  if (narrow <= 1 || level + 1 == levels()) return near;
+  const Rgba64 far = sample_level(u, v, level + 1, modes);
+  Rgba64 result;
+  for (std::size_t c = 0; c < 4; ++c) result[c] = (2 - narrow) * near[c] + (narrow - 1) * far[c];
   return result;
 }
 

@@ -22,6 +22,7 @@ struct ReferenceModes {
   TextureFilter filter = TextureFilter::linear;
   AddressMode u = AddressMode::periodic;
   AddressMode v = AddressMode::periodic;
+  int max_anisotropy = 1;
 };
 
 /// The oracle for every sampler: runtime/texture/sampling.h said again in double
@@ -37,8 +38,14 @@ class ReferenceSampler {
   Rgba64 sample(double u, double v, const ReferenceFootprint& footprint,
                 const ReferenceModes& modes, const Rgba64& default_value) const;
 
-  /// The level of detail of a footprint.
-  double level(const ReferenceFootprint& footprint) const;
+  /// Half axes, in texels, of the ellipse that a footprint is, and where the longer one
+  /// points: the angle from the u axis.
+  struct Ellipse {
+    double major = 0;
+    double minor = 0;
+    double angle = 0;
+  };
+  Ellipse ellipse(const ReferenceFootprint& footprint) const;
 
   int width(int level) const { return pyramid_[static_cast<std::size_t>(level)].width; }
   int height(int level) const { return pyramid_[static_cast<std::size_t>(level)].height; }
@@ -53,6 +60,7 @@ class ReferenceSampler {
     std::vector<Rgba64> texels;
   };
   static Level halved(const Level& fine);
+  Rgba64 sample_levels(double u, double v, double width, const ReferenceModes& modes) const;
   Rgba64 sample_level(double u, double v, int level, const ReferenceModes& modes) const;
 
   std::vector<Level> pyramid_;

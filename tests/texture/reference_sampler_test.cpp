@@ -1,9 +1,11 @@
 #include "tests/texture/reference_sampler.h"
 
+#include <OpenImageIO/texture.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "tests/texture/test_image.h"
 
@@ -107,18 +109,66 @@ TEST_F(ReferenceSamplerTest, FootprintOfTheWholeImageGivesItsMean) {
   double mean = 0;
   for (const float sample : image.samples) mean += sample / 256.0;
   const ReferenceSampler sampler = write(image);
-  EXPECT_NEAR(sampler.sample(0.3, 0.7, {1, 0, 0, 0}, {}, none)[0], mean, 1e-12);
-  EXPECT_NEAR(sampler.sample(0.3, 0.7, {0, 0, 0, 50}, {}, none)[0], mean, 1e-12);
+  EXPECT_NEAR(sampler.sample(0.3, 0.7, {1, 0, 0, 1}, {}, none)[0], mean, 1e-12);
+  EXPECT_NEAR(sampler.sample(0.3, 0.7, {0, 50, 50, 0}, {}, none)[0], mean, 1e-12);
 }
 
-TEST_F(ReferenceSamplerTest, LevelIsTheLogarithmOfTheLongerAxisInTexels) {
+TEST_F(ReferenceSamplerTest, EllipseHasTheSingularValuesOfTheFootprint) {
   const ReferenceSampler sampler = write(random_image(64, 32, 1, 255));
-  EXPECT_DOUBLE_EQ(sampler.level({4.0 / 64, 0, 0, 1.0 / 32}), 2);
-  EXPECT_DOUBLE_EQ(sampler.level({0, 0, 0, 8.0 / 32}), 3);
-  EXPECT_DOUBLE_EQ(sampler.level({3.0 / 64, 4.0 / 32, 0, 0}), std::log2(5));
-  EXPECT_DOUBLE_EQ(sampler.level({0.5 / 64, 0, 0, 0.5 / 32}), 0);
-  EXPECT_DOUBLE_EQ(sampler.level({100, 0, 0, 0}), 6);
-  EXPECT_DOUBLE_EQ(sampler.level({nan, nan, nan, nan}), 0);
+  const auto along_u = sampler.ellipse({4.0 / 64, 0, 0, 1.0 / 32});
+  EXPECT_NEAR(along_u.major, 4, 1e-12);
+  EXPECT_NEAR(along_u.minor, 1, 1e-7);
+  EXPECT_NEAR(std::sin(along_u.angle), 0, 1e-7);
+  const auto line = sampler.ellipse({3.0 / 64, 4.0 / 32, 0, 0});
+  EXPECT_NEAR(line.major, 5, 1e-12);
+  EXPECT_NEAR(line.minor, 0, 1e-6);
+  EXPECT_NEAR(std::tan(line.angle), 4.0 / 3, 1e-6);
+  // Sum of squares and product are the trace and determinant of X X^T + Y Y^T.
+  const auto skewed = sampler.ellipse({2.0 / 64, 1.0 / 32, -1.0 / 64, 3.0 / 32});
+  EXPECT_NEAR(skewed.major * skewed.major + skewed.minor * skewed.minor, 15, 1e-9);
+  EXPECT_NEAR(skewed.major * skewed.minor, 7, 1e-6);
+  EXPECT_NEAR(sampler.ellipse({1e30, 0, 0, 0}).major, 1024 * 64, 1e-6);
+}
+
+// On a square image the two filters are one: OpenImageIO computes the ellipse in uv.
+TEST_F(ReferenceSamplerTest, AnisotropicFilterIsOpenImageIos) {
+  const ReferenceSampler sampler = write(random_image(64, 64, 3, 255));
+  OIIO::TextureSystem* system = OIIO::TextureSystem::create(false);
+  system->attribute("automip", 1);
+  const OIIO::ustring file(folder_.file("a.exr"));
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> any(-1.0f, 1.0f);
+  int several = 0;
+  for (const int most : {1, 4, 16, 32}) {
+    OIIO::TextureOpt options;
+    options.swrap = OIIO::TextureOpt::WrapPeriodic;
+    options.twrap = OIIO::TextureOpt::WrapMirror;
+    options.interpmode = OIIO::TextureOpt::InterpBilinear;
+    options.anisotropic = most;
+    for (int i = 0; i < 500; ++i) {
+      const float u = any(random);
+      const float v = any(random);
+      const float size = std::exp2(5 * any(random) - 4);
+      const float flat = std::exp2(-2.5f + 2.5f * any(random));
+      const float turn = 4 * any(random);
+      const float dudx = size * std::cos(turn);
+      const float dvdx = size * std::sin(turn);
+      const float dudy = -flat * dvdx + 0.1f * dudx;
+      const float dvdy = flat * dudx + 0.1f * dvdx;
+      std::array<float, 3> theirs{};
+      ASSERT_TRUE(
+          system->texture(file, options, u, 1 - v, dudx, -dvdx, dudy, -dvdy, 3, theirs.data()));
+      const ReferenceModes modes{TextureFilter::linear, AddressMode::periodic, AddressMode::mirror,
+                                 most};
+      const Rgba64 ours = sampler.sample(u, v, {dudx, dvdx, dudy, dvdy}, modes, none);
+      // Its arc tangent and exponential are the fast ones.
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(ours[c], theirs[c], 3e-4) << i;
+      const auto ellipse = sampler.ellipse({dudx, dvdx, dudy, dvdy});
+      several += ellipse.major > 1.5 * std::max(ellipse.minor, 0.5);
+    }
+  }
+  EXPECT_GT(several, 500);
+  OIIO::TextureSystem::destroy(system);
 }
 
 }  // namespace

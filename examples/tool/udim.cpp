@@ -1,0 +1,115 @@
+#include "examples/tool/udim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+
+#include "jit/document/nodedef.h"
+#include "runtime/texture/tile_set.h"
+
+namespace nacre::tool {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<UdimTile> parse_tile(std::string_view text) {
+  int number = 0;
+  const char* end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || last != end || number < 1001 || number > 9999) return {};
+  return UdimTile{(number - 1001) % 10, (number - 1001) / 10};
+}
+
+void add_tile(std::vector<UdimTile>& tiles, UdimTile tile) {
+  if (std::find(tiles.begin(), tiles.end(), tile) == tiles.end()) tiles.push_back(tile);
+}
+
+/// Adds the tiles of a list; false after an error.
+bool add_list(std::string_view text, const SourceLocation& where, std::vector<UdimTile>& tiles,
+              Diagnostics& diagnostics) {
+  for (const std::string_view number : split_list(text)) {
+    const auto tile = parse_tile(number);
+    if (!tile) {
+      diagnostics.error("bad-udim", where, "this is not the number of a tile", "1001 to 9999",
+                        fmt::format("'{}'", number));
+      return false;
+    }
+    add_tile(tiles, *tile);
+  }
+  return true;
+}
+
+bool add_udim_sets(const Document& document, std::vector<UdimTile>& tiles,
+                   Diagnostics& diagnostics) {
+  for (const Element& info : document.root().children()) {
+    if (info.category() != "geominfo") continue;
+    for (const Element& property : info.children()) {
+      if (property.name() != "udimset") continue;
+      if (!add_list(property.attribute("value"), location(property), tiles, diagnostics)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void add_files(const Element& input, const std::vector<std::string>& search_paths,
+               std::vector<UdimTile>& tiles) {
+  const std::string name =
+      std::string(input.inherited_attribute("fileprefix")) + std::string(input.attribute("value"));
+  std::vector<fs::path> folders{fs::path(input.document().file_of(input)).parent_path()};
+  folders.insert(folders.end(), search_paths.begin(), search_paths.end());
+  for (const fs::path& folder : folders) {
+    Diagnostics ignored;
+    const auto files = find_tiles((folder / name).string(), {}, ignored);
+    if (!files) continue;
+    for (const TileFile& file : *files) {
+      const bool has_number = file.u >= 0 && file.u <= 9 && file.v >= 0 && file.v <= 899;
+      if (has_number) add_tile(tiles, {file.u, file.v});
+    }
+    return;
+  }
+}
+
+void add_all_files(const Element& element, const std::vector<std::string>& search_paths,
+                   std::vector<UdimTile>& tiles) {
+  for (const Element& child : element.children()) {
+    if (child.attribute("type") == "filename" && has_tile_token(child.attribute("value"))) {
+      add_files(child, search_paths, tiles);
+    }
+    add_all_files(child, search_paths, tiles);
+  }
+}
+
+}  // namespace
+
+std::string UdimTile::number() const { return std::to_string(1001 + u + 10 * v); }
+
+std::vector<UdimTile> read_tiles(std::string_view text, const Document& document,
+                                 const std::vector<std::string>& search_paths,
+                                 Diagnostics& diagnostics) {
+  if (text == "auto") return tiles_of(document, search_paths, diagnostics);
+  std::vector<UdimTile> tiles;
+  if (!add_list(text, {}, tiles, diagnostics)) return {};
+  return tiles;
+}
+
+std::vector<UdimTile> tiles_of(const Document& document,
+                               const std::vector<std::string>& search_paths,
+                               Diagnostics& diagnostics) {
+  std::vector<UdimTile> tiles;
+  if (!add_udim_sets(document, tiles, diagnostics)) return {};
+  if (tiles.empty()) add_all_files(document.root(), search_paths, tiles);
+  if (tiles.empty()) {
+    diagnostics.error("no-udim", {document.files().front(), 0, 0, {}},
+                      "the document says nothing of tiles",
+                      "a udimset, or files of a name with <UDIM>");
+  }
+  return tiles;
+}
+
+}  // namespace nacre::tool

@@ -1,0 +1,28 @@
+#include "jit/graph/source_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "runtime/program/program.h"
+
+namespace nacre {
+
+TableValues::TableValues(std::vector<float> values) : values_(std::move(values)) {
+  const std::array<std::uint64_t, 2> bits = hash(values_);
+  digest_ = fmt::format("{:016x}{:016x}", bits[1], bits[0]);
+}
+
+bool is_whole(const SourceTable& table) {
+  constexpr std::size_t most = std::size_t{1} << 28;
+  if (table.values == nullptr || table.channels < 1 || table.channels > 4) return false;
+  std::size_t count = table.channels;
+  for (const std::size_t size : table.size) {
+    if (size < 1 || size > most / count) return false;
+    count *= size;
+  }
+  return table.values->values().size() == count;
+}
+
+}  // namespace nacre

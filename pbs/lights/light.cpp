@@ -1,0 +1,40 @@
+#include "pbs/light.h"
+
+#include "pbs/edf.h"
+#include "runtime/node/geometry.h"
+#include "runtime/node/node_call.h"
+
+namespace nacre {
+
+LightPtr as_light(const ClosurePtr& closure) {
+  return std::dynamic_pointer_cast<const Light>(closure);
+}
+
+Light point_source(Recorder& recorder, Float3 position, Color3 power, Float decay_rate) {
+  const Float3 way = position - nacre::position(recorder, Space::world);
+  const Float distance = sqrt(dot(way, way));
+  const Float3 unit = way * (1.0f / distance);
+  const Bool apart = distance > 0.0f;
+  const Float falloff = pow(distance + 1.0f, decay_rate);
+  Light light;
+  light.intensity = power / Float3(falloff);
+  light.direction = {select(apart, unit.x, 0.0f), select(apart, unit.y, 0.0f),
+                     select(apart, unit.z, 0.0f)};
+  return light;
+}
+
+/// light: an EDF, times intensity * 2^exposure. MaterialX PBS 1.39, "light". Factors below
+/// zero, and NaN, count as zero.
+void record_closure_light(NodeCall& call) {
+  auto light = std::make_shared<Light>();
+  if (const EdfPtr edf = as_edf(call.closure("edf")); edf != nullptr) {
+    Recorder& recorder = call.recorder();
+    const View view{
+        .recorder = &recorder, .accuracy = call.accuracy(), .wo = view_direction(recorder)};
+    const Float factor = max(call.number("intensity") * exp2(call.number("exposure")), 0.0f);
+    light->intensity = edf->radiance(view) * Color3(factor);
+  }
+  call.set(std::move(light));
+}
+
+}  // namespace nacre

@@ -1,0 +1,64 @@
+#include "pbs/shader_channels.h"
+
+#include "pbs/displacement.h"
+#include "pbs/light.h"
+#include "pbs/volume.h"
+#include "runtime/node/geometry.h"
+
+namespace nacre {
+
+namespace {
+
+using Channels = std::vector<SliceOutput>;
+
+void add(Channels& channels, const std::string& name, Float3 v) {
+  channels.push_back({name + ".x", v.x.ref()});
+  channels.push_back({name + ".y", v.y.ref()});
+  channels.push_back({name + ".z", v.z.ref()});
+}
+
+void add(Channels& channels, const VdfPtr& vdf) {
+  const Vdf& medium = vdf == nullptr ? Vdf() : *vdf;
+  add(channels, "absorption", medium.absorption);
+  add(channels, "scattering", medium.scattering);
+  channels.push_back({"anisotropy", medium.anisotropy.ref()});
+}
+
+}  // namespace
+
+std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
+                                         const Recorded& value) {
+  Channels channels;
+  switch (value.type) {
+    case Type::vdf: add(channels, as_vdf(value.closure)); break;
+    case Type::volumeshader: {
+      const VolumePtr volume = as_volume(value.closure);
+      add(channels, volume == nullptr ? nullptr : volume->vdf);
+      Color3 emission(0.0f);
+      if (volume != nullptr && volume->edf != nullptr) {
+        const View view{
+            .recorder = &recorder, .accuracy = accuracy, .wo = view_direction(recorder)};
+        emission = volume->edf->radiance(view);
+      }
+      add(channels, "emission", emission);
+      break;
+    }
+    case Type::displacementshader: {
+      const DisplacementPtr displacement = as_displacement(value.closure);
+      add(channels, "offset", displacement == nullptr ? Float3(0.0f) : displacement->offset);
+      break;
+    }
+    case Type::lightshader: {
+      const LightPtr light = as_light(value.closure);
+      add(channels, "intensity", light == nullptr ? Color3(0.0f) : light->intensity);
+      if (light != nullptr && light->direction) {
+        add(channels, "direction", *light->direction);
+      }
+      break;
+    }
+    default: break;
+  }
+  return channels;
+}
+
+}  // namespace nacre
