@@ -116,46 +116,46 @@ std::optional<Value> each(Arguments a) {
   return floats<1>(a, f);
 }
 
-std::optional<Value> radians_(Arguments a) {
+std::optional<Value> glsl_radians(Arguments a) {
   return floats<1>(a, [](Float x) { return x * Float(pi / 180.0); });
 }
-std::optional<Value> degrees_(Arguments a) {
+std::optional<Value> glsl_degrees(Arguments a) {
   return floats<1>(a, [](Float x) { return x * Float(180.0 / pi); });
 }
-std::optional<Value> atan_(Arguments a) {
+std::optional<Value> glsl_atan(Arguments a) {
   if (a.size() == 1) return floats<1>(a, [](Float x) { return atan2(x, 1.0f); });
   return floats<2>(a, [](Float y, Float x) { return atan2(y, x); });
 }
-std::optional<Value> sinh_(Arguments a) {
+std::optional<Value> glsl_sinh(Arguments a) {
   return floats<1>(a, [](Float x) { return (exp(x) - exp(-x)) * 0.5f; });
 }
-std::optional<Value> cosh_(Arguments a) {
+std::optional<Value> glsl_cosh(Arguments a) {
   return floats<1>(a, [](Float x) { return (exp(x) + exp(-x)) * 0.5f; });
 }
-std::optional<Value> tanh_(Arguments a) {
+std::optional<Value> glsl_tanh(Arguments a) {
   return floats<1>(a, [](Float x) {
     const Float e = exp(-2.0f * abs(x));
     const Float size = (1.0f - e) / (1.0f + e);
     return select(x < 0.0f, -size, size);
   });
 }
-std::optional<Value> pow_(Arguments a) {
+std::optional<Value> glsl_pow(Arguments a) {
   return floats<2>(a, [](Float x, Float y) { return pow(x, y); });
 }
-std::optional<Value> inversesqrt_(Arguments a) {
+std::optional<Value> glsl_inversesqrt(Arguments a) {
   return floats<1>(a, [](Float x) { return 1.0f / sqrt(x); });
 }
 
 // -- 8.3: common functions
 
-std::optional<Value> abs_(Arguments a) {
+std::optional<Value> glsl_abs(Arguments a) {
   struct {
     Float operator()(Float x) const { return abs(x); }
     Int operator()(Int x) const { return select(x < Int(0), -x, x); }
   } f;
   return numbers<1>(a, f);
 }
-std::optional<Value> sign_(Arguments a) {
+std::optional<Value> glsl_sign(Arguments a) {
   struct {
     Float operator()(Float x) const { return to_float(x > 0.0f) - to_float(x < 0.0f); }
     Int operator()(Int x) const { return to_int(Int(0) < x) - to_int(x < Int(0)); }
@@ -176,15 +176,15 @@ std::optional<Value> min_or_max(Arguments a, bool smaller) {
   };
   return numbers<2>(a, Function{smaller, natural});
 }
-std::optional<Value> min_(Arguments a) { return min_or_max(a, true); }
-std::optional<Value> max_(Arguments a) { return min_or_max(a, false); }
-std::optional<Value> clamp_(Arguments a) {
+std::optional<Value> glsl_min(Arguments a) { return min_or_max(a, true); }
+std::optional<Value> glsl_max(Arguments a) { return min_or_max(a, false); }
+std::optional<Value> glsl_clamp(Arguments a) {
   if (a.size() != 3) return none;
-  const std::optional<Value> low = max_(a.first(2));
+  const std::optional<Value> low = glsl_max(a.first(2));
   if (!low) return none;
-  return min_(std::array{*low, a[2]});
+  return glsl_min(std::array{*low, a[2]});
 }
-std::optional<Value> mix_(Arguments a) {
+std::optional<Value> glsl_mix(Arguments a) {
   if (a.size() != 3) return none;
   if (a[2].type.base != Base::boolean) {
     return floats<3>(a, [](Float x, Float y, Float t) { return x * (1.0f - t) + y * t; });
@@ -198,20 +198,20 @@ std::optional<Value> mix_(Arguments a) {
   }
   return result;
 }
-std::optional<Value> mod_(Arguments a) {
+std::optional<Value> glsl_mod(Arguments a) {
   return floats<2>(a, [](Float x, Float y) { return x - y * floor(x / y); });
 }
-std::optional<Value> step_(Arguments a) {
+std::optional<Value> glsl_step(Arguments a) {
   return floats<2>(a,
                    [](Float edge, Float x) { return select(x < edge, Float(0.0f), Float(1.0f)); });
 }
-std::optional<Value> smoothstep_(Arguments a) {
+std::optional<Value> glsl_smoothstep(Arguments a) {
   return floats<3>(a, [](Float low, Float high, Float x) {
     const Float t = min(max((x - low) / (high - low), 0.0f), 1.0f);
     return t * t * (3.0f - 2.0f * t);
   });
 }
-std::optional<Value> fma_(Arguments a) {
+std::optional<Value> glsl_fma(Arguments a) {
   return floats<3>(a, [](Float x, Float y, Float z) { return fma(x, y, z); });
 }
 
@@ -244,27 +244,27 @@ std::optional<Value> classify(Arguments a, F&& f) {
   }
   return result;
 }
-std::optional<Value> isnan_(Arguments a) {
+std::optional<Value> glsl_isnan(Arguments a) {
   return classify(a, [](Float x) { return is_nan(x); });
 }
-std::optional<Value> isinf_(Arguments a) {
+std::optional<Value> glsl_isinf(Arguments a) {
   return classify(a, [](Float x) { return abs(x) > Float(3.402823466e38f); });
 }
 
 // -- 8.5: geometric functions
 
-std::optional<Value> dot_(Arguments a) {
+std::optional<Value> glsl_dot(Arguments a) {
   return same_vectors(a, 2) ? std::optional(make(dot(a[0], a[1]))) : none;
 }
-std::optional<Value> length_(Arguments a) {
+std::optional<Value> glsl_length(Arguments a) {
   return same_vectors(a, 1) ? std::optional(make(sqrt(dot(a[0], a[0])))) : none;
 }
-std::optional<Value> distance_(Arguments a) {
+std::optional<Value> glsl_distance(Arguments a) {
   if (!same_vectors(a, 2)) return none;
   const Value between = sum(a[0], scaled(a[1], -1.0f));
   return make(sqrt(dot(between, between)));
 }
-std::optional<Value> normalize_(Arguments a) {
+std::optional<Value> glsl_normalize(Arguments a) {
   if (!same_vectors(a, 1)) return none;
   const Float size = sqrt(dot(a[0], a[0]));
   Value result{a[0].type, {}, {}};
@@ -273,7 +273,7 @@ std::optional<Value> normalize_(Arguments a) {
   }
   return result;
 }
-std::optional<Value> cross_(Arguments a) {
+std::optional<Value> glsl_cross(Arguments a) {
   if (!same_vectors(a, 2) || a[0].type.rows != 3) return none;
   Value result{a[0].type, {}, {}};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -284,11 +284,11 @@ std::optional<Value> cross_(Arguments a) {
   }
   return result;
 }
-std::optional<Value> reflect_(Arguments a) {
+std::optional<Value> glsl_reflect(Arguments a) {
   if (!same_vectors(a, 2)) return none;
   return sum(a[0], scaled(a[1], -2.0f * dot(a[1], a[0])));
 }
-std::optional<Value> refract_(Arguments a) {
+std::optional<Value> glsl_refract(Arguments a) {
   if (a.size() != 3 || !same_vectors(a.first(2), 2) || a[2].type != float_type) return none;
   const Float eta = a[2].number(0);
   const Float cosine = dot(a[1], a[0]);
@@ -297,7 +297,7 @@ std::optional<Value> refract_(Arguments a) {
   for (Ref& part : result.parts) part = select(k < 0.0f, Float(0.0f), Float(part)).ref();
   return result;
 }
-std::optional<Value> faceforward_(Arguments a) {
+std::optional<Value> glsl_faceforward(Arguments a) {
   if (!same_vectors(a, 3)) return none;
   const Bool keeps = dot(a[2], a[1]) < 0.0f;
   return scaled(a[0], select(keeps, Float(1.0f), Float(-1.0f)));
@@ -321,7 +321,7 @@ std::optional<Value> less_than(Arguments a) { return relation(a, "<"); }
 std::optional<Value> less_than_equal(Arguments a) { return relation(a, "<="); }
 std::optional<Value> greater_than(Arguments a) { return relation(a, ">"); }
 std::optional<Value> greater_than_equal(Arguments a) { return relation(a, ">="); }
-std::optional<Value> equal_(Arguments a) { return relation(a, "=="); }
+std::optional<Value> glsl_equal(Arguments a) { return relation(a, "=="); }
 std::optional<Value> not_equal(Arguments a) { return relation(a, "!="); }
 
 std::optional<Value> any_or_all(Arguments a, bool all) {
@@ -332,9 +332,9 @@ std::optional<Value> any_or_all(Arguments a, bool all) {
   }
   return make(result);
 }
-std::optional<Value> any_(Arguments a) { return any_or_all(a, false); }
-std::optional<Value> all_(Arguments a) { return any_or_all(a, true); }
-std::optional<Value> not_(Arguments a) {
+std::optional<Value> glsl_any(Arguments a) { return any_or_all(a, false); }
+std::optional<Value> glsl_all(Arguments a) { return any_or_all(a, true); }
+std::optional<Value> glsl_not(Arguments a) {
   if (a.size() != 1 || a[0].type.base != Base::boolean || !a[0].type.is_vector()) return none;
   Value result = a[0];
   for (std::size_t i = 0; i < result.parts.size(); ++i) result.parts[i] = (!a[0].truth(i)).ref();
@@ -349,74 +349,74 @@ std::optional<Value> ddx(Arguments a) {
 std::optional<Value> ddy(Arguments a) {
   return floats<1>(a, [](Float x) { return footprint_derivative(x, 1); });
 }
-std::optional<Value> fwidth_(Arguments a) {
+std::optional<Value> glsl_fwidth(Arguments a) {
   return floats<1>(
       a, [](Float x) { return abs(footprint_derivative(x, 0)) + abs(footprint_derivative(x, 1)); });
 }
 
 constexpr std::array<std::pair<std::string_view, Builtin>, 65> builtins{{
-    {"abs", abs_},
+    {"abs", glsl_abs},
     {"acos", each<acos>},
-    {"all", all_},
-    {"any", any_},
+    {"all", glsl_all},
+    {"any", glsl_any},
     {"asin", each<asin>},
-    {"atan", atan_},
+    {"atan", glsl_atan},
     {"ceil", each<ceil>},
-    {"clamp", clamp_},
+    {"clamp", glsl_clamp},
     {"cos", each<cos>},
-    {"cosh", cosh_},
-    {"cross", cross_},
+    {"cosh", glsl_cosh},
+    {"cross", glsl_cross},
     {"dFdx", ddx},
     {"dFdy", ddy},
-    {"degrees", degrees_},
+    {"degrees", glsl_degrees},
     {"determinant", matrix::determinant},
-    {"distance", distance_},
-    {"dot", dot_},
-    {"equal", equal_},
+    {"distance", glsl_distance},
+    {"dot", glsl_dot},
+    {"equal", glsl_equal},
     {"exp", each<exp>},
     {"exp2", each<exp2>},
-    {"faceforward", faceforward_},
+    {"faceforward", glsl_faceforward},
     {"floatBitsToInt", float_bits_to_int},
     {"floatBitsToUint", float_bits_to_uint},
     {"floor", each<floor>},
-    {"fma", fma_},
+    {"fma", glsl_fma},
     {"fract", each<fract>},
-    {"fwidth", fwidth_},
+    {"fwidth", glsl_fwidth},
     {"greaterThan", greater_than},
     {"greaterThanEqual", greater_than_equal},
     {"intBitsToFloat", bits_to_float},
     {"inverse", matrix::inverse},
-    {"inversesqrt", inversesqrt_},
-    {"isinf", isinf_},
-    {"isnan", isnan_},
-    {"length", length_},
+    {"inversesqrt", glsl_inversesqrt},
+    {"isinf", glsl_isinf},
+    {"isnan", glsl_isnan},
+    {"length", glsl_length},
     {"lessThan", less_than},
     {"lessThanEqual", less_than_equal},
     {"log", each<log>},
     {"log2", each<log2>},
     {"matrixCompMult", matrix::matrix_comp_mult},
-    {"max", max_},
-    {"min", min_},
-    {"mix", mix_},
-    {"mod", mod_},
-    {"normalize", normalize_},
-    {"not", not_},
+    {"max", glsl_max},
+    {"min", glsl_min},
+    {"mix", glsl_mix},
+    {"mod", glsl_mod},
+    {"normalize", glsl_normalize},
+    {"not", glsl_not},
     {"notEqual", not_equal},
     {"outerProduct", matrix::outer_product},
-    {"pow", pow_},
-    {"radians", radians_},
-    {"reflect", reflect_},
-    {"refract", refract_},
+    {"pow", glsl_pow},
+    {"radians", glsl_radians},
+    {"reflect", glsl_reflect},
+    {"refract", glsl_refract},
     {"round", each<round>},
     {"roundEven", each<round>},
-    {"sign", sign_},
+    {"sign", glsl_sign},
     {"sin", each<sin>},
-    {"sinh", sinh_},
-    {"smoothstep", smoothstep_},
+    {"sinh", glsl_sinh},
+    {"smoothstep", glsl_smoothstep},
     {"sqrt", each<sqrt>},
-    {"step", step_},
+    {"step", glsl_step},
     {"tan", each<tan>},
-    {"tanh", tanh_},
+    {"tanh", glsl_tanh},
     {"transpose", matrix::transpose},
     {"trunc", each<trunc>},
     {"uintBitsToFloat", bits_to_float},

@@ -153,7 +153,7 @@ class Lexer {
 
 std::uint32_t Sources::add(File file) {
   files_.push_back(std::move(file));
-  return static_cast<std::uint32_t>(files_.size() - 1);
+  return count() - 1;
 }
 
 std::vector<Token> lex(const Sources& sources, std::uint32_t file) {

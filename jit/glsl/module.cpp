@@ -1,40 +1,22 @@
 #include "jit/glsl/module.h"
 
-#include <algorithm>
-
 #include "jit/glsl/parse.h"
-#include "jit/glsl/prelude.h"
 
 namespace nacre::glsl {
 
-namespace {
+Module::Module(const std::shared_ptr<const Prelude>& prelude)
+    : sources_(std::shared_ptr<const Sources>(prelude, &prelude->sources())),
+      syntax_(prelude->syntax()) {}
 
-/// The prelude and a text as one run of tokens, so that the prelude's macros
-/// hold in the text; an include keeps the lines of the text as they are.
-std::vector<Token> tokens_after_prelude(Sources& sources, Sources::File text,
-                                        PreprocessOptions options, Diagnostics& diagnostics) {
-  for (const PreludeToken& token : prelude_tokens) {
-    options.tokens.emplace(token.name, token.text);
-  }
-  const std::uint32_t start =
-      sources.add({"<prelude>", std::string(prelude) + "#include \"<text>\"\n"});
-  const FindInclude find_others = options.find_include;
-  options.find_include = [&](const std::string& wanted,
-                             const std::string& from) -> std::optional<Sources::File> {
-    if (from == "<prelude>") return std::move(text);
-    return find_others ? find_others(wanted, from) : std::nullopt;
-  };
-  return preprocess(sources, start, options, diagnostics);
-}
-
-}  // namespace
-
-std::shared_ptr<const Module> Module::read(Sources::File text, const PreprocessOptions& options,
+std::shared_ptr<const Module> Module::read(const std::shared_ptr<const Prelude>& prelude,
+                                           Sources::File text, const PreprocessOptions& options,
                                            Diagnostics& diagnostics) {
-  auto module = std::shared_ptr<Module>(new Module);
+  auto module = std::shared_ptr<Module>(new Module(prelude));
   try {
+    Definitions definitions = prelude->definitions();
+    const std::uint32_t file = module->sources_.add(std::move(text));
     const std::vector<Token> tokens =
-        tokens_after_prelude(module->sources_, std::move(text), options, diagnostics);
+        preprocess(module->sources_, file, options, definitions, diagnostics);
     parse(tokens, module->sources_, diagnostics, module->syntax_);
   } catch (const Failure&) {
     return nullptr;
@@ -42,26 +24,22 @@ std::shared_ptr<const Module> Module::read(Sources::File text, const PreprocessO
   return module;
 }
 
-std::shared_ptr<const Module> Module::read_expression(Sources::File text,
+std::shared_ptr<const Module> Module::read_expression(const std::shared_ptr<const Prelude>& prelude,
+                                                      Sources::File text,
                                                       Diagnostics& diagnostics) {
-  const std::string name = text.name;
-  const int line = text.first_line;
-  auto module = std::shared_ptr<Module>(new Module);
+  auto module = std::shared_ptr<Module>(new Module(prelude));
   try {
+    Definitions definitions = prelude->definitions();
+    const std::uint32_t file = module->sources_.add(std::move(text));
     const std::vector<Token> tokens =
-        tokens_after_prelude(module->sources_, std::move(text), {}, diagnostics);
-    const auto is_prelude = [](const Token& token) { return token.place.file == 0; };
-    const auto split = std::find_if_not(tokens.begin(), tokens.end() - 1, is_prelude);
-    if (split == tokens.end() - 1) {
-      diagnostics.error("glsl-syntax", {name, line, 0, ""}, "the text is empty", "an expression");
+        preprocess(module->sources_, file, {}, definitions, diagnostics);
+    if (tokens.size() == 1) {
+      const Sources::File& empty = module->sources_.file(file);
+      diagnostics.error("glsl-syntax", {empty.name, empty.first_line, 0, ""}, "the text is empty",
+                        "an expression");
       return nullptr;
     }
-    std::vector<Token> before(tokens.begin(), split);
-    before.push_back(tokens.back());
-    before.back().kind = Token::Kind::end;
-    parse(before, module->sources_, diagnostics, module->syntax_);
-    const std::vector<Token> after(split, tokens.end());
-    module->expression_ = parse_expression(after, module->sources_, diagnostics, module->syntax_);
+    module->expression_ = parse_expression(tokens, module->sources_, diagnostics, module->syntax_);
   } catch (const Failure&) {
     return nullptr;
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "jit/glsl/preprocess.h"
+#include "jit/glsl/prelude.h"
 #include "jit/glsl/record.h"
 
 namespace nacre::glsl {
@@ -16,16 +16,17 @@ namespace nacre::glsl {
 /// made; may be shared between threads.
 ///
 /// Before the text stand the names that MaterialX's GLSL takes for granted
-/// (M_PI, mx_sin, mx_matrix_mul, ...); see prelude.h.
+/// (M_PI, mx_sin, mx_matrix_mul, ...): a Prelude, which a text shares with others.
 class Module {
  public:
   /// The name of the text is what diagnostics call it, and where its includes
   /// are looked for. Null, with a diagnostic, for what is not well-formed.
-  static std::shared_ptr<const Module> read(Sources::File text, const PreprocessOptions& options,
+  static std::shared_ptr<const Module> read(const std::shared_ptr<const Prelude>& prelude,
+                                            Sources::File text, const PreprocessOptions& options,
                                             Diagnostics& diagnostics);
   /// A lone expression, "a * sin(b)".
-  static std::shared_ptr<const Module> read_expression(Sources::File text,
-                                                       Diagnostics& diagnostics);
+  static std::shared_ptr<const Module> read_expression(
+      const std::shared_ptr<const Prelude>& prelude, Sources::File text, Diagnostics& diagnostics);
 
   /// The last function defined under that name, or null.
   const Function* function(std::string_view name) const;
@@ -40,7 +41,7 @@ class Module {
       Diagnostics& diagnostics, const RecordLimits& limits = {}) const;
 
  private:
-  Module() = default;
+  explicit Module(const std::shared_ptr<const Prelude>& prelude);
 
   Sources sources_;
   Syntax syntax_;

@@ -145,9 +145,9 @@ std::optional<long long> Parser::constant(const Expression& expression) const {
     return static_cast<std::int32_t>(expression.bits);
   }
   if (expression.kind == Expression::Kind::name && into_ != nullptr) {
-    for (const Statement::Variable& global : into_->globals) {
-      if (global.name == expression.text && global.constant && global.initial) {
-        return constant(*global.initial);
+    for (const auto& global : into_->globals) {
+      if (global->name == expression.text && global->constant && global->initial) {
+        return constant(*global->initial);
       }
     }
   }
@@ -188,7 +188,7 @@ void Parser::top_level() {
       error(place, "glsl-type", fmt::format("'{}' cannot be declared so", variable.name),
             "samplers as 'uniform sampler2D NAME;', nothing else as uniform");
     }
-    into_->globals.push_back(std::move(variable));
+    into_->globals.push_back(std::make_shared<const Statement::Variable>(std::move(variable)));
   }
 }
 

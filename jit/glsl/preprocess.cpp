@@ -13,25 +13,17 @@ namespace {
 
 constexpr int max_nesting = 64;
 
-struct Macro {
-  bool is_function = false;
-  std::vector<std::string_view> parameters;
-  std::vector<Token> body;
-};
-
 class Preprocessor {
  public:
-  Preprocessor(Sources& sources, const PreprocessOptions& options, Diagnostics& diagnostics)
-      : sources_(sources), options_(options), diagnostics_(diagnostics) {}
+  Preprocessor(Sources& sources, const PreprocessOptions& options, Definitions& definitions,
+               Diagnostics& diagnostics)
+      : sources_(sources),
+        options_(options),
+        diagnostics_(diagnostics),
+        macros_(definitions.macros),
+        tokens_(definitions.tokens) {}
 
   std::vector<Token> run(std::uint32_t file) {
-    for (const auto& [name, text] : options_.tokens) {
-      const std::uint32_t token_file = sources_.add({fmt::format("${}", name), text});
-      Macro macro;
-      macro.body = lex(sources_, token_file);
-      macro.body.pop_back();
-      macros_.insert_or_assign(sources_.keep(fmt::format("${}", name)), std::move(macro));
-    }
     read(file);
     Token end;  // Complaints about a missing rest point at what it should follow.
     end.place = output_.empty() ? Place{file, 1, 1} : output_.back().place;
@@ -260,8 +252,8 @@ class Preprocessor {
     std::string name(line[2].text);
     const std::size_t dollar = name.find('$');
     if (dollar != std::string::npos) {
-      const auto found = options_.tokens.find(name.substr(dollar + 1));
-      if (found != options_.tokens.end()) name = name.substr(0, dollar) + found->second;
+      const auto found = tokens_.find(std::string_view(name).substr(dollar + 1));
+      if (found != tokens_.end()) name = name.substr(0, dollar) + std::string(found->second);
     }
     std::optional<Sources::File> file;
     if (options_.find_include) {
@@ -359,7 +351,8 @@ class Preprocessor {
   Sources& sources_;
   const PreprocessOptions& options_;
   Diagnostics& diagnostics_;
-  std::map<std::string_view, Macro> macros_;
+  std::map<std::string_view, Macro>& macros_;
+  const std::map<std::string_view, std::string_view>& tokens_;
   std::set<std::string_view> expanding_;
   std::set<std::string, std::less<>> seen_;
   std::vector<Condition> conditions_;
@@ -375,9 +368,21 @@ class Preprocessor {
 
 }  // namespace
 
+void define_token(Sources& sources, Definitions& definitions, std::string_view name,
+                  std::string_view text) {
+  const std::string_view kept = sources.keep(fmt::format("${}", name));
+  const std::uint32_t file = sources.add({std::string(kept), std::string(text)});
+  Macro macro;
+  macro.body = lex(sources, file);
+  macro.body.pop_back();
+  definitions.macros.insert_or_assign(kept, std::move(macro));
+  definitions.tokens.insert_or_assign(kept.substr(1), sources.file(file).text);
+}
+
 std::vector<Token> preprocess(Sources& sources, std::uint32_t file,
-                              const PreprocessOptions& options, Diagnostics& diagnostics) {
-  return Preprocessor(sources, options, diagnostics).run(file);
+                              const PreprocessOptions& options, Definitions& definitions,
+                              Diagnostics& diagnostics) {
+  return Preprocessor(sources, options, definitions, diagnostics).run(file);
 }
 
 }  // namespace nacre::glsl

@@ -52,6 +52,7 @@ Recording::Target Recording::target_member(const Expression& expression) {
   }
   for (Target::Parts& alternative : result.alternatives) {
     std::vector<std::size_t> chosen;
+    chosen.reserve(parts.size());
     for (const std::size_t part : parts) chosen.push_back(alternative.parts[part]);
     alternative.parts = std::move(chosen);
   }
@@ -125,7 +126,7 @@ Value Recording::assign(const Expression& expression) {
     }
     value = *result;
   }
-  value = expect(std::move(value), to.type, expression.place);
+  value = expect(value, to.type, expression.place);
   write(to, value);
   return value;
 }

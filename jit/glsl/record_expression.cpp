@@ -58,7 +58,7 @@ Value Recording::evaluate(const Expression& expression) {
   error(expression.place, "glsl-syntax", "a list stands only where a variable is declared");
 }
 
-Value Recording::expect(Value value, const Type& type, Place place) {
+Value Recording::expect(const Value& value, const Type& type, Place place) {
   if (!converts(value.type, type)) {
     error(place, "glsl-type", "the types do not agree", to_string(type), to_string(value.type));
   }
@@ -67,11 +67,11 @@ Value Recording::expect(Value value, const Type& type, Place place) {
 
 Value Recording::name(const Expression& expression) {
   if (const Variable* variable = find(expression.text)) return variable->value;
-  for (const Statement::Variable& global : context_.syntax.globals) {
-    if (global.name != expression.text) continue;
-    if (global.type.base == Base::sampler) return uniform_sampler(global);
-    if (!global.initial || std::find(reading_globals_.begin(), reading_globals_.end(),
-                                     global.name) != reading_globals_.end()) {
+  for (const auto& global : context_.syntax.globals) {
+    if (global->name != expression.text) continue;
+    if (global->type.base == Base::sampler) return uniform_sampler(*global);
+    if (!global->initial || std::find(reading_globals_.begin(), reading_globals_.end(),
+                                      global->name) != reading_globals_.end()) {
       error(expression.place, "glsl-undefined",
             fmt::format("the global '{}' has no value", expression.text));
     }
@@ -79,8 +79,8 @@ Value Recording::name(const Expression& expression) {
     Frame alone;
     alone.first = variables_.size();
     frames_.push_back(alone);
-    reading_globals_.push_back(global.name);
-    Value value = initial_value(*global.initial, global.type);
+    reading_globals_.push_back(global->name);
+    Value value = initial_value(*global->initial, global->type);
     reading_globals_.pop_back();
     frames_.pop_back();
     return value;
@@ -213,6 +213,7 @@ Value Recording::conditional(const Expression& expression) {
 
 Value Recording::construct(const Expression& expression) {
   std::vector<Value> arguments;
+  arguments.reserve(expression.operands.size());
   for (const ExpressionPtr& operand : expression.operands) arguments.push_back(evaluate(*operand));
   const Type& type = expression.type;
   if (type.is_plain()) return construct_plain(expression, arguments);
@@ -273,7 +274,8 @@ Value Recording::construct_matrix(const Type& type, const Value& argument) const
     for (int row = 0; row < type.rows; ++row) {
       Ref part = Ref::literal(row == column ? 1.0f : 0.0f);
       if (argument.type.is_matrix() && row < argument.type.rows && column < argument.type.columns) {
-        part = argument.parts[static_cast<std::size_t>(column * argument.type.rows + row)];
+        part = argument.parts[static_cast<std::size_t>(column) * argument.type.rows +
+                              static_cast<std::size_t>(row)];
       } else if (argument.type.is_scalar() && row == column) {
         part = convert(argument.parts[0], argument.type.base, Base::number);
       }
@@ -289,7 +291,7 @@ Value Recording::initial_value(const Expression& expression, const Type& type) {
     if (type.length < 0 && value.type.is_array() && value.type.element() == type.element()) {
       return value;
     }
-    return expect(std::move(value), type, expression.place);
+    return expect(value, type, expression.place);
   }
   Expression made;
   made.kind = Expression::Kind::construct;
@@ -320,6 +322,7 @@ Value Recording::initial_value(const Expression& expression, const Type& type) {
 
 Value Recording::call_named(const Expression& expression) {
   std::vector<Value> arguments;
+  arguments.reserve(expression.operands.size());
   for (const ExpressionPtr& operand : expression.operands) arguments.push_back(evaluate(*operand));
   const Function* function = select_overload(expression, arguments);
   if (function == nullptr) {

@@ -72,7 +72,7 @@ class Recording {
   Target target_index(const Expression& expression);
   Value read(const Target& target) const;
   void write(const Target& target, const Value& value);
-  Value expect(Value value, const Type& type, Place place);
+  Value expect(const Value& value, const Type& type, Place place);
 
   // Statements (record_statement.cpp).
   void execute(const Statement& statement);

@@ -92,11 +92,11 @@ struct Function {
   bool stays_inline = false;
 };
 
-/// A text that was read.
+/// A text that was read. A copy shares what is in it, and more can be read into it.
 struct Syntax {
-  std::vector<std::unique_ptr<Struct>> structs;
-  std::vector<std::unique_ptr<Function>> functions;
-  std::vector<Statement::Variable> globals;
+  std::vector<std::shared_ptr<const Struct>> structs;
+  std::vector<std::shared_ptr<const Function>> functions;
+  std::vector<std::shared_ptr<const Statement::Variable>> globals;
   std::map<std::string_view, std::vector<const Function*>> by_name;
 };
 

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/diagnostic.h"
@@ -13,6 +15,11 @@ namespace nacre::glsl {
 /// The texts that tokens and syntax trees point into, by file. Never shrinks.
 class Sources {
  public:
+  Sources() = default;
+  /// With the files of another, which keep their numbers and must not grow any more.
+  explicit Sources(std::shared_ptr<const Sources> base)
+      : base_(std::move(base)), base_count_(base_->count()) {}
+
   struct File {
     std::string name;
     std::string text;
@@ -20,11 +27,16 @@ class Sources {
   };
   /// Keeps a file and returns its number.
   std::uint32_t add(File file);
-  const File& file(std::uint32_t number) const { return files_[number]; }
+  const File& file(std::uint32_t number) const {
+    return number < base_count_ ? base_->file(number) : files_[number - base_count_];
+  }
+  std::uint32_t count() const { return base_count_ + static_cast<std::uint32_t>(files_.size()); }
   /// Keeps a text that is of no file.
   std::string_view keep(std::string text) { return kept_.emplace_back(std::move(text)); }
 
  private:
+  std::shared_ptr<const Sources> base_;
+  std::uint32_t base_count_ = 0;
   std::deque<File> files_;
   std::deque<std::string> kept_;
 };

@@ -83,7 +83,9 @@ int part_count(const Type& type) {
 
 Base part_base(const Type& type, int index) {
   if (type.base != Base::structure) return type.base;
-  index %= element_parts(type);
+  const int parts = element_parts(type);
+  if (parts == 0) return Base::none;
+  index %= parts;
   for (const Struct::Member& member : type.structure->members) {
     const int count = part_count(member.type);
     if (index < count) return part_base(member.type, index);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 
 #include "jit/document/select.h"
 #include "jit/graph/check_parts.h"
@@ -129,8 +130,8 @@ class GraphBuild {
       graphs.push_back(at);
     }
     const Context* context = nullptr;
-    for (auto graph = graphs.rbegin(); graph != graphs.rend(); ++graph) {
-      context = resolver_.compound_context(**graph, context);
+    for (const Element* graph : std::views::reverse(graphs)) {
+      context = resolver_.compound_context(*graph, context);
     }
     return context;
   }

@@ -4,9 +4,9 @@
 
 namespace nacre {
 
-const GraphInput* GraphNode::input(std::string_view wanted) const {
+const GraphInput* GraphNode::input(std::string_view name) const {
   for (const GraphInput& candidate : inputs) {
-    if (candidate.name == wanted) return &candidate;
+    if (candidate.name == name) return &candidate;
   }
   return nullptr;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 #include <unordered_set>
 
 #include "jit/document/nodedef.h"
@@ -131,7 +132,7 @@ std::vector<Look> find_looks(const Document& document, Diagnostics& diagnostics)
     const std::vector<const Element*> chain = inheritance(element, diagnostics);
     Look& look = looks.emplace_back();
     look.name = element.name();
-    for (auto at = chain.rbegin(); at != chain.rend(); ++at) add_contents(**at, look);
+    for (const Element* at : std::views::reverse(chain)) add_contents(*at, look);
   }
   return looks;
 }

@@ -88,7 +88,7 @@ class Resolver {
     std::size_t operator()(const Key& key) const;
   };
   struct Frame {
-    Key key;
+    Key key{};
     std::uint32_t stage = 0;
     Key waiting_for{};
     Result result;

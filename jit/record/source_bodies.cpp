@@ -230,6 +230,9 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
 
 }  // namespace
 
+SourceBodies::SourceBodies(std::vector<fs::path> roots)
+    : roots_(std::move(roots)), prelude_(glsl::Prelude::read()) {}
+
 bool SourceBodies::record(const NodeSource& source, NodeCall& call) {
   const std::shared_ptr<const glsl::Module> module = module_of(source, call.diagnostics());
   if (module == nullptr) return false;
@@ -288,9 +291,10 @@ std::shared_ptr<const glsl::Module> SourceBodies::read(const NodeSource& source,
   const int line = source.where.line;
   if (source.file.empty()) {
     if (source.function.empty()) {
-      return glsl::Module::read_expression({where, with_names(source.text), line}, diagnostics);
+      return glsl::Module::read_expression(prelude_, {where, with_names(source.text), line},
+                                           diagnostics);
     }
-    return glsl::Module::read({where, source.text, line}, options, diagnostics);
+    return glsl::Module::read(prelude_, {where, source.text, line}, options, diagnostics);
   }
   if (source.function.empty()) {
     misfit(source, diagnostics, "the implementation names a file but no function",
@@ -304,7 +308,7 @@ std::shared_ptr<const glsl::Module> SourceBodies::read(const NodeSource& source,
                       "a file below the document's folder or a library's", source.file);
     return nullptr;
   }
-  return glsl::Module::read(std::move(*file), options, diagnostics);
+  return glsl::Module::read(prelude_, std::move(*file), options, diagnostics);
 }
 
 }  // namespace nacre

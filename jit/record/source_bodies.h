@@ -27,7 +27,7 @@ class SourceBodies {
   /// `roots`: folders in which included files are looked for after the folder of
   /// the including file and that of the document. Nothing outside the roots and
   /// the document's folder is read.
-  explicit SourceBodies(std::vector<std::filesystem::path> roots = {}) : roots_(std::move(roots)) {}
+  explicit SourceBodies(std::vector<std::filesystem::path> roots = {});
 
   /// Records the node and sets its outputs. False, with a diagnostic, for a
   /// text that cannot be read or does not fit the node.
@@ -42,6 +42,7 @@ class SourceBodies {
   std::shared_ptr<const glsl::Module> read(const NodeSource& source, Diagnostics& diagnostics);
 
   std::vector<std::filesystem::path> roots_;
+  std::shared_ptr<const glsl::Prelude> prelude_;
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<const glsl::Module>> modules_;
 };

@@ -60,7 +60,7 @@ std::string described(const glsl::Struct& type, std::size_t i, const std::string
 
 std::optional<SourceMisfit> member_misfit(const glsl::Struct& port, const glsl::Struct& found,
                                           std::size_t i, const std::string& path) {
-  const SourceMisfit misfit{described(port, i, path), described(found, i, path)};
+  SourceMisfit misfit{described(port, i, path), described(found, i, path)};
   if (i >= port.members.size() || i >= found.members.size()) return misfit;
   const glsl::Struct::Member& wanted = port.members[i];
   const glsl::Struct::Member& member = found.members[i];

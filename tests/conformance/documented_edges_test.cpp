@@ -125,6 +125,7 @@ class DocumentedEdges : public ::testing::TestWithParam<Backend> {
     options.compile.backend = GetParam();
     const auto graph =
         testing::Sweep(system_->library(), *def).finish(system_->graph_options({}), diagnostics_);
+    if (!graph) return {};
     const auto shader = system_->compile_outputs(*graph, options, diagnostics_);
     if (shader == nullptr) return {};
     const Program& program = shader->kernel.program();

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
+#include <ostream>
 #include <set>
 
 #include "examples/common/materialx_libraries.h"
@@ -23,10 +25,9 @@ enum class Cause : std::uint8_t {
   underflow,  ///< Only because a step vanishes that doesn't in double: 0 times infinity.
   rounding,   ///< Roundings do: of a sum that is 0 or not, times infinity; across a comparison.
 };
-void PrintTo(Cause cause, std::ostream* out) {
-  *out << (cause == Cause::overflow    ? "overflow"
-           : cause == Cause::underflow ? "underflow"
-                                       : "rounding");
+std::ostream& operator<<(std::ostream& out, Cause cause) {
+  static constexpr std::array<const char*, 3> names{"overflow", "underflow", "rounding"};
+  return out << names[static_cast<std::size_t>(cause)];
 }
 using Causes = std::map<std::string_view, std::set<Cause>>;
 
@@ -166,6 +167,7 @@ class Edges : public ::testing::Test {
 
     std::vector<Enclosure> enclose(testing::FloatRange range) const {
       std::vector<std::uint32_t> values;
+      values.reserve(program.inputs.size());
       for (const Channel& channel : program.inputs) {
         values.push_back(inputs.at(channel.name)[index]);
       }

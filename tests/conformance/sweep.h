@@ -25,7 +25,7 @@ class Sweep {
 
   const NodeDef& def_;
   GraphBuilder builder_;
-  GraphBuilder::Node node_;
+  GraphBuilder::Node node_{};
 };
 
 /// Arrays by channel, as the four-byte elements that kernels read and write.

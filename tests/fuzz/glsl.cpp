@@ -41,7 +41,7 @@ glsl::Value unknown(Recorder& recorder, const glsl::Type& type) {
 
 void run_expression(const std::string& text) {
   Diagnostics diagnostics;
-  const auto module = glsl::Module::read_expression({"text", text}, diagnostics);
+  const auto module = glsl::Module::read_expression(glsl::Prelude::read(), {"text", text}, diagnostics);
   if ((module == nullptr) != diagnostics.has_errors()) fuzz::fail("refused without a reason");
   if (module == nullptr) return;
   Recorder recorder;
@@ -55,7 +55,7 @@ void run_expression(const std::string& text) {
 
 void run_functions(const std::string& text) {
   Diagnostics diagnostics;
-  const auto module = glsl::Module::read({"text", text}, {}, diagnostics);
+  const auto module = glsl::Module::read(glsl::Prelude::read(), {"text", text}, {}, diagnostics);
   if ((module == nullptr) != diagnostics.has_errors()) fuzz::fail("refused without a reason");
   if (module == nullptr) return;
   const glsl::Function* function = module->function("f");

@@ -346,5 +346,29 @@ TEST(GlslLanguage, BuiltinFunctions) {
               });
 }
 
+/// What one text defines again or adds is its own, however many share a prelude.
+TEST(GlslLanguage, TextsThatShareAPreludeAreApart) {
+  const auto prelude = glsl::Prelude::read();
+  const auto value = [&](const std::string& text) {
+    Diagnostics diagnostics;
+    const auto module = glsl::Module::read(prelude, {"text.glsl", text}, {}, diagnostics);
+    EXPECT_NE(module, nullptr) << diagnostics.to_string();
+    Recorder recorder;
+    const auto result = module->record(*module->function("f"), {}, recorder, diagnostics);
+    return result && result->value.parts[0].is_constant() ? result->value.number(0).constant()
+                                                          : -1.0f;
+  };
+  const std::string own =
+      "#define M_PI 3.0\n#undef mx_sin\nfloat mx_sin(float x) { return 7.0; }\n"
+      "struct BSDF { float other; };\nfloat mx_square(float x) { return x; }\n"
+      "float f() { return M_PI + mx_sin(0.0) + mx_square(5.0) + BSDF(1.0).other; }";
+  const std::string plain =
+      "float f() { return mx_square(5.0) + mx_sin(0.0) + BSDF(vec3(M_PI), vec3(1.0)).response.x; }";
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(value(own), 16.0f);
+    EXPECT_EQ(value(plain), 25.0f + 3.14159265f);
+  }
+}
+
 }  // namespace
 }  // namespace nacre

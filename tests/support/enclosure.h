@@ -4,29 +4,9 @@
 #include <vector>
 
 #include "runtime/program/program.h"
+#include "tests/support/interval.h"
 
 namespace nacre::testing {
-
-/// What a value may be in any engine that keeps to op.h: every number from lo to hi
-/// (none where lo > hi), and NaN. A number that leaves the floats is both itself, as in
-/// double, and infinite or zero, as in float.
-struct Enclosure {
-  double lo = 0.0;
-  double hi = 0.0;
-  bool nan = false;
-
-  bool is_exact() const { return lo == hi && !nan; }
-  bool contains(double x) const;
-  /// One number, NaN alone, or numbers that differ by 1e-3 of the least of them at most.
-  bool is_narrow() const;
-};
-
-/// Where floats end and doubles don't. A test that leaves one out learns whether a result
-/// needs it.
-struct FloatRange {
-  bool overflows = true;   ///< Numbers above the largest float may be infinite.
-  bool underflows = true;  ///< Numbers below the smallest normal float may be zero.
-};
 
 /// The outputs of a Program at one point, by output channel; of an integer or a truth
 /// value the bits as a number. By interval arithmetic
