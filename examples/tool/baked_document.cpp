@@ -34,7 +34,8 @@ const std::array<float, 3>* plane_axis(std::string_view geomprop) {
 std::vector<const Element*> inputs_of(const Element& node) {
   std::vector<const Element*> inputs;
   const Element* at = &node;
-  for (int depth = 0; at != nullptr && depth < 64; ++depth) {
+  const std::size_t most = node.document().max_inheritance();
+  for (std::size_t depth = 0; at != nullptr && depth < most; ++depth) {
     for (const Element& child : at->children()) {
       const auto same = [&](const Element* one) { return one->name() == child.name(); };
       if (child.category() == "input" && std::none_of(inputs.begin(), inputs.end(), same)) {
@@ -262,7 +263,10 @@ Element& BakedDocument::add_image(const Job& job, const std::string& suffix, std
 /// Geometry Extensions, "Reserved GeomProp Names".
 void BakedDocument::add_tiles() {
   std::string numbers;
-  for (const UdimTile& tile : tiles_) numbers += (numbers.empty() ? "" : ",") + tile.number();
+  for (const UdimTile& tile : tiles_) {
+    if (!numbers.empty()) numbers += ',';
+    numbers += tile.number();
+  }
   Element& info = make("geominfo", free_name("baked_tiles"), "");
   set(info, "geom", "/");
   Element& property = make("geomprop", "udimset", "stringarray");
