@@ -198,7 +198,8 @@ void BakedDocument::add_job(const Element& input, const Element& port, const Nod
 
 void BakedDocument::finish_source() { source_.build_index(); }
 
-void BakedDocument::set_value(const Job& job, std::span<const float> texel) {
+void BakedDocument::set_value(const Job& job, std::span<const float> texel,
+                              std::string_view colorspace) {
   if (const std::array<float, 3>* axis = plane_axis(job.frame)) {
     if (std::equal(axis->begin(), axis->end(), texel.begin())) return;  // It is the default.
     Element& normalmap = add_node(job, "normalmap", "_direction", "vector3");
@@ -207,7 +208,12 @@ void BakedDocument::set_value(const Job& job, std::span<const float> texel) {
     set(add_input(normalmap, "in", "vector3"), "value", value_text(job.type, coded));
     return connect(job, normalmap);
   }
-  set(add_input(*job.node, job.input, type_name(job.type)), "value", value_text(job.type, texel));
+  Element& input = add_input(*job.node, job.input, type_name(job.type));
+  set(input, "value", value_text(job.type, texel));
+  // As computed is as the root says.
+  const bool is_tagged = is_color(job.type) && !colorspace.empty() && colorspace != "none" &&
+                         colorspace != root_->attribute("colorspace");
+  if (is_tagged) set(input, "colorspace", colorspace);
 }
 
 void BakedDocument::set_texture(const Job& job, const std::vector<std::string>& files,

@@ -36,6 +36,9 @@ struct GraphOptions {
   /// `canonical_colorspace` knows; "": what the document's root says, or lin_rec709.
   /// "none": nothing is converted.
   std::string working_space = "lin_rec709";
+  /// Colour space that colours of requested outputs are given in, by any such name; "",
+  /// or "none": they stay in the working space. Materials do too.
+  std::string output_space = {};
   /// What one unit of scene length is; lengths are converted to it.
   std::string distance_unit = "meter";
   /// Chooses the file of a sequence: replaces "{frame}" and "{0Nframe}" in file names

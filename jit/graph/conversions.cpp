@@ -8,6 +8,17 @@
 
 namespace nacre {
 
+namespace {
+
+// Colours are, between spaces that are not the same; "": a space that is not converted.
+bool is_transformed(const Source& source, Type type, std::string_view from, std::string_view to) {
+  if (type != Type::color3 && type != Type::color4) return false;
+  if (source.kind == Source::Kind::unconnected) return false;
+  return !from.empty() && !to.empty() && from != to;
+}
+
+}  // namespace
+
 // The nearest `colorspace` up the tree says what the numbers mean; the
 // library's node "A_to_B" turns them into the working space (Specification,
 // "Color Spaces and Color Management Systems").
@@ -15,19 +26,37 @@ std::optional<Resolver::Key> Resolver::convert_colour(const Source& source, Type
                                                       std::string_view space,
                                                       const std::string& path,
                                                       const Element& user) {
-  if (type != Type::color3 && type != Type::color4) return std::nullopt;
-  if (source.kind == Source::Kind::unconnected) return std::nullopt;
   const std::string_view from = canonical_colorspace(space);
   const std::string_view to = working_space();
-  if (from.empty() || to.empty() || from == to) return std::nullopt;
+  if (!is_transformed(source, type, from, to)) return std::nullopt;
   const NodeDef* def = find_transform(from, to, type);
   if (def == nullptr) {
     error("unknown-colorspace", user, "there is no transform from this colour space",
           fmt::format("a space with a transform to {}", to), fmt::format("'{}'", space));
     return std::nullopt;
   }
-  Instance& instance = add_instance(*def, fmt::format("{}:{}_to_{}", path, from, to), &user);
-  instance.inputs.emplace_back(def->inputs[0].name, source);
+  return transformed(source, *def, fmt::format("{}:{}_to_{}", path, from, to), user);
+}
+
+Resolver::Result Resolver::in_output_space(const Result& result, const std::string& name,
+                                           const Element& user) {
+  const std::string_view from = working_space();
+  const std::string_view to = canonical_colorspace(options_.output_space);
+  if (result.failed || !is_transformed(result.source, result.type, from, to)) return result;
+  const NodeDef* def = find_transform(from, to, result.type);
+  if (def == nullptr) {
+    error("unknown-colorspace", user, "there is no transform to this colour space",
+          fmt::format("a space with a transform from {}", from),
+          fmt::format("'{}'", options_.output_space));
+    return failure();
+  }
+  return run(transformed(result.source, *def, fmt::format("{}:{}_to_{}", name, from, to), user));
+}
+
+Resolver::Key Resolver::transformed(const Source& source, const NodeDef& transform,
+                                    std::string path, const Element& user) {
+  Instance& instance = add_instance(transform, std::move(path), &user);
+  instance.inputs.emplace_back(transform.inputs[0].name, source);
   return Key{Kind::output, 0, &instance, nullptr};
 }
 

@@ -65,6 +65,8 @@ class Resolver {
   /// An output of a node that stands in `context`, null at the root; "" for its only one.
   Result resolve_node(const Element& node, std::string_view output,
                       const Context* context = nullptr);
+  /// A colour as GraphOptions::output_space has it; other results as they are.
+  Result in_output_space(const Result& result, const std::string& name, const Element& user);
   const NodeDef* nodedef_of(const Element& node);
   const Context* compound_context(const Element& graph, const Context* parent);
 
@@ -155,6 +157,8 @@ class Resolver {
   // when there is nothing to convert.
   std::optional<Key> convert_colour(const Source& source, Type type, std::string_view space,
                                     const std::string& path, const Element& user);
+  Key transformed(const Source& source, const NodeDef& transform, std::string path,
+                  const Element& user);
   std::string_view working_space() const;
   const NodeDef* find_transform(std::string_view from, std::string_view to, Type type);
   std::optional<Key> convert_unit(Result& result, const NodeDefInput& input,
