@@ -12,6 +12,7 @@
 
 #include "examples/common/atomic_file.h"
 #include "examples/common/srgb.h"
+#include "jit/graph/colorspace.h"
 
 namespace nacre::host {
 
@@ -79,9 +80,17 @@ struct Job {
   const OutputKernel::Output& output() const { return kernel.outputs[index]; }
   int components() const { return component_count(output().type); }
   int channels() const { return encoding.channels > 0 ? encoding.channels : components(); }
+  /// As OpenImageIO calls it.
+  std::string file_colorspace() const {
+    if (is_srgb()) return "sRGB";
+    const std::string space =
+        texture_colorspace(output().type, std::string(format.extension), encoding);
+    const std::string_view known = canonical_colorspace(space);
+    return known.empty() || known == "lin_rec709" ? "Linear" : space;
+  }
   bool is_srgb() const {
-    return texture_colorspace(output().type, std::string(format.extension), encoding) ==
-           "srgb_texture";
+    return host::is_srgb(
+        texture_colorspace(output().type, std::string(format.extension), encoding));
   }
 };
 
@@ -93,7 +102,7 @@ OIIO::ImageSpec spec_of(const Job& job) {
   spec.attribute("compression", "zip");
   // A fourth channel is a number like the others: nothing is multiplied by it.
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("oiio:ColorSpace", job.is_srgb() ? "sRGB" : "Linear");
+  spec.attribute("oiio:ColorSpace", job.file_colorspace());
   return spec;
 }
 
@@ -181,12 +190,6 @@ std::string fault_of(const Job& job) {
   if (job.format.is_integer && job.channels() > 4) {
     return "a png holds at most four channels";
   }
-  const bool is_known = encoding.colorspace.empty() || encoding.colorspace == "none" ||
-                        encoding.colorspace == "srgb_texture" ||
-                        encoding.colorspace == "lin_rec709";
-  if (is_color(job.output().type) && !is_known) {
-    return "colours are written as srgb_texture or lin_rec709, not as " + encoding.colorspace;
-  }
   return {};
 }
 
@@ -197,6 +200,16 @@ std::string texture_colorspace(Type type, const std::string& extension,
   if (!is_color(type)) return {};
   if (!encoding.colorspace.empty()) return encoding.colorspace;
   return holds_unit_range_only(extension) ? "srgb_texture" : "lin_rec709";
+}
+
+std::string output_space(const std::string& extension, const TextureEncoding& encoding) {
+  const std::string space = texture_colorspace(Type::color3, extension, encoding);
+  if (is_srgb(space)) return "lin_rec709";
+  return encoding.colorspace.empty() ? std::string() : space;
+}
+
+bool is_srgb(std::string_view colorspace) {
+  return canonical_colorspace(colorspace) == "srgb_texture";
 }
 
 bool holds_unit_range_only(const std::string& extension) {

@@ -12,8 +12,8 @@ namespace nacre::host {
 struct TextureEncoding {
   /// 8, 16 or 32; 0: what the extension is for, see `bake_to_file`.
   int bits = 0;
-  /// Of colours: "srgb_texture", or "lin_rec709" or "none" for as computed. "":
-  /// srgb_texture in files of integers, as computed in others.
+  /// Of colours, by any name that the graph knows; "none": as computed. "":
+  /// srgb_texture in files of integers, as computed in others. See `output_space`.
   std::string colorspace = {};
   /// Unit vectors, stored as (v + 1) / 2 as normal maps are.
   bool is_direction = false;
@@ -32,10 +32,18 @@ struct TexelRange {
 std::string texture_colorspace(Type type, const std::string& extension,
                                const TextureEncoding& encoding);
 
+/// GraphOptions::output_space for the kernel of an output that is to be written so: the
+/// curve of srgb_texture is put on when it is written, all else by the graph.
+std::string output_space(const std::string& extension, const TextureEncoding& encoding);
+
+/// True where a texture of such a space holds colours as sRGB codes, by any of its names.
+bool is_srgb(std::string_view colorspace);
+
 /// True if the numbers of such a file are from 0 to 1.
 bool holds_unit_range_only(const std::string& extension);
 
-/// Bakes one output into a file, atomically. The extension says what is written:
+/// Bakes one output into a file, atomically; the kernel's graph was built with
+/// `output_space`. The extension says what is written:
 ///
 ///   .exr  32 bits, or 16: floats, as computed
 ///   .png  8 bits, or 16: integers, clamped to [0, 1]

@@ -82,7 +82,7 @@ void bake_file(const BakeOptions& options, const OutputKernel& kernel, const std
 }
 
 void bake_outputs(const BakeOptions& options, const Opened& opened, host::BakeSettings settings,
-                  const std::vector<UdimTile>& tiles, const ShaderOptions& shader,
+                  const std::vector<UdimTile>& tiles, ShaderOptions shader,
                   const std::stop_token& stop, Diagnostics& diagnostics) {
   for (const std::string& name : wanted(options, opened, diagnostics)) {
     if (stop.stop_requested()) break;
@@ -91,6 +91,7 @@ void bake_outputs(const BakeOptions& options, const Opened& opened, host::BakeSe
                           diagnostics)) {
       continue;
     }
+    shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
     const auto kernel =
         opened.system->compile_outputs(*opened.document, {name}, shader, diagnostics);
     if (kernel == nullptr) continue;

@@ -59,8 +59,10 @@ class MaterialBaker {
     TextureSettings texture;
     if (!texture_settings(options_.textures, job.output, texture, diagnostics_)) return;
     texture.encoding.is_direction = !job.frame.empty();
-    const auto kernel = opened_.system->compile_outputs(*opened_.document, {job.request},
-                                                        options_.shader, diagnostics_);
+    ShaderOptions shader = options_.shader;
+    shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
+    const auto kernel =
+        opened_.system->compile_outputs(*opened_.document, {job.request}, shader, diagnostics_);
     if (kernel == nullptr) return;
     host::BakeSettings settings = options_.settings;
     settings.width = texture.width;
@@ -68,7 +70,7 @@ class MaterialBaker {
     // What asks for nothing of a point is the same at all of them.
     if (kernel->kernel.program().inputs.empty()) {
       settings.width = settings.height = 1;
-      return set_value(job, host::bake_image(*kernel, 0, settings));
+      return set_value(job, host::bake_image(*kernel, 0, settings), shader.graph.output_space);
     }
     bake_texture(job, *kernel, settings, texture);
   }
@@ -99,7 +101,7 @@ class MaterialBaker {
     std::error_code error;
     if (all.is_uniform()) {
       for (const fs::path& file : files) fs::remove(file, error);
-      return set_value(job, all.least);
+      return set_value(job, all.least, host::output_space(texture.extension, texture.encoding));
     }
     check_range(job, texture, all);
     baked_.set_texture(job, names,
@@ -133,10 +135,11 @@ class MaterialBaker {
                               control, &range);
   }
 
-  void set_value(const BakedDocument::Job& job, const std::vector<float>& texel) {
+  void set_value(const BakedDocument::Job& job, const std::vector<float>& texel,
+                 std::string_view colorspace) {
     const bool finite =
         std::all_of(texel.begin(), texel.end(), [](float x) { return std::isfinite(x); });
-    if (finite) return baked_.set_value(job, texel);
+    if (finite) return baked_.set_value(job, texel, colorspace);
     diagnostics_.error("cannot-bake", {options_.document, 0, 0, job.stem},
                        "the value is not a finite number");
   }
@@ -147,7 +150,7 @@ class MaterialBaker {
     if (job.type == Type::integer) check_integers(job, texture.encoding.bits, range);
     const bool is_limited =
         host::holds_unit_range_only(texture.extension) ||
-        host::texture_colorspace(job.type, texture.extension, texture.encoding) == "srgb_texture";
+        host::is_srgb(host::texture_colorspace(job.type, texture.extension, texture.encoding));
     if (!is_limited) return;
     constexpr float rounding = 1e-5f;
     const float lowest = job.frame.empty() ? 0.0f : -1.0f;

@@ -34,7 +34,8 @@ const std::array<float, 3>* plane_axis(std::string_view geomprop) {
 std::vector<const Element*> inputs_of(const Element& node) {
   std::vector<const Element*> inputs;
   const Element* at = &node;
-  for (int depth = 0; at != nullptr && depth < 64; ++depth) {
+  const std::size_t most = node.document().max_inheritance();
+  for (std::size_t depth = 0; at != nullptr && depth < most; ++depth) {
     for (const Element& child : at->children()) {
       const auto same = [&](const Element* one) { return one->name() == child.name(); };
       if (child.category() == "input" && std::none_of(inputs.begin(), inputs.end(), same)) {
@@ -197,7 +198,8 @@ void BakedDocument::add_job(const Element& input, const Element& port, const Nod
 
 void BakedDocument::finish_source() { source_.build_index(); }
 
-void BakedDocument::set_value(const Job& job, std::span<const float> texel) {
+void BakedDocument::set_value(const Job& job, std::span<const float> texel,
+                              std::string_view colorspace) {
   if (const std::array<float, 3>* axis = plane_axis(job.frame)) {
     if (std::equal(axis->begin(), axis->end(), texel.begin())) return;  // It is the default.
     Element& normalmap = add_node(job, "normalmap", "_direction", "vector3");
@@ -206,7 +208,12 @@ void BakedDocument::set_value(const Job& job, std::span<const float> texel) {
     set(add_input(normalmap, "in", "vector3"), "value", value_text(job.type, coded));
     return connect(job, normalmap);
   }
-  set(add_input(*job.node, job.input, type_name(job.type)), "value", value_text(job.type, texel));
+  Element& input = add_input(*job.node, job.input, type_name(job.type));
+  set(input, "value", value_text(job.type, texel));
+  // As computed is as the root says.
+  const bool is_tagged = is_color(job.type) && !colorspace.empty() && colorspace != "none" &&
+                         colorspace != root_->attribute("colorspace");
+  if (is_tagged) set(input, "colorspace", colorspace);
 }
 
 void BakedDocument::set_texture(const Job& job, const std::vector<std::string>& files,
@@ -262,7 +269,10 @@ Element& BakedDocument::add_image(const Job& job, const std::string& suffix, std
 /// Geometry Extensions, "Reserved GeomProp Names".
 void BakedDocument::add_tiles() {
   std::string numbers;
-  for (const UdimTile& tile : tiles_) numbers += (numbers.empty() ? "" : ",") + tile.number();
+  for (const UdimTile& tile : tiles_) {
+    if (!numbers.empty()) numbers += ',';
+    numbers += tile.number();
+  }
   Element& info = make("geominfo", free_name("baked_tiles"), "");
   set(info, "geom", "/");
   Element& property = make("geomprop", "udimset", "stringarray");

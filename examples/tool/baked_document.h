@@ -44,8 +44,8 @@ class BakedDocument {
   void finish_source();
   const std::vector<Job>& jobs() const { return jobs_; }
 
-  /// Finishes a job whose texels are all alike.
-  void set_value(const Job& job, std::span<const float> texel);
+  /// Finishes a job whose texels are all alike, colours in the space given.
+  void set_value(const Job& job, std::span<const float> texel, std::string_view colorspace);
   /// Finishes a job with a texture, of a matrix one for every row, tagged with the colour
   /// space given, if any. Textures of booleans and integers are read texel by texel.
   void set_texture(const Job& job, const std::vector<std::string>& files,

@@ -70,6 +70,8 @@ void CommonOptions::add_limits(CLI::App& command) {
   add_count("--max-include-depth", read_limits.include_depth, "Includes within includes");
   add_count("--max-xml-depth", read_limits.xml_depth, "Elements within elements");
   add_count("--max-elements", read_limits.elements, "Elements of one file");
+  add_count("--max-inheritance", read_limits.inheritance,
+            "Nodedefs, nodes, looks or types that inherit from one another");
   add_count("--max-nodes", graph_limits.max_nodes, "Nodes of a graph, all graphs inlined");
   add_count("--max-inputs", graph_limits.max_inputs, "Inputs of one node");
   add_count("--max-instructions", compile_limits.max_instructions, "Instructions of a kernel");

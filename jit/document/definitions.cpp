@@ -148,10 +148,10 @@ void Definitions::apply_inheritance(Diagnostics& diagnostics) {
                           "the nodedef inherits from itself, directly or not");
         break;
       }
-      if (seen.size() >= max_inheritance) {
+      if (seen.size() >= def.element->document().max_inheritance()) {
         diagnostics.error("inherit-depth", location(*def.element),
                           "the nodedef inherits over too many levels",
-                          fmt::format("at most {}", max_inheritance));
+                          fmt::format("at most {}", def.element->document().max_inheritance()));
         break;
       }
       inherit_ports(def, *base);

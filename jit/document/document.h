@@ -21,9 +21,6 @@ struct Note {
   const Element* include = nullptr;  ///< The <xi:include> that was followed.
 };
 
-/// Nodedefs, instances, looks and types inherit from others over at most so many levels.
-inline constexpr std::size_t max_inheritance = 64;
-
 /// What one or several .mtlx files say: a tree of elements, each knowing where
 /// it was written. Read one with `read_document`; reading checks structure
 /// (names, nesting, limits), not meaning. Once read it is never changed and may
@@ -45,8 +42,13 @@ class Document {
   int line_of(const Element& element) const;
   int column_of(const Element& element) const;
 
+  /// Nodedefs, instances, looks and types are at most so many that inherit from one
+  /// another; what refers to more is refused. See ReadLimits.
+  std::size_t max_inheritance() const { return max_inheritance_; }
+
   // For the reader and for version upgrades, before anyone else sees the tree.
 
+  void set_max_inheritance(std::size_t most) { max_inheritance_ = most; }
   /// Text that lives as long as the document.
   std::string_view keep(std::string_view text);
   /// Takes a file's text; `offset`s of its elements count from its start.
@@ -103,6 +105,7 @@ class Document {
   NoteTable at_end_;
   std::vector<Note> behind_;
   Element* root_ = nullptr;
+  std::size_t max_inheritance_ = 64;
 };
 
 }  // namespace nacre

@@ -289,6 +289,12 @@ std::unique_ptr<Document> finish(std::unique_ptr<Document> document, Element* ro
   return document;
 }
 
+std::unique_ptr<Document> empty_document(const ReadOptions& options) {
+  auto document = std::make_unique<Document>();
+  document->set_max_inheritance(options.limits.inheritance);
+  return document;
+}
+
 }  // namespace
 
 bool is_valid_name(std::string_view name) {
@@ -307,7 +313,7 @@ bool is_valid_name(std::string_view name) {
 
 std::unique_ptr<Document> read_document(const fs::path& file, const ReadOptions& options,
                                         Diagnostics& diagnostics) {
-  auto document = std::make_unique<Document>();
+  auto document = empty_document(options);
   FileReader reader(*document, options, diagnostics);
   reader.add_folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
   Element* root = reader.read(file, {});
@@ -316,7 +322,7 @@ std::unique_ptr<Document> read_document(const fs::path& file, const ReadOptions&
 
 std::unique_ptr<Document> read_document_text(std::string_view text, const std::string& name,
                                              const ReadOptions& options, Diagnostics& diagnostics) {
-  auto document = std::make_unique<Document>();
+  auto document = empty_document(options);
   FileReader reader(*document, options, diagnostics);
   if (text.size() > options.limits.file_bytes) {
     diagnostics.error("file-too-large", {name, 0, 0, ""}, "the text is too large",
@@ -330,7 +336,7 @@ std::unique_ptr<Document> read_document_text(std::string_view text, const std::s
 
 std::unique_ptr<Document> read_documents(const std::vector<fs::path>& files,
                                          const ReadOptions& options, Diagnostics& diagnostics) {
-  auto document = std::make_unique<Document>();
+  auto document = empty_document(options);
   FileReader reader(*document, options, diagnostics);
   auto empty = std::make_unique<char[]>(1);
   Element& root = document->create("materialx", document->add_file("", std::move(empty), 0), 0);

@@ -20,6 +20,9 @@ struct ReadLimits {
   int include_depth = 256;
   int xml_depth = 256;
   std::size_t elements = 4'000'000;  ///< In one file.
+  /// Of nodedefs, instances, looks and types that inherit from one another: each chain,
+  /// both ends counted. Kept by the document for whoever follows them.
+  std::size_t inheritance = 64;
 };
 
 struct ReadOptions {

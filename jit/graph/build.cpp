@@ -68,7 +68,8 @@ class GraphBuild {
         }
         return;
       }
-      add(name, resolver_.resolve_port(*element, context_around(*element)));
+      const Resolver::Result found = resolver_.resolve_port(*element, context_around(*element));
+      add(name, resolver_.in_output_space(found, name, *element));
     } else if (is_node(*element) && element->parent() == &document_.root()) {
       add_node(name, *element);
     } else {
@@ -160,9 +161,10 @@ class GraphBuild {
   void add_node(const std::string& name, const Element& node) {
     const NodeDef* def = resolver_.nodedef_of(node);
     if (def == nullptr) return;
-    if (def->outputs.size() == 1) return add(name, resolver_.resolve_node(node, ""));
     for (const NodeDefOutput& output : def->outputs) {
-      add(name + '/' + std::string(output.name), resolver_.resolve_node(node, output.name));
+      const bool is_only = def->outputs.size() == 1;
+      const std::string full = is_only ? name : name + '/' + std::string(output.name);
+      add(full, resolver_.in_output_space(resolver_.resolve_node(node, output.name), full, node));
     }
   }
 

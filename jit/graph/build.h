@@ -44,6 +44,9 @@ struct GraphOptions {
   /// nodes that make colours of numbers (blackbody, artistic_ior) and the tool's
   /// pictures take for granted; only where `colors` has no way to that, its role scene_linear.
   std::optional<std::string> working_space;
+  /// Colour space that colours of requested outputs are given in, by any such name; "",
+  /// or "none": they stay in the working space. Materials do too.
+  std::string output_space = {};
   /// What one unit of scene length is; lengths are converted to it.
   std::string distance_unit = "meter";
   /// Chooses the file of a sequence: replaces "{frame}" and "{0Nframe}" in file names

@@ -22,7 +22,8 @@ class Checker : ElementCheck {
  public:
   Checker(const Document& document, const Definitions& definitions, const Definitions& library,
           Diagnostics& diagnostics)
-      : ElementCheck(diagnostics), document_(document),
+      : ElementCheck(diagnostics),
+        document_(document),
         definitions_(definitions),
         library_(library) {}
 
@@ -117,9 +118,9 @@ class Checker : ElementCheck {
         error("inherit-cycle", node, "the node inherits from itself, directly or not");
         return;
       }
-      if (chain.size() >= max_inheritance) {
+      if (chain.size() >= node.document().max_inheritance()) {
         error("inherit-depth", node, "the node inherits over too many levels",
-              fmt::format("at most {}", max_inheritance));
+              fmt::format("at most {}", node.document().max_inheritance()));
         return;
       }
       chain.push_back(base);

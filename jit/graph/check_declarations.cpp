@@ -20,7 +20,8 @@ class DeclarationCheck : ElementCheck {
  public:
   DeclarationCheck(const Document& document, const Definitions& definitions,
                    const Definitions& library, Diagnostics& diagnostics)
-      : ElementCheck(diagnostics), document_(document),
+      : ElementCheck(diagnostics),
+        document_(document),
         definitions_(definitions),
         library_(library) {}
 
@@ -257,9 +258,9 @@ class DeclarationCheck : ElementCheck {
       if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
         return error("inherit-cycle", element, "the type inherits from itself, directly or not");
       }
-      if (chain.size() >= max_inheritance) {
+      if (chain.size() >= element.document().max_inheritance()) {
         return error("inherit-depth", element, "the type inherits over too many levels",
-                     fmt::format("at most {}", max_inheritance));
+                     fmt::format("at most {}", element.document().max_inheritance()));
       }
       chain.push_back(base);
     }
@@ -368,9 +369,9 @@ class DeclarationCheck : ElementCheck {
       if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
         return error("inherit-cycle", element, "the target inherits from itself, directly or not");
       }
-      if (chain.size() >= max_inheritance) {
+      if (chain.size() >= element.document().max_inheritance()) {
         return error("inherit-depth", element, "the target inherits over too many levels",
-                     fmt::format("at most {}", max_inheritance));
+                     fmt::format("at most {}", element.document().max_inheritance()));
       }
       chain.push_back(base);
     }

@@ -8,6 +8,37 @@
 
 namespace nacre {
 
+namespace {
+
+std::string conversion_path(const std::string& path, std::string_view from, std::string_view to) {
+  return fmt::format("{}:{}_to_{}", path, canonical_colorspace(from), canonical_colorspace(to));
+}
+
+}  // namespace
+
+// From one space to another, by the host's configuration, by the data library, or by
+// what the spaces are; null where nothing is to be done.
+Resolver::Conversion Resolver::find_conversion(Type type, std::string_view from,
+                                               std::string_view to, const Element& user) {
+  if (type != Type::color3 && type != Type::color4) return {};
+  if (from.empty() || to.empty()) return {};
+  auto spaces = config_spaces(from, to);
+  if (!spaces) {
+    const std::string_view known_from = canonical_colorspace(from);
+    const std::string_view known_to = canonical_colorspace(to);
+    if (known_from.empty() || known_to.empty() || known_from == known_to) return {};
+    if (const NodeDef* def = find_transform(known_from, known_to, type)) return {def, false};
+    spaces = bridged_spaces(from, to);
+    if (!spaces) {
+      report_no_transform(from, to, user);
+      return {nullptr, true};
+    }
+  }
+  if (!is_conversion(*spaces)) return {};
+  const NodeDef* def = find_config_transform(*spaces, type, user);
+  return {def, def == nullptr};
+}
+
 // The nearest `colorspace` up the tree says what the numbers mean; the
 // library's node "A_to_B" turns them into the working space (Specification,
 // "Color Spaces and Color Management Systems").
@@ -15,37 +46,39 @@ std::optional<Resolver::Key> Resolver::convert_colour(const Source& source, Type
                                                       std::string_view space,
                                                       const std::string& path,
                                                       const Element& user) {
-  if (type != Type::color3 && type != Type::color4) return std::nullopt;
-  if (source.kind == Source::Kind::unconnected || space.empty()) return std::nullopt;
-  const std::string_view from = canonical_colorspace(space);
-  const std::string_view to = canonical_colorspace(working_space_);
-  const NodeDef* def = nullptr;
-  auto spaces = config_spaces(space, working_space_);
-  if (!spaces) {
-    if (from.empty() || to.empty() || from == to) return std::nullopt;
-    def = find_transform(from, to, type);
-    if (def == nullptr) spaces = bridged_spaces(space, working_space_);
-    if (def == nullptr && !spaces) {
-      report_no_transform(space, user);
-      return std::nullopt;
-    }
-  }
-  if (spaces) {
-    if (!is_conversion(*spaces)) return std::nullopt;
-    def = find_config_transform(*spaces, type, user);
-    if (def == nullptr) return std::nullopt;
-  }
-  Instance& instance = add_instance(*def, fmt::format("{}:{}_to_{}", path, from, to), &user);
-  instance.inputs.emplace_back(def->inputs[0].name, source);
+  if (source.kind == Source::Kind::unconnected) return std::nullopt;
+  const NodeDef* def = find_conversion(type, space, working_space_, user).transform;
+  if (def == nullptr) return std::nullopt;
+  return transformed(source, *def, conversion_path(path, space, working_space_), user);
+}
+
+Resolver::Result Resolver::in_output_space(const Result& result, const std::string& name,
+                                           const Element& user) {
+  if (result.failed || result.source.kind == Source::Kind::unconnected) return result;
+  const std::string& to = options_.output_space;
+  const Conversion conversion = find_conversion(result.type, working_space_, to, user);
+  if (conversion.failed) return failure();
+  if (conversion.transform == nullptr) return result;
+  return run(transformed(result.source, *conversion.transform,
+                         conversion_path(name, working_space_, to), user));
+}
+
+Resolver::Key Resolver::transformed(const Source& source, const NodeDef& transform,
+                                    std::string path, const Element& user) {
+  Instance& instance = add_instance(transform, std::move(path), &user);
+  instance.inputs.emplace_back(transform.inputs[0].name, source);
   return Key{Kind::output, 0, &instance, nullptr};
 }
 
-void Resolver::report_no_transform(std::string_view from, const Element& user) {
-  const std::string& to = working_space_;
+void Resolver::report_no_transform(std::string_view from, std::string_view to,
+                                   const Element& user) {
+  const bool is_output = from == working_space_;
   if (options_.colors == nullptr) {
-    error("unknown-colorspace", user, "there is no transform from this colour space",
-          fmt::format("a space with a transform to {}", canonical_colorspace(to)),
-          fmt::format("'{}'", from));
+    error("unknown-colorspace", user,
+          fmt::format("there is no transform {} this colour space", is_output ? "to" : "from"),
+          is_output ? fmt::format("a space with a transform from {}", canonical_colorspace(from))
+                    : fmt::format("a space with a transform to {}", canonical_colorspace(to)),
+          fmt::format("'{}'", is_output ? to : from));
     return;
   }
   error("unknown-colorspace", user, "there is no transform between these colour spaces",

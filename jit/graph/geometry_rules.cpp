@@ -116,9 +116,8 @@ std::vector<const Assignment*> GeometryRules::materials_of(const Look& look,
   for (const Assignment& assignment : look.assignments) {
     if (const auto reached = reach(assignment, geometry)) found.emplace_back(*reached, &assignment);
   }
-  std::reverse(found.begin(), found.end());
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  // The nearest first; of the equally near, which lie in one list, the last one first.
+  std::sort(found.rbegin(), found.rend());
   std::vector<const Assignment*> materials;
   for (const auto& [reached, assignment] : found) {
     materials.push_back(assignment);

@@ -15,6 +15,18 @@ namespace {
 // Graphs that implement nodes of graphs that implement nodes: deeper is a fault.
 constexpr int max_context_depth = 1024;
 
+/// Circles are not: checking a document reports them.
+bool inherits_from_too_many(const Element& node) {
+  std::vector<const Element*> chain{&node};
+  while (chain.back()->has_attribute("inherit")) {
+    const Element* base = node.parent()->child(chain.back()->attribute("inherit"));
+    if (base == nullptr || std::find(chain.begin(), chain.end(), base) != chain.end()) return false;
+    if (chain.size() >= node.document().max_inheritance()) return true;
+    chain.push_back(base);
+  }
+  return false;
+}
+
 bool says_something(const Element& input) {
   for (const Attribute& attribute : input.attributes()) {
     if (attribute.name == "value") return true;
@@ -86,6 +98,11 @@ const NodeDef* Resolver::nodedef_of(const Element& node) {
   if (def != nullptr && def->inputs.size() > options_.max_inputs) {
     error("too-many-inputs", node, "the node has too many inputs",
           fmt::format("at most {}", options_.max_inputs), fmt::format("{}", def->inputs.size()));
+    def = nullptr;
+  }
+  if (def != nullptr && inherits_from_too_many(node)) {
+    error("inherit-depth", node, "the node inherits over too many levels",
+          fmt::format("at most {}", node.document().max_inheritance()));
     def = nullptr;
   }
   nodedefs_.emplace(&node, def);
@@ -187,7 +204,8 @@ const Element* Resolver::input_element(const Instance& instance, std::string_vie
   // An instance may inherit inputs from another of its class (Specification,
   // "Shader Nodes"); the chain is bounded in case it is a circle.
   const Element* element = instance.element;
-  for (int depth = 0; element != nullptr && depth < 64; ++depth) {
+  const std::size_t most = element != nullptr ? element->document().max_inheritance() : 0;
+  for (std::size_t depth = 0; element != nullptr && depth < most; ++depth) {
     const Element* input = element->child(name);
     if (input != nullptr && input->category() == "input" && says_something(*input)) return input;
     const std::string_view base = element->attribute("inherit");

@@ -98,9 +98,9 @@ std::vector<const Element*> inheritance(const Element& look, Diagnostics& diagno
                         "the name of another look", fmt::format("'{}'", name));
       break;
     }
-    if (chain.size() >= max_inheritance) {
+    if (chain.size() >= look.document().max_inheritance()) {
       diagnostics.error("inherit-depth", location(look), "the look inherits over too many levels",
-                        fmt::format("at most {}", max_inheritance));
+                        fmt::format("at most {}", look.document().max_inheritance()));
       break;
     }
     chain.push_back(base);

@@ -66,6 +66,8 @@ class Resolver {
   /// An output of a node that stands in `context`, null at the root; "" for its only one.
   Result resolve_node(const Element& node, std::string_view output,
                       const Context* context = nullptr);
+  /// A colour as GraphOptions::output_space has it; other results as they are.
+  Result in_output_space(const Result& result, const std::string& name, const Element& user);
   const NodeDef* nodedef_of(const Element& node);
   const Context* compound_context(const Element& graph, const Context* parent);
 
@@ -156,7 +158,16 @@ class Resolver {
   // when there is nothing to convert.
   std::optional<Key> convert_colour(const Source& source, Type type, std::string_view space,
                                     const std::string& path, const Element& user);
-  void report_no_transform(std::string_view from, const Element& user);
+  /// A transform between two spaces; null: nothing is to be done, or there is none.
+  struct Conversion {
+    const NodeDef* transform = nullptr;
+    bool failed = false;
+  };
+  Conversion find_conversion(Type type, std::string_view from, std::string_view to,
+                             const Element& user);
+  Key transformed(const Source& source, const NodeDef& transform, std::string path,
+                  const Element& user);
+  void report_no_transform(std::string_view from, std::string_view to, const Element& user);
   const NodeDef* find_transform(std::string_view from, std::string_view to, Type type);
   // Transforms of GraphOptions::colors (config_transform.cpp).
   struct Transform;

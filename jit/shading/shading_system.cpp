@@ -241,6 +241,19 @@ void ShadingSystem::check(const Document& document, const ShaderOptions& options
   }
   try_recording(all);
   for (const std::string& material : others) try_recording({.outputs = {}, .material = material});
+  for (const FoundMaterial& material : find_materials(document)) {
+    if (material.surfaceshader.empty() || material.backsurfaceshader.empty()) continue;
+    check_sides(document, material.name, options, diagnostics);
+  }
+}
+
+void ShadingSystem::check_sides(const Document& document, const std::string& material,
+                                const ShaderOptions& options, Diagnostics& diagnostics) {
+  Diagnostics already_known;
+  const auto graph = build(document, {.outputs = {}, .material = material}, options, already_known);
+  if (!graph) return;
+  Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), already_known);
+  if (const auto values = compilation.record(*graph)) sides_of(*graph, *values, diagnostics);
 }
 
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(

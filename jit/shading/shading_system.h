@@ -140,6 +140,9 @@ class ShadingSystem {
   std::optional<Graph> build(const Document& document, const GraphRequest& request,
                              const ShaderOptions& options, Diagnostics& diagnostics) const;
 
+  void check_sides(const Document& document, const std::string& material,
+                   const ShaderOptions& options, Diagnostics& diagnostics);
+
   std::shared_ptr<const Library> library_;
   std::unique_ptr<Bodies> bodies_;
   std::unique_ptr<SourceBodies> sources_;

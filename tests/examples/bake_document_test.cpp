@@ -322,7 +322,8 @@ TEST_F(BakeOutput, WhatCannotBeIsAnError) {
   EXPECT_EQ(bake("bitdepth=\"32\"", "--size 4 --format png"), 1);
   EXPECT_EQ(bake("bitdepth=\"12\"", "--size 4"), 1);
   EXPECT_EQ(bake("width=\"0\"", ""), 1);
-  EXPECT_EQ(bake("colorspace=\"acescg\"", "--size 4"), 1);
+  EXPECT_EQ(bake("colorspace=\"nowhere\"", "--size 4"), 1);
+  EXPECT_NE(errors_.find("unknown-colorspace"), std::string::npos) << errors_;
   EXPECT_EQ(bake("", "--size 4 --bitdepth 12"), 2);
   EXPECT_EQ(bake("", "--size none"), 2);
 }

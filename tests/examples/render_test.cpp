@@ -109,6 +109,8 @@ TEST_F(Render, SolidsShowTheirFrontOnBothSides) {
   EXPECT_EQ(both.green, 0);
   EXPECT_GT(both.red, 200);
   EXPECT_TRUE(says("back-not-shown")) << errors_;
+  run("check " + file("a.mtlx"));
+  EXPECT_TRUE(says("back-not-shown")) << errors_;
 }
 
 TEST_F(Render, TheCameraDoesNotSeeTheBackOfWhatIsNotTwoSided) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -40,6 +41,17 @@ class Limits : public ::testing::Test {
 
 std::string wrapped(const std::string& body) {
   return "<materialx version=\"1.39\">" + body + "</materialx>";
+}
+
+/// Elements of which each inherits from the one before; the first has an input.
+std::string heirs(const std::string& category, const std::string& attributes, int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    text += "<" + category + " name=\"h" + std::to_string(i) + "\" " + attributes;
+    if (i > 0) text += " inherit=\"h" + std::to_string(i - 1) + "\"";
+    text += i > 0 ? "/>" : "><input name=\"in\" type=\"float\" value=\"0.5\"/></" + category + ">";
+  }
+  return text;
 }
 
 /// The code of the one diagnostic of reading, "" if there is none.
@@ -202,6 +214,51 @@ TEST_F(Limits, TimeToCompile) {
     return values;
   };
   EXPECT_EQ(run(*kernel), run(*compiled));
+}
+
+/// What checking a document with that limit says first, "" for nothing.
+std::string checking(const std::string& text, std::size_t inheritance) {
+  Diagnostics diagnostics;
+  ReadOptions read;
+  read.limits.inheritance = inheritance;
+  const auto document = read_document_text(wrapped(text), "a.mtlx", read, diagnostics);
+  if (document != nullptr) system().check(*document, {}, diagnostics);
+  return diagnostics.all().empty() ? "" : diagnostics.all().front().code;
+}
+
+TEST_F(Limits, ChainsOfInheritance) {
+  const std::string nodes = heirs("sin", "type=\"float\"", 5);
+  const std::string looks =
+      "<look name=\"h0\"/><look name=\"h1\" inherit=\"h0\"/><look name=\"h2\" inherit=\"h1\"/>";
+  const std::string defs =
+      "<nodedef name=\"a\" node=\"one\"><output name=\"out\" type=\"float\"/></nodedef>"
+      "<nodedef name=\"b\" node=\"two\" inherit=\"a\"/>"
+      "<nodedef name=\"c\" node=\"three\" inherit=\"b\"/>";
+  EXPECT_EQ(checking(nodes, 5), "");
+  EXPECT_EQ(checking(nodes, 4), "inherit-depth");
+  EXPECT_EQ(checking(looks, 3), "");
+  EXPECT_EQ(checking(looks, 2), "inherit-depth");
+  EXPECT_EQ(checking(defs, 3), "");
+  EXPECT_EQ(checking(defs, 2), "inherit-depth");
+  // More than the default, where the limit says so; and compiling minds it too.
+  const std::string many = heirs("sin", "type=\"float\"", 200) +
+                           "<output name=\"out\" type=\"float\" nodename=\"h199\"/>";
+  EXPECT_EQ(checking(many, 64), "inherit-depth");
+  for (const std::size_t most : {std::size_t{64}, std::size_t{200}}) {
+    Diagnostics diagnostics;
+    ReadOptions read;
+    read.limits.inheritance = most;
+    const auto document = read_document_text(wrapped(many), "a.mtlx", read, diagnostics);
+    ShaderOptions options;
+    options.compile.backend = Backend::interpreter;
+    const auto kernel = system().compile_outputs(*document, {"out"}, options, diagnostics);
+    EXPECT_EQ(kernel != nullptr, most == 200) << diagnostics.to_string();
+    if (kernel == nullptr) continue;
+    float value = 0;
+    const std::vector<void*> out{&value};
+    kernel->kernel.run({}, out, 1);
+    EXPECT_NEAR(value, std::sin(0.5), 1e-6);  // The first one's input came all the way.
+  }
 }
 
 /// A Targa file of grey pixels without compression (Truevision TGA, 2.0).
