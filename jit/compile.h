@@ -20,7 +20,7 @@ enum class Backend : std::uint8_t {
 
 /// What one stage of compiling made, for people who look into it.
 struct StageReport {
-  std::string name;              ///< "derive", "expand_math", ...
+  std::string name;  ///< "derive", "expand_math", ...
   double milliseconds = 0.0;
   std::size_t instructions = 0;  ///< Of all functions, after the stage.
   std::string text;              ///< The Program after it; only if asked for.
@@ -45,8 +45,8 @@ struct CompileOptions {
 };
 
 /// From a sliced recording to a kernel: every pass in order, then an engine.
-/// Null, with a diagnostic, if the Program is too large or the JIT refuses. `stages` may be null; `service`
-/// may be null for the other backends.
+/// Null, with a diagnostic, if the Program is too large or the JIT refuses. `stages` may be null;
+/// `service` may be null for the other backends.
 std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,
                                       CompileService* service, Diagnostics& diagnostics,
                                       std::vector<StageReport>* stages = nullptr);

@@ -92,8 +92,8 @@ class SurfaceRecorder {
     Total total;
     for (const Term& term : terms) {
       const LobeValue none{.f = Color3(0.0f), .pdf = 0.0f};
-      const LobeValue value = if_any(term.probability > 0.0f, none,
-                                     [&] { return term.lobe->evaluate(view, wi); });
+      const LobeValue value =
+          if_any(term.probability > 0.0f, none, [&] { return term.lobe->evaluate(view, wi); });
       total.f = fma(term.weight, value.f, total.f);
       total.pdf = fma(term.probability, value.pdf, total.pdf);
     }
@@ -134,9 +134,7 @@ class SurfaceRecorder {
       const Float again = terms_.size() == 1
                               ? u.z
                               : min(max((u.z - below) / term.probability, 0.0f), 0x1.fffffep-1f);
-      chosen = if_any(mine, chosen, [&] {
-        return term.lobe->sample(view_, {u.x, u.y, again});
-      });
+      chosen = if_any(mine, chosen, [&] { return term.lobe->sample(view_, {u.x, u.y, again}); });
       lobe = select(mine, Int(static_cast<int>(i)), lobe);
       weight = select(mine, term.weight, weight);
       probability = select(mine, term.probability, probability);
@@ -154,19 +152,18 @@ class SurfaceRecorder {
     const Color3 ratio = select(smooth, total.f * Color3(inverse), Color3(0.0f));
     const Color3 discrete = chosen.delta_weight * weight * Color3(1.0f / probability);
     const Color3 out = select(delta, discrete, ratio);
-    const Float pdf = select(delta, chosen.delta_probability * probability,
-                             select(smooth, total.pdf, 0.0f));
+    const Float pdf =
+        select(delta, chosen.delta_probability * probability, select(smooth, total.pdf, 0.0f));
     const Float3 wi = chosen.wi;
     const Float3 n = channel3(recorder_, "N");
     const Bool crosses = dot(n, wi) * dot(n, view_.wo) < 0.0f;
     const Int flags = select(valid, Int(sample_valid), Int(0)) |
                       select(delta, Int(sample_delta), Int(0)) |
                       select(valid & crosses, Int(sample_transmission), Int(0));
-    kernels_.sample = {{"wi.x", wi.x.ref()},        {"wi.y", wi.y.ref()},
-                       {"wi.z", wi.z.ref()},        {"weight.x", out.x.ref()},
-                       {"weight.y", out.y.ref()},   {"weight.z", out.z.ref()},
-                       {"pdf", pdf.ref()},          {"lobe", lobe.ref()},
-                       {"flags", flags.ref()}};
+    kernels_.sample = {
+        {"wi.x", wi.x.ref()},      {"wi.y", wi.y.ref()},      {"wi.z", wi.z.ref()},
+        {"weight.x", out.x.ref()}, {"weight.y", out.y.ref()}, {"weight.z", out.z.ref()},
+        {"pdf", pdf.ref()},        {"lobe", lobe.ref()},      {"flags", flags.ref()}};
     if (request_.reverse_pdf) {
       const Float reverse = select(delta, pdf, select(smooth, reverse_pdf(wi), Float(0.0f)));
       kernels_.sample.push_back({"pdf_reverse", reverse.ref()});
@@ -176,14 +173,12 @@ class SurfaceRecorder {
   void record_albedo() {
     Color3 total = Color3(0.0f);
     for (const Term& term : terms_) total = fma(term.weight, term.lobe->albedo(view_), total);
-    kernels_.albedo = {{"albedo.x", total.x.ref()},
-                       {"albedo.y", total.y.ref()},
-                       {"albedo.z", total.z.ref()}};
+    kernels_.albedo = {
+        {"albedo.x", total.x.ref()}, {"albedo.y", total.y.ref()}, {"albedo.z", total.z.ref()}};
   }
 
   void record_emission() {
-    const Color3 radiance =
-        surface_.edf == nullptr ? Color3(0.0f) : surface_.edf->radiance(view_);
+    const Color3 radiance = surface_.edf == nullptr ? Color3(0.0f) : surface_.edf->radiance(view_);
     if (is_zero(radiance)) {
       kernels_.manifest.push_back("emission: always black");
       return;

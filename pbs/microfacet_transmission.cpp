@@ -78,9 +78,7 @@ MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view
         const Float rest = max(all.total - passed, 0.0f);
         return Terms{1.0f / max(fma(turned, rest, passed), 0.02f), turned};
       },
-      [&] {
-        return Terms{1.0f / ggx_entering(recorder, seen, dense).transmission, Float(0.0f)};
-      });
+      [&] { return Terms{1.0f / ggx_entering(recorder, seen, dense).transmission, Float(0.0f)}; });
 }
 
 MicrofacetTransmission::Terms MicrofacetTransmission::thin(const View& view,

@@ -11,9 +11,9 @@ namespace nacre {
 /// and Standard Nodes, "surface_unlit".
 class Surface final : public Closure {
  public:
-  BsdfPtr bsdf;               ///< Null: does not scatter.
-  EdfPtr edf;                 ///< Null: does not emit.
-  Float opacity = 1.0f;       ///< Presence: 0 as if it were not there.
+  BsdfPtr bsdf;                        ///< Null: does not scatter.
+  EdfPtr edf;                          ///< Null: does not emit.
+  Float opacity = 1.0f;                ///< Presence: 0 as if it were not there.
   Color3 transmission = Color3(0.0f);  ///< What passes straight through where present.
   Bool thin_walled = false;
 };

@@ -21,7 +21,7 @@ enum class Severity { note, warning, error };
 /// flag. Our own faults are asserts, never diagnostics.
 struct Diagnostic {
   Severity severity = Severity::error;
-  std::string code;      ///< Stable identifier, kebab-case: "unknown-node".
+  std::string code;  ///< Stable identifier, kebab-case: "unknown-node".
   SourceLocation where;
   std::string message;   ///< One sentence, no trailing stop.
   std::string expected;  ///< What would have been right; may be empty.
@@ -42,8 +42,8 @@ class Diagnostics {
   static constexpr std::size_t most_kept = 10'000;
 
   void add(Diagnostic diagnostic);
-  void error(std::string code, SourceLocation where, std::string message,
-             std::string expected = {}, std::string found = {});
+  void error(std::string code, SourceLocation where, std::string message, std::string expected = {},
+             std::string found = {});
   void warning(std::string code, SourceLocation where, std::string message,
                std::string expected = {}, std::string found = {});
 

@@ -35,10 +35,10 @@ using TextureCallback = void (*)(void* user, const TextureCall* call);
 /// int32; booleans as int32 0 or 1). Arrays need only their natural alignment.
 /// Inputs and outputs must not overlap.
 struct KernelArguments {
-  const void* const* inputs = nullptr;       ///< One array a Program::inputs entry.
-  void* const* outputs = nullptr;            ///< One array a Program::outputs entry.
-  const std::uint32_t* parameters = nullptr; ///< One slot a Program::parameters entry.
-  const TextureBinding* textures = nullptr;  ///< One a Program::textures entry.
+  const void* const* inputs = nullptr;        ///< One array a Program::inputs entry.
+  void* const* outputs = nullptr;             ///< One array a Program::outputs entry.
+  const std::uint32_t* parameters = nullptr;  ///< One slot a Program::parameters entry.
+  const TextureBinding* textures = nullptr;   ///< One a Program::textures entry.
   TextureCallback texture_callback = nullptr;
   void* texture_user = nullptr;
   std::uint64_t count = 0;  ///< Points.

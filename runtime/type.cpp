@@ -14,22 +14,14 @@ struct TypeRow {
 
 // In the order of the enumeration.
 constexpr std::array<TypeRow, 31> rows{{
-    {"none", 0},           {"boolean", 1},
-    {"integer", 1},        {"float", 1},
-    {"color3", 3},         {"color4", 4},
-    {"vector2", 2},        {"vector3", 3},
-    {"vector4", 4},        {"matrix33", 9},
-    {"matrix44", 16},      {"string", 0},
-    {"filename", 0},       {"geomname", 0},
-    {"integerarray", 0},   {"floatarray", 0},
-    {"color3array", 0},    {"color4array", 0},
-    {"vector2array", 0},   {"vector3array", 0},
-    {"vector4array", 0},   {"stringarray", 0},
-    {"geomnamearray", 0},  {"BSDF", 0},
-    {"EDF", 0},            {"VDF", 0},
-    {"surfaceshader", 0},  {"displacementshader", 0},
-    {"volumeshader", 0},   {"lightshader", 0},
-    {"material", 0},
+    {"none", 0},         {"boolean", 1},     {"integer", 1},       {"float", 1},
+    {"color3", 3},       {"color4", 4},      {"vector2", 2},       {"vector3", 3},
+    {"vector4", 4},      {"matrix33", 9},    {"matrix44", 16},     {"string", 0},
+    {"filename", 0},     {"geomname", 0},    {"integerarray", 0},  {"floatarray", 0},
+    {"color3array", 0},  {"color4array", 0}, {"vector2array", 0},  {"vector3array", 0},
+    {"vector4array", 0}, {"stringarray", 0}, {"geomnamearray", 0}, {"BSDF", 0},
+    {"EDF", 0},          {"VDF", 0},         {"surfaceshader", 0}, {"displacementshader", 0},
+    {"volumeshader", 0}, {"lightshader", 0}, {"material", 0},
 }};
 static_assert(rows.size() == static_cast<std::size_t>(Type::material) + 1);
 
@@ -54,8 +46,6 @@ bool is_text(Type type) {
 
 bool is_array(Type type) { return type >= Type::integer_array && type <= Type::geomname_array; }
 
-bool is_closure(Type type) {
-  return type == Type::bsdf || type == Type::edf || type == Type::vdf;
-}
+bool is_closure(Type type) { return type == Type::bsdf || type == Type::edf || type == Type::vdf; }
 
 }  // namespace nacre

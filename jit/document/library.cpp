@@ -30,7 +30,8 @@ std::vector<fs::path> files_below(const fs::path& folder, bool with_sources) {
   fs::recursive_directory_iterator at(folder, error);
   const fs::recursive_directory_iterator end;
   while (!error && at != end) {
-    if (at->is_directory(error) && is_other_target(at->path(), with_sources)) at.disable_recursion_pending();
+    if (at->is_directory(error) && is_other_target(at->path(), with_sources))
+      at.disable_recursion_pending();
     if (at->path().extension() == ".mtlx") files.push_back(at->path());
     at.increment(error);
   }
@@ -51,8 +52,7 @@ std::shared_ptr<const Library> load_library(const std::vector<fs::path>& paths,
       continue;
     }
     const bool is_standard = fs::is_directory(path / "stdlib", error);
-    const std::vector<fs::path> found =
-        files_below(path, options.standard_sources || !is_standard);
+    const std::vector<fs::path> found = files_below(path, options.standard_sources || !is_standard);
     if (found.empty()) {
       diagnostics.error("empty-library", {path.string(), 0, 0, ""},
                         "the library folder holds no .mtlx files");

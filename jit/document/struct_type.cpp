@@ -1,4 +1,5 @@
 #include "jit/document/struct_type.h"
+
 #include "jit/document/value_text.h"
 
 namespace nacre {

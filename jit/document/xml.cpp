@@ -189,7 +189,8 @@ Element* parse_xml(Document& document, std::uint16_t file, std::string_view text
                    const ReadOptions& options, Diagnostics& diagnostics) {
   Reader reader{document, file, options, diagnostics, {}};
   const auto refuse = [&](TextFault fault) -> Element* {
-    diagnostics.error(std::move(fault.code), reader.at_offset(static_cast<std::ptrdiff_t>(fault.offset)),
+    diagnostics.error(std::move(fault.code),
+                      reader.at_offset(static_cast<std::ptrdiff_t>(fault.offset)),
                       std::move(fault.message), std::move(fault.expected), std::move(fault.found));
     return nullptr;
   };
@@ -206,9 +207,9 @@ Element* parse_xml(Document& document, std::uint16_t file, std::string_view text
     return nullptr;
   }
   pugi::xml_document xml;
-  const pugi::xml_parse_result result =
-      xml.load_buffer_inplace(document.text(file), text.size(),
-                             options.keep_comments ? parse_notes_flags : parse_flags, pugi::encoding_utf8);
+  const pugi::xml_parse_result result = xml.load_buffer_inplace(
+      document.text(file), text.size(), options.keep_comments ? parse_notes_flags : parse_flags,
+      pugi::encoding_utf8);
   bool has_doctype = false;
   for (const pugi::xml_node& node : xml.children()) {
     has_doctype = has_doctype || node.type() == pugi::node_doctype;

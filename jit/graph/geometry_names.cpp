@@ -1,7 +1,8 @@
 #include "jit/graph/geometry_names.h"
-#include "jit/document/value_text.h"
 
 #include <algorithm>
+
+#include "jit/document/value_text.h"
 
 namespace nacre {
 

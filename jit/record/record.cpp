@@ -75,9 +75,9 @@ class GraphRecorder {
     for (const std::uint32_t number : plan_.branches[branch].nodes) {
       if (!record_node(number)) return false;
       if (count_instructions() <= options_.max_instructions) continue;
-      diagnostics_.error(
-          "program-too-large", graph_.nodes[number].where, "the graph leads to too large a kernel",
-          std::to_string(options_.max_instructions).append(" instructions at most"));
+      diagnostics_.error("program-too-large", graph_.nodes[number].where,
+                         "the graph leads to too large a kernel",
+                         std::to_string(options_.max_instructions).append(" instructions at most"));
       return false;
     }
     return true;

@@ -8,7 +8,8 @@ namespace nacre {
 /// medium behind the interface, which surface kernels leave to the renderer: the
 /// top is what remains.
 void record_closure_layer(NodeCall& call) {
-  call.set(std::make_shared<LayerBsdf>(as_bsdf(call.closure("top")), as_bsdf(call.closure("base"))));
+  call.set(
+      std::make_shared<LayerBsdf>(as_bsdf(call.closure("top")), as_bsdf(call.closure("base"))));
 }
 
 }  // namespace nacre

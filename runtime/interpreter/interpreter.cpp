@@ -115,11 +115,13 @@ class Run {
       if (instruction.op == Op::constant || (is_entry && frame.prepared->once[i])) continue;
       switch (instruction.op) {
         case Op::if_any: i = open_if(frame, i); break;
-        case Op::merge: blend(frame, id, mask_of_if(frame, i), instruction.operands[0],
-                              instruction.operands[1]); break;
+        case Op::merge:
+          blend(frame, id, mask_of_if(frame, i), instruction.operands[0], instruction.operands[1]);
+          break;
         case Op::loop: i = open_loop(frame, i, loops); break;
-        case Op::next: blend(frame, id, loops.back().active, instruction.operands[1],
-                             instruction.operands[0]); break;
+        case Op::next:
+          blend(frame, id, loops.back().active, instruction.operands[1], instruction.operands[0]);
+          break;
         case Op::again: {
           const Register& condition = reg(frame, instruction.operands[0]);
           for (int k = 0; k < block_lanes; ++k) loops.back().active[k] &= condition[k];
@@ -193,9 +195,8 @@ class Run {
     LoopState& state = loops.back();
     const Instruction& opening = function.code[state.start];
     if (++state.iteration < opening.imm && any(state.active)) {
-      for_each_next(frame, state.start, [&](ValueId next, ValueId carry) {
-        reg(frame, carry) = reg(frame, next);
-      });
+      for_each_next(frame, state.start,
+                    [&](ValueId next, ValueId carry) { reg(frame, carry) = reg(frame, next); });
       return state.start;
     }
     loops.pop_back();
@@ -237,7 +238,8 @@ class Run {
       case Op::call: call(frame, instruction); break;
       case Op::texture_call: texture_call(frame, instruction); break;
       case Op::result: reg(frame, id) = results_[instruction.imm]; break;
-      case Op::give: results_pending_.resize(frame.prepared->function->results.size());
+      case Op::give:
+        results_pending_.resize(frame.prepared->function->results.size());
         results_pending_[instruction.imm] = reg(frame, instruction.operands[0]);
         break;
       case Op::store: store(frame, instruction); break;
@@ -263,7 +265,8 @@ class Run {
     Register& to = reg(frame, id);
     for (int k = 0; k < block_lanes; ++k) {
       const auto clamped = std::clamp(static_cast<std::int32_t>(index[k]), 0, last);
-      to[k] = flush_denormal(std::bit_cast<std::uint32_t>(values[static_cast<std::size_t>(clamped)]));
+      to[k] =
+          flush_denormal(std::bit_cast<std::uint32_t>(values[static_cast<std::size_t>(clamped)]));
     }
   }
 

@@ -34,15 +34,12 @@ struct Lanes {
   }
   using FloatMask = xsimd::batch_bool<float, Arch>;
   static I words(FloatMask mask) {
-    return xsimd::bitwise_cast<I>(
-        xsimd::select(mask, xsimd::bitwise_cast<F>(I(-1)), F(0.0f)));
+    return xsimd::bitwise_cast<I>(xsimd::select(mask, xsimd::bitwise_cast<F>(I(-1)), F(0.0f)));
   }
   static auto integer_mask(FloatMask mask) { return words(mask) != I(0); }
 
   // Truth values in memory are whole words.
-  static void put(std::uint32_t* p, FloatMask value) {
-    put(p, words(value));
-  }
+  static void put(std::uint32_t* p, FloatMask value) { put(p, words(value)); }
   static void put(std::uint32_t* p, xsimd::batch_bool<std::int32_t, Arch> value) {
     put(p, xsimd::select(value, I(-1), I(0)));
   }
@@ -93,8 +90,7 @@ struct Lanes {
   }
 
   static I canonical_bits(F x) {
-    return xsimd::select(integer_mask(!(x == x)), I(0x7fc00000),
-                         xsimd::bitwise_cast<I>(x));
+    return xsimd::select(integer_mask(!(x == x)), I(0x7fc00000), xsimd::bitwise_cast<I>(x));
   }
 
   /// The binary16 in the low half: exponent and mantissa moved into place and
@@ -121,23 +117,23 @@ LaneOps make_lane_ops() {
   LaneOps ops{};
   const auto at = [&](Op op) -> LaneOp& { return ops[static_cast<std::size_t>(op)]; };
 
-#define NACRE_UNARY(op, V, ...)                                   \
-  at(op) = [](W* d, const W* a, const W*, const W*) {             \
-    L::template unary<V>(d, a, [](V x) { return __VA_ARGS__; });  \
+#define NACRE_UNARY(op, V, ...)                                  \
+  at(op) = [](W* d, const W* a, const W*, const W*) {            \
+    L::template unary<V>(d, a, [](V x) { return __VA_ARGS__; }); \
   }
-#define NACRE_BINARY(op, V, ...)                                         \
-  at(op) = [](W* d, const W* a, const W* b, const W*) {                  \
+#define NACRE_BINARY(op, V, ...)                                          \
+  at(op) = [](W* d, const W* a, const W* b, const W*) {                   \
     L::template binary<V>(d, a, b, [](V x, V y) { return __VA_ARGS__; }); \
   }
   NACRE_BINARY(Op::add, F, x + y);
   NACRE_BINARY(Op::sub, F, x - y);
-  NACRE_BINARY(Op::mul, F, x* y);
+  NACRE_BINARY(Op::mul, F, x * y);
   NACRE_BINARY(Op::div, F, x / y);
   NACRE_BINARY(Op::min, F, xsimd::select(x < y, x, y));
   NACRE_BINARY(Op::max, F, xsimd::select(x > y, x, y));
   NACRE_UNARY(Op::sqrt, F, xsimd::sqrt(x));
   NACRE_UNARY(Op::neg, I, x ^ I(INT32_MIN));
-  NACRE_UNARY(Op::abs, I, x& I(INT32_MAX));
+  NACRE_UNARY(Op::abs, I, x & I(INT32_MAX));
   NACRE_UNARY(Op::floor, F, xsimd::floor(x));
   NACRE_UNARY(Op::ceil, F, xsimd::ceil(x));
   NACRE_UNARY(Op::trunc, F, xsimd::trunc(x));
@@ -148,14 +144,14 @@ LaneOps make_lane_ops() {
   NACRE_BINARY(Op::le, F, x <= y);
   NACRE_BINARY(Op::iadd, I, x + y);
   NACRE_BINARY(Op::isub, I, x - y);
-  NACRE_BINARY(Op::imul, I, x* y);
-  NACRE_BINARY(Op::iand, I, x& y);
+  NACRE_BINARY(Op::imul, I, x * y);
+  NACRE_BINARY(Op::iand, I, x & y);
   NACRE_BINARY(Op::ior, I, x | y);
   NACRE_BINARY(Op::ixor, I, x ^ y);
   NACRE_BINARY(Op::ieq, I, x == y);
   NACRE_BINARY(Op::ilt, I, x < y);
   NACRE_BINARY(Op::ult, I, (x ^ I(INT32_MIN)) < (y ^ I(INT32_MIN)));
-  NACRE_BINARY(Op::band, I, x& y);
+  NACRE_BINARY(Op::band, I, x & y);
   NACRE_BINARY(Op::bor, I, x | y);
   NACRE_BINARY(Op::bxor, I, x ^ y);
   NACRE_UNARY(Op::bnot, I, ~x);
@@ -164,7 +160,7 @@ LaneOps make_lane_ops() {
   NACRE_UNARY(Op::u_to_f, I, L::from_unsigned(x));
   NACRE_UNARY(Op::bits, F, L::canonical_bits(x));
   NACRE_UNARY(Op::from_bits, I, L::flush_denormal(x));
-  NACRE_UNARY(Op::b_to_i, I, x& I(1));
+  NACRE_UNARY(Op::b_to_i, I, x & I(1));
   NACRE_UNARY(Op::half_to_f, I, L::from_half(x));
 #undef NACRE_UNARY
 #undef NACRE_BINARY

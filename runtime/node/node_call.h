@@ -60,9 +60,7 @@ class NodeCall {
   void set(Bool x) { put(outputs_.front(), {x.ref()}); }
   void set(Float2 v) { put(outputs_.front(), {v.x.ref(), v.y.ref()}); }
   void set(Float3 v) { put(outputs_.front(), {v.x.ref(), v.y.ref(), v.z.ref()}); }
-  void set(Float4 v) {
-    put(outputs_.front(), {v.x.ref(), v.y.ref(), v.z.ref(), v.w.ref()});
-  }
+  void set(Float4 v) { put(outputs_.front(), {v.x.ref(), v.y.ref(), v.z.ref(), v.w.ref()}); }
   void set(ClosurePtr closure);
   void set(std::vector<Ref> parts) { put(outputs_.front(), std::move(parts)); }
   /// Sets the first output to an input of the same type: numbers, text or closure.

@@ -18,10 +18,10 @@ struct TextureSource {
     missing,   ///< No image: the node's default colour.
   };
   State state = State::missing;
-  Int slot;                                    ///< A literal.
-  texture_layout::TexelFormat format{};        ///< Fixed in the kernel.
-  int channels = 0;                            ///< In the file, at most 4.
-  bool single = false;                         ///< One texel: the same everywhere.
+  Int slot;                              ///< A literal.
+  texture_layout::TexelFormat format{};  ///< Fixed in the kernel.
+  int channels = 0;                      ///< In the file, at most 4.
+  bool single = false;                   ///< One texel: the same everywhere.
 };
 
 /// What a file name with or without <UDIM> / <UVTILE> stands for.

@@ -78,8 +78,7 @@ std::optional<std::uint32_t> fold_integer(Op op, std::uint32_t a, std::uint32_t 
     case Op::iadd: return a + b;
     case Op::isub: return a - b;
     case Op::imul: return a * b;
-    case Op::umulhi:
-      return static_cast<std::uint32_t>((static_cast<std::uint64_t>(a) * b) >> 32);
+    case Op::umulhi: return static_cast<std::uint32_t>((static_cast<std::uint64_t>(a) * b) >> 32);
     case Op::iand:
     case Op::band: return a & b;
     case Op::ior:

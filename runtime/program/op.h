@@ -91,8 +91,8 @@ enum class Op : std::uint8_t {
   sin,
   cos,
   tan,
-  asin,  ///< NaN outside [-1, 1].
-  acos,  ///< NaN outside [-1, 1].
+  asin,   ///< NaN outside [-1, 1].
+  acos,   ///< NaN outside [-1, 1].
   atan2,  ///< (y, x); atan2(0, 0) = 0 with C99's signs.
   exp,
   exp2,
@@ -101,11 +101,11 @@ enum class Op : std::uint8_t {
   pow,   ///< C99 Annex F.
 
   // Memory
-  table,  ///< (i32 index) Entry of constant table imm; index clamped to it.
-  texel,  ///< (i32 slot, i32 word) One word of a resident texture.
-  texture_call,    ///< (slot, u, v, dudx, dvdx, dudy, dvdy) A look-up that the
-                   ///< host answers; imm: filter and address modes. See `result`.
-  result,          ///< (call or texture_call) Result imm of it.
+  table,         ///< (i32 index) Entry of constant table imm; index clamped to it.
+  texel,         ///< (i32 slot, i32 word) One word of a resident texture.
+  texture_call,  ///< (slot, u, v, dudx, dvdx, dudy, dvdy) A look-up that the
+                 ///< host answers; imm: filter and address modes. See `result`.
+  result,        ///< (call or texture_call) Result imm of it.
 
   // Structure. A region is the instructions between its opening and closing
   // one; values defined in it are not visible after it, except merge and next.
@@ -113,11 +113,11 @@ enum class Op : std::uint8_t {
   merge,   ///< (inner, outer) Last in an if_any region, visible after it: inner
            ///< in the lanes of the mask, outer in the others.
   end_if,
-  loop,      ///< (b1 mask) Runs its region at most imm times while any lane is active.
-  carry,     ///< (initial) First in a loop region: the value carried by a lane.
-  next,      ///< (carry, value) Last but one in a loop region: what the carry becomes
-             ///< in active lanes. Visible after the loop as the final value.
-  again,     ///< (b1) Last in a loop region: lanes where false stop being active.
+  loop,   ///< (b1 mask) Runs its region at most imm times while any lane is active.
+  carry,  ///< (initial) First in a loop region: the value carried by a lane.
+  next,   ///< (carry, value) Last but one in a loop region: what the carry becomes
+          ///< in active lanes. Visible after the loop as the final value.
+  again,  ///< (b1) Last in a loop region: lanes where false stop being active.
   end_loop,
   call,  ///< (arguments...) Function imm of the Program. See `result`.
   give,  ///< (value) Result imm of the outlined function this stands in.

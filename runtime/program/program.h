@@ -52,7 +52,7 @@ struct Channel {
 
 /// A four-byte slot of the parameter block.
 struct ParameterSlot {
-  std::string name;         ///< "SR_gold/base_color.x", "frame", ...
+  std::string name;  ///< "SR_gold/base_color.x", "frame", ...
   Scalar type = Scalar::f32;
   std::uint32_t value = 0;  ///< The bits it has in the document.
   bool operator==(const ParameterSlot&) const = default;

@@ -169,8 +169,8 @@ void resolve_keeps(Program& program, Keeps keeps) {
       meaning[i] = instruction.operands[0];
       continue;
     }
-    program.inputs.push_back({std::string(state_prefix) + std::to_string(instruction.imm),
-                              instruction.type});
+    program.inputs.push_back(
+        {std::string(state_prefix) + std::to_string(instruction.imm), instruction.type});
     instruction = {.op = Op::input,
                    .type = instruction.type,
                    .imm = static_cast<std::uint32_t>(program.inputs.size() - 1)};
@@ -200,13 +200,10 @@ Program slice(const Program& recorded, std::string name, std::span<const SliceOu
     ValueId value = output.value.id;
     if (output.value.is_constant()) {
       value = static_cast<ValueId>(entry.code.size());
-      entry.code.push_back(
-          {.op = Op::constant, .type = output.value.type, .imm = output.value.id});
+      entry.code.push_back({.op = Op::constant, .type = output.value.type, .imm = output.value.id});
     }
-    entry.code.push_back({.op = Op::store,
-                          .count = 1,
-                          .imm = index,
-                          .operands = {value, no_value, no_value}});
+    entry.code.push_back(
+        {.op = Op::store, .count = 1, .imm = index, .operands = {value, no_value, no_value}});
   }
   resolve_keeps(program, keeps);
   remove_dead(program);
@@ -215,8 +212,7 @@ Program slice(const Program& recorded, std::string name, std::span<const SliceOu
   return program;
 }
 
-std::vector<SliceOutput> state_outputs(Recorder& recorder,
-                                       std::span<const std::uint32_t> keeps) {
+std::vector<SliceOutput> state_outputs(Recorder& recorder, std::span<const std::uint32_t> keeps) {
   std::vector<SliceOutput> outputs(keeps.size());
   const auto& code = recorder.program().entry().code;
   for (std::size_t i = 0; i < code.size(); ++i) {

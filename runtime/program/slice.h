@@ -18,8 +18,8 @@ struct SliceOutput {
 
 /// What `slice` does with keep marks (Recorder::keep).
 enum class Keeps {
-  pass,   ///< A keep is its operand: one kernel computes everything.
-  load,   ///< A keep is the input channel "state.<k>".
+  pass,  ///< A keep is its operand: one kernel computes everything.
+  load,  ///< A keep is the input channel "state.<k>".
 };
 
 /// The part of a recording that computes `outputs`, as a Program of its own:

@@ -72,15 +72,15 @@ class Transformer {
       case Op::next: return recorder_.next(operands[0], operands[1]);
       case Op::again: recorder_.again(operands[0]); return {};
       case Op::end_loop: recorder_.end_loop(); return {};
-      case Op::call:
-        results_ = recorder_.call(functions_[instruction.imm], operands);
-        return {};
+      case Op::call: results_ = recorder_.call(functions_[instruction.imm], operands); return {};
       case Op::texture_call:
         results_ = recorder_.texture_call(operands, instruction.imm);
         return {};
       case Op::result: return results_[instruction.imm];
       case Op::give: (*gives_)[instruction.imm] = operands[0]; return {};
-      case Op::store: recorder_.store(program_.outputs[instruction.imm].name, operands[0]); return {};
+      case Op::store:
+        recorder_.store(program_.outputs[instruction.imm].name, operands[0]);
+        return {};
       default: break;
     }
     if (const std::optional<Ref> replaced = replace_(recorder_, instruction, operands)) {

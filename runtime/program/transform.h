@@ -13,8 +13,8 @@ namespace nacre {
 /// nothing to record the instruction itself again. `operands` are the
 /// instruction's, in the new recording. Not asked about structure, calls,
 /// stores and leaves other than constants.
-using Replacement = std::function<std::optional<Ref>(Recorder& recorder, const Instruction& instruction,
-                                                     std::span<const Ref> operands)>;
+using Replacement = std::function<std::optional<Ref>(
+    Recorder& recorder, const Instruction& instruction, std::span<const Ref> operands)>;
 
 /// Records a Program again, instruction by instruction, with some replaced.
 /// Folding, simplification and sharing happen on the way; what becomes unused

@@ -11,8 +11,8 @@ bool sweep(Function& function, bool all) {
   std::vector<std::size_t> opened;  // The opening instructions of the regions around.
   for (std::size_t i = 0; i < function.code.size(); ++i) {
     Instruction& instruction = function.code[i];
-    bool varying = instruction.varying || all || instruction.op == Op::input ||
-                   instruction.op == Op::argument;
+    bool varying =
+        instruction.varying || all || instruction.op == Op::input || instruction.op == Op::argument;
     for (const ValueId operand : function.operands(instruction)) {
       varying = varying || function.code[operand].varying;
     }

@@ -200,8 +200,8 @@ class Run {
         to = from_bits(instruction.type, args_.parameters[instruction.imm]);
         break;
       case Op::input:
-        to = from_bits(instruction.type, static_cast<const std::uint32_t*>(
-                                             args_.inputs[instruction.imm])[point_]);
+        to = from_bits(instruction.type,
+                       static_cast<const std::uint32_t*>(args_.inputs[instruction.imm])[point_]);
         break;
       case Op::argument: to = frame.arguments[instruction.imm]; break;
       case Op::select: to = operand(0).i != 0 ? operand(1) : operand(2); break;

@@ -26,9 +26,8 @@ std::vector<Ref> flatten(T value) {
 template <class T>
 T rebuild(T like, const std::vector<Ref>& refs) {
   std::size_t next = 0;
-  visit(like, [&](auto& scalar) {
-    scalar = std::remove_reference_t<decltype(scalar)>(refs[next++]);
-  });
+  visit(like,
+        [&](auto& scalar) { scalar = std::remove_reference_t<decltype(scalar)>(refs[next++]); });
   return like;
 }
 
@@ -48,7 +47,8 @@ T if_any(Bool mask, T otherwise, F&& body) {
   const std::vector<Ref> inner = detail::flatten(inside);
   const std::vector<Ref> outer = detail::flatten(otherwise);
   std::vector<Ref> merged;
-  for (std::size_t i = 0; i < inner.size(); ++i) merged.push_back(recorder.merge(inner[i], outer[i]));
+  for (std::size_t i = 0; i < inner.size(); ++i)
+    merged.push_back(recorder.merge(inner[i], outer[i]));
   recorder.end_if();
   return detail::rebuild(otherwise, merged);
 }

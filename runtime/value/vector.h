@@ -24,17 +24,29 @@ using Color4 = Float4;
 // visit(v, f) calls f on every scalar of v, in order; structures of recorded
 // values that cross an if_any, a loop or an outlined function define their own.
 template <class F>
-void visit(Float& v, F&& f) { f(v); }
+void visit(Float& v, F&& f) {
+  f(v);
+}
 template <class F>
-void visit(Int& v, F&& f) { f(v); }
+void visit(Int& v, F&& f) {
+  f(v);
+}
 template <class F>
-void visit(Bool& v, F&& f) { f(v); }
+void visit(Bool& v, F&& f) {
+  f(v);
+}
 template <class F>
-void visit(Float2& v, F&& f) { f(v.x), f(v.y); }
+void visit(Float2& v, F&& f) {
+  f(v.x), f(v.y);
+}
 template <class F>
-void visit(Float3& v, F&& f) { f(v.x), f(v.y), f(v.z); }
+void visit(Float3& v, F&& f) {
+  f(v.x), f(v.y), f(v.z);
+}
 template <class F>
-void visit(Float4& v, F&& f) { f(v.x), f(v.y), f(v.z), f(v.w); }
+void visit(Float4& v, F&& f) {
+  f(v.x), f(v.y), f(v.z), f(v.w);
+}
 
 // -- Float2 -----------------------------------------------------------------
 
@@ -88,6 +100,8 @@ inline bool is_zero(Float3 a) {
 }
 /// s a, but nothing at all where s is a literal 0 (a weight that is off skips
 /// what it weighs, infinities included).
-inline Float3 weigh(Float s, Float3 a) { return s.is_constant(0.0f) ? Float3(0.0f) : Float3(s) * a; }
+inline Float3 weigh(Float s, Float3 a) {
+  return s.is_constant(0.0f) ? Float3(0.0f) : Float3(s) * a;
+}
 
 }  // namespace nacre

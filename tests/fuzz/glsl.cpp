@@ -41,7 +41,8 @@ glsl::Value unknown(Recorder& recorder, const glsl::Type& type) {
 
 void run_expression(const std::string& text) {
   Diagnostics diagnostics;
-  const auto module = glsl::Module::read_expression(glsl::Prelude::read(), {"text", text}, diagnostics);
+  const auto module =
+      glsl::Module::read_expression(glsl::Prelude::read(), {"text", text}, diagnostics);
   if ((module == nullptr) != diagnostics.has_errors()) fuzz::fail("refused without a reason");
   if (module == nullptr) return;
   Recorder recorder;

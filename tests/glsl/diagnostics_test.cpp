@@ -66,7 +66,9 @@ TEST(GlslDiagnostics, SayWhatAndWhere) {
 TEST(GlslDiagnostics, AnEmptyExpressionIsNone) {
   for (const char* text : {"", " ", "// nothing", ";"}) {
     Diagnostics diagnostics;
-    EXPECT_EQ(glsl::Module::read_expression(glsl::Prelude::read(), {"a.mtlx", text, 7}, diagnostics), nullptr);
+    EXPECT_EQ(
+        glsl::Module::read_expression(glsl::Prelude::read(), {"a.mtlx", text, 7}, diagnostics),
+        nullptr);
     ASSERT_EQ(diagnostics.all().size(), 1u) << text;
     EXPECT_EQ(diagnostics.all().front().code, "glsl-syntax");
     EXPECT_EQ(diagnostics.all().front().where.line, 7);

@@ -22,7 +22,8 @@ struct TextRun {
 inline TextRun run_text(const std::string& text, const std::vector<std::vector<float>>& columns,
                         const glsl::PreprocessOptions& options = {}) {
   TextRun run;
-  const auto module = glsl::Module::read(glsl::Prelude::read(), {"text.glsl", text}, options, run.diagnostics);
+  const auto module =
+      glsl::Module::read(glsl::Prelude::read(), {"text.glsl", text}, options, run.diagnostics);
   if (module == nullptr) return run;
   const glsl::Function* function = module->function("f");
   if (function == nullptr) return run;

@@ -86,8 +86,7 @@ TEST(Interpreter, AgreesWithScalarMeaningOnEdges) {
       }
       bits.resize(operands.size());
       EXPECT_EQ(std::bit_cast<std::uint32_t>(out[i]), *fold(op, bits))
-          << info(op).name << " " << std::hex << bits[0] << " "
-          << (bits.size() > 1 ? bits[1] : 0);
+          << info(op).name << " " << std::hex << bits[0] << " " << (bits.size() > 1 ? bits[1] : 0);
     }
   }
 }

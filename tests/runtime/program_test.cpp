@@ -1,8 +1,9 @@
+#include "runtime/program/program.h"
+
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "runtime/program/program.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/slice.h"
 #include "runtime/value/control.h"

@@ -36,7 +36,8 @@ float geometry(const std::string& channel) {
 /// direction gives, to the bit: both are the same operations.
 TEST(EvaluateAt, AgreesWithEvaluateToTheBit) {
   Diagnostics diagnostics;
-  const auto system = ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics);
+  const auto system =
+      ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics);
   ASSERT_NE(system, nullptr) << diagnostics.to_string();
   GraphBuilder builder(system->library());
   const auto node = builder.add_node("ND_standard_surface_surfaceshader", "surface");
