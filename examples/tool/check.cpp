@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "examples/tool/options.h"
-#include "jit/graph/find.h"
 #include "jit/graph/build.h"
+#include "jit/graph/find.h"
 
 namespace nacre::tool {
 

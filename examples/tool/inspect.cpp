@@ -50,14 +50,10 @@ Json describe(const BoundKernel& kernel) {
   const Program& program = kernel.program();
   Json textures = Json::array();
   for (const TextureSlot& slot : program.textures) textures.push_back(slot.key);
-  return {{"engine", kernel.kernel().engine()},
-          {"lanes", kernel.kernel().lanes()},
-          {"instructions", instruction_count(program)},
-          {"functions", program.functions.size() - 1},
-          {"inputs", channel_list(program.inputs)},
-          {"outputs", channel_list(program.outputs)},
-          {"parameters", parameter_list(program)},
-          {"textures", std::move(textures)}};
+  return {{"engine", kernel.kernel().engine()},         {"lanes", kernel.kernel().lanes()},
+          {"instructions", instruction_count(program)}, {"functions", program.functions.size() - 1},
+          {"inputs", channel_list(program.inputs)},     {"outputs", channel_list(program.outputs)},
+          {"parameters", parameter_list(program)},      {"textures", std::move(textures)}};
 }
 
 Json stage_list(const std::vector<StageReport>& stages) {
@@ -73,8 +69,7 @@ Json stage_list(const std::vector<StageReport>& stages) {
 }
 
 Json inspect_material(const Opened& opened, const std::string& material,
-                      const ShaderOptions& shader,
-                      Diagnostics& diagnostics) {
+                      const ShaderOptions& shader, Diagnostics& diagnostics) {
   const auto kernels =
       opened.system->compile_material(*opened.document, material, shader, diagnostics);
   if (kernels == nullptr) return nullptr;

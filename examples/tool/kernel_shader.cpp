@@ -50,7 +50,9 @@ std::pair<std::string_view, int> split(std::string_view channel) {
           component == std::string_view::npos ? -1 : static_cast<int>(component)};
 }
 
-float* component(const Lanes3& lanes, int i) { return i == 0 ? lanes.x : i == 1 ? lanes.y : lanes.z; }
+float* component(const Lanes3& lanes, int i) {
+  return i == 0 ? lanes.x : i == 1 ? lanes.y : lanes.z;
+}
 float* component(const Lanes2& lanes, int i) { return i == 0 ? lanes.x : lanes.y; }
 
 using Source = std::function<const float*(const ShadingBatch&)>;
@@ -94,8 +96,8 @@ KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels)
 
 int KernelShader::find_primvar(std::string_view name, int components) {
   auto& list = capabilities_.primvars;
-  const auto found = std::find_if(list.begin(), list.end(),
-                                  [&](const auto& each) { return each.name == name; });
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& each) { return each.name == name; });
   if (found == list.end()) {
     list.push_back({std::string(name), components});
     return static_cast<int>(list.size()) - 1;
@@ -128,7 +130,8 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
     if (bound.from_batch.back() || i < 0) continue;
     const int primvar = find_primvar(primvar_name(group), i + 1);
     // A slot named as the property says whether the mesh has it (nodes/geometric).
-    if (const auto slot = kernel->parameter_index(group)) bound.present.emplace_back(*slot, primvar);
+    if (const auto slot = kernel->parameter_index(group))
+      bound.present.emplace_back(*slot, primvar);
     bound.from_batch.back() = [primvar, i = i](const ShadingBatch& b) -> const float* {
       const auto& lanes = b.primvars[primvar];
       return lanes.present ? lanes.component[i] : nullptr;
@@ -144,8 +147,7 @@ std::size_t KernelShader::state_bytes(std::uint32_t capacity) const {
   return kernels_->state.size() * stride(capacity) * sizeof(float);
 }
 
-std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound,
-                                                    const ShadingBatch& batch) {
+std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound, const ShadingBatch& batch) {
   std::vector<std::uint32_t> block = bound.kernel->parameters();
   if (bound.frame) block[*bound.frame] = std::bit_cast<std::uint32_t>(batch.frame);
   if (bound.time) block[*bound.time] = std::bit_cast<std::uint32_t>(batch.time);
@@ -156,8 +158,7 @@ std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound,
 }
 
 void KernelShader::run(const Bound& bound, const ShadingBatch& batch, const void* state,
-                       std::span<const float* const> extras,
-                       std::span<void* const> outputs) const {
+                       std::span<const float* const> extras, std::span<void* const> outputs) const {
   static constexpr std::size_t most = 512;
   const std::size_t count = bound.extra.size();
   assert(count <= most);

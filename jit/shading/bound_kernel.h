@@ -17,7 +17,8 @@ class RecordedTextures;
 /// by any number of threads; holds what it needs alive.
 class BoundKernel {
  public:
-  BoundKernel(std::shared_ptr<const Kernel> kernel, std::shared_ptr<const RecordedTextures> textures);
+  BoundKernel(std::shared_ptr<const Kernel> kernel,
+              std::shared_ptr<const RecordedTextures> textures);
 
   /// Inputs, outputs, parameters and textures, in the order run() wants them.
   const Program& program() const { return kernel_->program(); }
@@ -29,8 +30,8 @@ class BoundKernel {
   std::optional<std::size_t> parameter_index(std::string_view name) const;
 
   /// See KernelArguments. `parameters` empty: those of the document.
-  void run(std::span<const void* const> inputs, std::span<void* const> outputs,
-           std::uint64_t count, std::span<const std::uint32_t> parameters = {}) const;
+  void run(std::span<const void* const> inputs, std::span<void* const> outputs, std::uint64_t count,
+           std::span<const std::uint32_t> parameters = {}) const;
 
  private:
   std::shared_ptr<const Kernel> kernel_;
