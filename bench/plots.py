@@ -50,8 +50,10 @@ def draw(run: results.Run, out: pathlib.Path) -> None:
     bars(run, {"peers/chain": "50 arithmetic nodes", "peers/fractal": "fractal3d, 4 octaves",
                "peers/conductor": "conductor, f and pdf"}, widths + ["xsimd"],
          "The same formula, one thread", out / "peers.png")
-    filters = ("closest", "bilinear", "trilinear", "anisotropic")
-    bars(run, {f"textures/{f}/{p}": f"{f}\n{p}" for f in filters for p in ("coherent", "random")}, widths[1:] + ["oiio"],
+    filters = {"closest": "closest", "bilinear": "bilinear", "trilinear": "trilinear",
+               "anisotropic": "aniso"}
+    bars(run, {f"textures/{f}/{p}": f"{label}\n{p}" for f, label in filters.items()
+               for p in ("coherent", "random")}, widths[1:] + ["oiio"],
          "Texture look-ups, RGBA8, resident, one thread", out / "textures.png")
     names = ("standard_surface", "open_pbr_surface", "gltf_pbr", "UsdPreviewSurface",
              "disney_principled")
