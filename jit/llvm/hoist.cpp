@@ -2,20 +2,11 @@
 
 #include <cstddef>
 
+#include "runtime/program/region.h"
+
 namespace nacre::codegen {
 
 namespace {
-
-std::size_t region_end(const Function& function, std::size_t open) {
-  int depth = 0;
-  std::size_t i = open;
-  do {
-    if (opens_region(function.code[i].op)) ++depth;
-    if (closes_region(function.code[i].op)) --depth;
-    ++i;
-  } while (depth > 0);
-  return i;
-}
 
 /// Instructions [first, end): a region, or a single one.
 bool uniform(const Function& function, std::size_t first, std::size_t end,
@@ -37,7 +28,7 @@ bool uniform(const Function& function, std::size_t first, std::size_t end,
 std::vector<bool> hoistable(const Function& entry) {
   std::vector<bool> once(entry.code.size(), false);
   for (std::size_t i = 0; i < entry.code.size();) {
-    const std::size_t end = opens_region(entry.code[i].op) ? region_end(entry, i) : i + 1;
+    const std::size_t end = (opens_region(entry.code[i].op) ? region_end(entry, i) : i) + 1;
     const bool all = uniform(entry, i, end, once);
     for (; i < end; ++i) once[i] = all;
   }

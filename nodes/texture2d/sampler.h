@@ -20,9 +20,8 @@ struct ImageLookup {
 /// image is missing, and outside it in mode `constant`, the result is `otherwise`.
 /// Components that the image lacks are 0 and alpha is 1.
 ///
-/// The level of detail is within 1.1e-6 of log2(rho) besides rounding. Texels of an
-/// integer format are interpolated in steps of the format, exactly where neighbours are
-/// equal; what is 1 in the file is 1 there.
+/// Texels of an integer format are interpolated in steps of the format, exactly where
+/// neighbours are equal; what is 1 in the file is 1 there.
 Float4 sample_image(Recorder& recorder, const TextureSource& source, const ImageLookup& lookup);
 
 /// The same for what a file name stands for: one image, or tiles by floor(u), floor(v).

@@ -2,20 +2,11 @@
 
 #include <algorithm>
 
+#include "runtime/program/region.h"
+
 namespace nacre {
 
 namespace {
-
-/// The instruction that closes the region opened by instruction i.
-std::size_t region_end(const Function& function, std::size_t i) {
-  int depth = 0;
-  do {
-    if (opens_region(function.code[i].op)) ++depth;
-    if (closes_region(function.code[i].op)) --depth;
-    ++i;
-  } while (depth > 0);
-  return i - 1;
-}
 
 /// For every value, the index of the last instruction that needs it. What a
 /// loop uses from outside, and what it carries, lives until the loop's end.

@@ -12,6 +12,7 @@
 
 #include "runtime/float_environment.h"
 #include "runtime/program/fold.h"
+#include "runtime/program/region.h"
 
 namespace nacre {
 
@@ -106,16 +107,6 @@ class Run {
                 .results = std::vector<Value>(function.results.size())};
     run(frame, 0, function.code.size());
     return std::move(frame.results);
-  }
-
-  static std::size_t region_end(const Function& function, std::size_t i) {
-    int depth = 1;
-    while (depth > 0) {
-      ++i;
-      if (opens_region(function.code[i].op)) ++depth;
-      if (closes_region(function.code[i].op)) --depth;
-    }
-    return i;
   }
 
   void run(Frame& frame, std::size_t first, std::size_t end) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/program/fold.h"
+#include "runtime/program/region.h"
 
 namespace nacre::testing {
 
@@ -85,15 +86,6 @@ class Run {
     }
     run(frame, 0, function.code.size());
     return std::move(frame.results);
-  }
-
-  static std::size_t region_end(const Function& function, std::size_t i) {
-    for (int depth = 1; depth > 0;) {
-      ++i;
-      if (opens_region(function.code[i].op)) ++depth;
-      if (closes_region(function.code[i].op)) --depth;
-    }
-    return i;
   }
 
   void run(Frame& frame, std::size_t first, std::size_t end) {
