@@ -103,8 +103,8 @@ std::vector<float> random_column(Type type, std::mt19937& random) {
   return values;
 }
 
-Columns random_columns(const NodeDef& def) {
-  std::mt19937 random(7);
+Columns random_columns(const NodeDef& def, unsigned seed) {
+  std::mt19937 random(seed);
   Columns columns;
   for (const NodeDefInput& input : def.inputs) {
     const int count = component_count(input.type);
@@ -192,6 +192,9 @@ void restrict_inputs(const std::string& category, Columns& columns) {
   } else if (category.starts_with("fractal")) {
     // int(floor(x)) is undefined beyond int; lacunarities of 40 get there.
     map_column(columns, "lacunarity", [](float x) { return 1.0f + std::abs(x) / 20.0f; });
+  } else if (category == "hsvtorgb") {
+    // The text is grey for saturations below 1e-4; ours has no such edge.
+    map_column(columns, "in.y", [](float x) { return x > 0.0f && x < 1e-4f ? 1e-4f : x; });
   } else if (category.starts_with("flake")) {
     map_column(columns, "size", [](float x) { return 0.01f + std::abs(x); });  // P / size
   } else if (category == "artistic_ior") {
@@ -234,17 +237,29 @@ std::string not_comparable(const NodeDef& def) {
   return "";
 }
 
+/// The least that a difference counts as a part of. The components of a flake's normal
+/// are sums that cancel where they are small: a unit vector's are as exact as its length.
+double least_scale(const std::string& output) {
+  return output.starts_with("flakenormal") ? 1.0 : 1e-6;
+}
+
 struct Comparison {
   double error = 0.0;  ///< Largest relative one where the text gives a float.
-  std::size_t compared = 0;
+  std::map<std::string, std::size_t> points;  ///< Compared, by component of the outputs.
   std::string worst;
+
+  std::size_t fewest() const {
+    std::size_t least = points.empty() ? 0 : points.begin()->second;
+    for (const auto& [name, count] : points) least = std::min(least, count);
+    return least;
+  }
 };
 
-Comparison compare(const NodeDef& def, const NodeBody& body, SourceBodies& sources) {
+void compare(const NodeDef& def, const NodeBody& body, SourceBodies& sources, unsigned seed,
+             Comparison& result) {
   const NodeSource source = node_source(def, *standard_library().definitions().source_of(def));
-  Columns columns = random_columns(def);
+  Columns columns = random_columns(def, seed);
   restrict_inputs(def.category, columns);
-  Comparison result;
   for (const auto& texts : text_choices(def)) {
     const DoubleColumns ours =
         run_def(def, texts, columns, [&](NodeCall& call) { body.record(call); });
@@ -254,9 +269,9 @@ Comparison compare(const NodeDef& def, const NodeBody& body, SourceBodies& sourc
       for (std::size_t i = 0; i < values.size(); ++i) {
         // NaN, infinity and what a float cannot hold: the text says nothing there.
         if (!(std::abs(values[i]) <= 3.4e38)) continue;
-        ++result.compared;
+        ++result.points[name];
         const double mine = ours.at(name)[ours.at(name).size() == 1 ? 0 : i];
-        const double scale = std::max({std::abs(values[i]), std::abs(mine), 1e-6});
+        const double scale = std::max({std::abs(values[i]), std::abs(mine), least_scale(name)});
         const double error = std::isfinite(mine) ? std::abs(values[i] - mine) / scale
                                                  : std::numeric_limits<double>::infinity();
         if (error <= result.error) continue;
@@ -268,7 +283,6 @@ Comparison compare(const NodeDef& def, const NodeBody& body, SourceBodies& sourc
       }
     }
   }
-  return result;
 }
 
 std::vector<std::string> nodegroups() {
@@ -287,9 +301,13 @@ TEST_P(LibraryOracle, BodiesAgreeWithTheLibrarysText) {
     const NodeBody* body = bodies.find(def->name);
     if (body == nullptr || standard_library().definitions().source_of(*def) == nullptr) continue;
     if (!not_comparable(*def).empty()) continue;
-    const Comparison result = compare(*def, *body, sources);
+    // Again, where the text says nothing at many of the points.
+    Comparison result;
+    for (unsigned seed = 1; seed <= 10 && result.fewest() < point_count; ++seed) {
+      compare(*def, *body, sources, seed, result);
+    }
     const bool differs = intended().contains(def->category);
-    EXPECT_GE(result.compared, point_count / 4) << def->name;
+    EXPECT_GE(result.fewest(), point_count) << def->name;
     EXPECT_EQ(result.error > tolerance, differs)
         << def->name << ' ' << result.error << ' ' << result.worst;
   }
