@@ -13,8 +13,8 @@ CXX_SOURCES = $(shell git ls-files '*.h' '*.cpp')
 NACRE_MATERIALX_LIBRARIES ?= $(abspath $(BUILD))/materialx/libraries
 
 .DEFAULT_GOAL := build
-.PHONY: bench build clean configure demo deps format format-check fuzz help install materialx \
-        test test-full tidy
+.PHONY: bench build clean configure demo deps format format-check fuzz help install \
+        materialx mutants test test-full tidy
 
 help: ## This list
 	@grep -E '^[a-z-]+:.*## ' Makefile | sort \
@@ -31,9 +31,13 @@ test-full: build ## Run every test, and let sweeps visit all they can
 	NACRE_TEST_FULL=1 $(CTEST)
 
 fuzz: ## Build the fuzzers and run each for FUZZ_SECONDS (default 60)
-	$(MAKE) configure PRESET=fuzz BUILD=build-fuzz \
-	  NACRE_MATERIALX_LIBRARIES="$(NACRE_MATERIALX_LIBRARIES)"
-	FUZZ_SECONDS=$(or $(FUZZ_SECONDS),60) cmake --build build-fuzz --parallel $(JOBS) --target fuzz
+	$(MAKE) configure PRESET=asan
+	FUZZ_SECONDS=$(or $(FUZZ_SECONDS),60) cmake --build build-asan --parallel $(JOBS) --target fuzz
+
+mutants: ## Run COUNT (default 100000) documents spliced from others, with sanitizers
+	$(MAKE) configure PRESET=asan
+	cmake --build build-asan --parallel $(JOBS) --target mutants
+	build-asan/tests/fuzz/mutants --count $(or $(COUNT),100000) --jobs $(JOBS) --keep build-asan/fuzz/mutants
 
 bench: build ## Measure; results as JSON in <build>/bench-results
 	cmake --build "$(BUILD)" --target bench

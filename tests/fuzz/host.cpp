@@ -53,31 +53,66 @@ void run(const BoundKernel& kernel, Channels& channels) {
   for (auto& [name, column] : results) channels[name] = std::move(column);
 }
 
-void shade_outputs(const Document& document, Diagnostics& diagnostics) {
-  std::size_t count = 0;
-  for (const FoundOutput& output : find_outputs(document)) {
-    if (++count > most_kernels) return;
-    const auto shader =
-        host().compile_outputs(document, {output.name}, shader_options(), diagnostics);
-    Channels channels;
-    if (shader != nullptr) run(shader->kernel, channels);
-  }
-}
+/// Compiles the parts of a document one by one, each with diagnostics of its own.
+class Shading {
+ public:
+  Shading(const Document& document, const ShaderOptions& options, bool agreeing)
+      : document_(document), options_(options), agreeing_(agreeing) {}
 
-void shade_materials(const Document& document, Diagnostics& diagnostics) {
-  std::size_t count = 0;
-  for (const FoundMaterial& material : find_materials(document)) {
-    if (++count > most_kernels) return;
-    const auto kernels =
-        host().compile_material(document, material.name, shader_options(), diagnostics);
-    if (kernels == nullptr) continue;
-    Channels channels;  // begin's outputs are what the others read
-    for (const auto* kernel : {&kernels->begin, &kernels->sample, &kernels->evaluate,
-                               &kernels->albedo, &kernels->emission, &kernels->opacity}) {
-      if (*kernel) run(**kernel, channels);
+  Shaded run_all() {
+    Diagnostics diagnostics;
+    host().check(document_, options_, diagnostics);
+    shaded_.clean = !diagnostics.has_errors();
+    std::size_t count = 0;
+    for (const FoundOutput& output : find_outputs(document_)) {
+      if (++count <= most_kernels) shade_output(output.name);
+    }
+    count = 0;
+    for (const FoundMaterial& material : find_materials(document_)) {
+      if (++count <= most_kernels) shade_material(material.name);
+    }
+    return shaded_;
+  }
+
+ private:
+  void judge(const std::string& what, bool made, const Diagnostics& diagnostics) const {
+    if (!made && !diagnostics.has_errors()) fail(what + ": refused without a reason");
+    if (agreeing_ && shaded_.clean && (!made || diagnostics.has_errors())) {
+      fail(what + ": checking found nothing, compiling\n" + diagnostics.to_string());
     }
   }
-}
+
+  void shade(const BoundKernel& kernel, Channels& channels) {
+    run(kernel, channels);
+    ++shaded_.kernels;
+  }
+
+  void shade_output(const std::string& name) {
+    Diagnostics diagnostics;
+    const auto shader = host().compile_outputs(document_, {name}, options_, diagnostics);
+    judge(name, shader != nullptr, diagnostics);
+    Channels channels;
+    if (shader != nullptr) shade(shader->kernel, channels);
+  }
+
+  void shade_material(const std::string& name) {
+    Diagnostics diagnostics;
+    const auto kernels = host().compile_material(document_, name, options_, diagnostics);
+    judge(name, kernels != nullptr, diagnostics);
+    if (kernels == nullptr) return;
+    Channels channels;  // begin's outputs are what the others read
+    for (const auto* kernel :
+         {&kernels->begin, &kernels->sample, &kernels->evaluate, &kernels->albedo,
+          &kernels->emission, &kernels->opacity, &kernels->displacement, &kernels->volume}) {
+      if (*kernel) shade(**kernel, channels);
+    }
+  }
+
+  const Document& document_;
+  const ShaderOptions& options_;
+  bool agreeing_;
+  Shaded shaded_;
+};
 
 }  // namespace
 
@@ -102,12 +137,8 @@ ShaderOptions shader_options() {
   return options;
 }
 
-void shade_everything(const Document& document) {
-  Diagnostics diagnostics;
-  host().check(document, shader_options(), diagnostics);
-  if (diagnostics.has_errors()) return;
-  shade_outputs(document, diagnostics);
-  shade_materials(document, diagnostics);
+Shaded shade_everything(const Document& document, const ShaderOptions& options, bool agreeing) {
+  return Shading(document, options, agreeing).run_all();
 }
 
 void fail(const std::string& reason) {

@@ -15,9 +15,18 @@ ShadingSystem& host();
 ShaderOptions shader_options();
 ReadOptions read_options();
 
-/// Everything a host does with a document it was given: checks all of it, then
-/// runs each output, and each kernel of each material, on a few points.
-void shade_everything(const Document& document);
+/// How far one document was taken.
+struct Shaded {
+  bool clean = false;  ///< Checking found no error.
+  int kernels = 0;     ///< That ran.
+};
+
+/// Everything a host does with a document it was given: checks all of it, then compiles
+/// and runs each output, and each kernel of each material, on a few points, whatever
+/// checking said. Fails where a compile is refused without a word, and with `agreeing` where
+/// it is refused, or complained of, and checking was not.
+Shaded shade_everything(const Document& document, const ShaderOptions& options = shader_options(),
+                        bool agreeing = false);
 
 /// Ends the process, so that the fuzzer keeps the input.
 [[noreturn]] void fail(const std::string& reason);
