@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "jit/service/compile_service.h"
 #include "runtime/interpreter/interpreter.h"
 #include "runtime/reference/reference.h"
+#include "runtime/report_stop.h"
 
 namespace nacre {
 
@@ -87,14 +89,20 @@ std::vector<std::shared_ptr<const Kernel>> in_their_places(
 
 }  // namespace
 
+Stop stop_from_now(const CompileOptions& options) {
+  // Somebody who would rather interpret than wait has a small max_seconds.
+  return options.stop.within(std::max(options.max_seconds, 1.0));
+}
+
 Program lower(Program program, const CompileOptions& options, std::vector<StageReport>* reports) {
   Stages stages(reports, options.keep_text);
   program = stages.run("recorded", program, [](const Program& p) { return p; });
-  if (is_too_large(program, options)) return program;
+  const auto is_over = [&] { return is_too_large(program, options) || options.stop.is_due(); };
+  if (is_over()) return program;
 
   // Footprint derivatives become arithmetic on derivative channels.
   program = stages.run("derive", program, [](const Program& p) { return derive(p); });
-  if (is_too_large(program, options)) return program;
+  if (is_over()) return program;
 
   // The oracle computes what was written: no contraction, functions of the C library.
   if (options.backend == Backend::reference) return program;
@@ -102,6 +110,7 @@ Program lower(Program program, const CompileOptions& options, std::vector<StageR
   // a * b + c in one rounding; precise rounds as the node's body says.
   if (options.accuracy != Accuracy::precise) {
     program = stages.run("contract", program, [](const Program& p) { return contract(p); });
+    if (is_over()) return program;
   }
 
   // Transcendental functions become polynomials of the accuracy asked for.
@@ -113,12 +122,18 @@ Program lower(Program program, const CompileOptions& options, std::vector<StageR
 }
 
 std::vector<std::shared_ptr<const Kernel>> compile_all(
-    std::vector<Program> programs, const CompileOptions& options, CompileService* service,
+    std::vector<Program> programs, const CompileOptions& asked, CompileService* service,
     Diagnostics& diagnostics, std::vector<std::vector<StageReport>>* stages) {
+  CompileOptions options = asked;
+  options.stop = stop_from_now(asked);
   if (stages != nullptr) stages->resize(programs.size());
   for (std::size_t i = 0; i < programs.size(); ++i) {
     std::vector<StageReport>* reports = stages != nullptr ? &(*stages)[i] : nullptr;
     programs[i] = lower(std::move(programs[i]), options, reports);
+    const std::string doing = fmt::format("making the kernel '{}'", programs[i].name);
+    if (report_if_due(options.stop, doing, {}, diagnostics)) {
+      return std::vector<std::shared_ptr<const Kernel>>(programs.size());
+    }
     if (options.backend != Backend::jit || reports == nullptr) continue;
     if (is_too_large(programs[i], options)) continue;
     const auto dump = [&](const char* name, auto&& text_of) {

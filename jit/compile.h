@@ -7,6 +7,7 @@
 
 #include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -36,13 +37,20 @@ struct CompileOptions {
   bool asynchronous = false;
   /// A Program with more instructions, before or after any stage, is refused.
   std::size_t max_instructions = 2'000'000;
-  /// Seconds that a caller waits for the JIT; then the kernel is interpreted, with a
-  /// warning. The thread that compiles goes on to the end of LLVM's stage.
+  /// Seconds from a call that compiles to its return, for everything it does. Spent
+  /// before there is a Program for each kernel, which has a second at least, that is an
+  /// error; spent waiting for the JIT, the kernel is interpreted, with a warning, and the
+  /// thread that compiles goes on to the end of LLVM's stage.
   double max_seconds = 60;
+  /// Ends a call early; a deadline of it counts as `max_seconds` does.
+  Stop stop = {};
   bool keep_text = false;      ///< Fill StageReport::text with the Program.
   bool dump_ir = false;        ///< A stage "llvm" with the LLVM IR as text. JIT only.
   bool dump_assembly = false;  ///< A stage "assembly" with the machine code as text. JIT only.
 };
+
+/// When a call that begins now must have made its Programs, for `stop`.
+Stop stop_from_now(const CompileOptions& options);
 
 /// From a sliced recording to a kernel: every pass in order, then an engine.
 /// Null, with a diagnostic, if the Program is too large or the JIT refuses. `stages` may be null;

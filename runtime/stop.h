@@ -25,8 +25,11 @@ class Stop {
     if (!(seconds < 1e9)) return *this;
     const auto wait = std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(seconds > 0 ? seconds : 0));
+    const Clock::time_point then = Clock::now() + wait;
+    if (deadline_ <= then) return *this;
     Stop sooner = *this;
-    sooner.deadline_ = std::min(deadline_, Clock::now() + wait);
+    sooner.deadline_ = then;
+    sooner.seconds_ = seconds > 0 ? seconds : 0;
     return sooner;
   }
 
@@ -38,10 +41,13 @@ class Stop {
 
   const std::stop_token& token() const { return token_; }
   Clock::time_point deadline() const { return deadline_; }
+  /// What `within` was given for the deadline, for diagnostics; 0 without one.
+  double seconds() const { return seconds_; }
 
  private:
   std::stop_token token_;
   Clock::time_point deadline_ = Clock::time_point::max();
+  double seconds_ = 0;
 };
 
 }  // namespace nacre

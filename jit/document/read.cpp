@@ -12,6 +12,7 @@
 
 #include "jit/document/upgrade.h"
 #include "jit/document/xml.h"
+#include "runtime/report_stop.h"
 
 namespace nacre {
 
@@ -110,6 +111,7 @@ class FileReader {
                          fmt::format("{} bytes", size));
       return std::nullopt;
     }
+    if (report_if_due(options_.stop, "reading", where, diagnostics_)) return std::nullopt;
     total_bytes_ += size;
     if (++file_count_ > options_.limits.files || total_bytes_ > options_.limits.total_bytes) {
       diagnostics_.error("too-many-includes", where, "the document includes too much",

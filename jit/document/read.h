@@ -9,6 +9,7 @@
 
 #include "jit/document/document.h"
 #include "runtime/diagnostic.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -35,6 +36,7 @@ struct ReadOptions {
   /// `write_document`. Elements are the same without.
   bool keep_comments = false;
   ReadLimits limits;
+  Stop stop;  ///< Ends reading early, as an error.
 };
 
 /// Reads a document and all it includes. Nothing if there was an error; the

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "jit/document/text_check.h"
+#include "runtime/report_stop.h"
 
 namespace nacre {
 
@@ -93,6 +94,7 @@ struct Reader {
   Element* convert_tree(const pugi::xml_node& top) {
     Element* root = &convert(top);
     std::vector<Open> open;
+    std::size_t seen = 0;
     open.push_back({top.first_child(), root, {}});
     check_attributes(*root, top.offset_debug());
     while (!open.empty()) {
@@ -104,6 +106,10 @@ struct Reader {
         continue;
       }
       at.next = node.next_sibling();
+      if ((++seen & 0xFFF) == 0 && options.stop.is_due()) {
+        report_if_due(options.stop, "reading", at_offset(node.offset_debug()), diagnostics);
+        return nullptr;
+      }
       if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) {
         warn_of_text(*at.element, node);
       }

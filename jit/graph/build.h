@@ -17,6 +17,7 @@
 #include "jit/graph/graph.h"
 #include "jit/graph/look.h"
 #include "runtime/diagnostic.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -67,6 +68,8 @@ struct GraphOptions {
   std::size_t max_nodes = 1'000'000;
   /// A node with more inputs is refused.
   std::size_t max_inputs = 1024;
+  /// Ends building, or checking, early, as an error.
+  Stop stop = {};
 };
 
 /// The working space that the options mean for a document, by the name that says so.

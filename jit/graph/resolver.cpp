@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "runtime/report_stop.h"
+
 namespace nacre {
 
 std::size_t Resolver::KeyHash::operator()(const Key& key) const {
@@ -24,8 +26,8 @@ Resolver::Result Resolver::run(Key key) {
   open(key);
   while (!stack.empty()) {
     Frame& frame = stack.back();
-    if (is_too_large(frame)) {
-      // Graphs within graphs may double at each level: stop at once.
+    // Graphs within graphs may double at each level: stop at once.
+    if (is_too_large(frame) || is_due(frame)) {
       for (const Frame& open_frame : stack) slots_[open_frame.key] = {true, failure()};
       return failure();
     }
@@ -67,16 +69,24 @@ double Resolver::fullness() const {
 
 bool Resolver::is_too_large(const Frame& frame) {
   if (fullness() <= 1) return false;
-  const auto* subject = frame.key.subject;
-  const Element& where = frame.key.kind == Kind::port
-                             ? *static_cast<const Element*>(subject)
-                             : *static_cast<const Instance*>(subject)->origin;
   if (!too_large_) {
-    error("too-many-nodes", where, "the graph has too many nodes",
+    error("too-many-nodes", where(frame), "the graph has too many nodes",
           fmt::format("at most {}", options_.max_nodes));
   }
   too_large_ = true;
   return true;
+}
+
+bool Resolver::is_due(const Frame& frame) {
+  if (due_) return true;
+  if ((++steps_ & 0x3F) != 0 || !options_.stop.is_due()) return false;
+  return due_ = report_if_due(options_.stop, "building the graph", location(where(frame)),
+                              diagnostics_);
+}
+
+const Element& Resolver::where(const Frame& frame) {
+  return frame.key.kind == Kind::port ? *static_cast<const Element*>(frame.key.subject)
+                                      : *static_cast<const Instance*>(frame.key.subject)->origin;
 }
 
 std::optional<Resolver::Key> Resolver::step(Frame& frame) {

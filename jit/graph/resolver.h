@@ -105,6 +105,8 @@ class Resolver {
   std::optional<Key> step(Frame& frame);
   static Result failure();
   bool is_too_large(const Frame& frame);
+  bool is_due(const Frame& frame);
+  static const Element& where(const Frame& frame);
   void report_cycle(const std::vector<Frame>& stack, const Key& again);
   const Result& waited(const Frame& frame) { return slots_.at(frame.waiting_for).result; }
 
@@ -225,6 +227,8 @@ class Resolver {
   std::map<std::string, Transform, std::less<>> transforms_;
   std::unordered_map<std::string, bool> reported_;  // warnings given once
   bool too_large_ = false;
+  std::size_t steps_ = 0;
+  bool due_ = false;
 };
 
 }  // namespace nacre

@@ -6,6 +6,7 @@
 
 #include "jit/record/branches.h"
 #include "jit/record/source_bodies.h"
+#include "runtime/report_stop.h"
 
 namespace nacre {
 
@@ -73,10 +74,13 @@ class GraphRecorder {
   /// be recorded.
   bool record_branch(std::uint32_t branch) {
     for (const std::uint32_t number : plan_.branches[branch].nodes) {
+      const GraphNode& node = graph_.nodes[number];
+      if (report_if_due(options_.stop, "recording the graph", node.where, diagnostics_)) {
+        return false;
+      }
       if (!record_node(number)) return false;
       if (count_instructions() <= options_.max_instructions) continue;
-      diagnostics_.error("program-too-large", graph_.nodes[number].where,
-                         "the graph leads to too large a kernel",
+      diagnostics_.error("program-too-large", node.where, "the graph leads to too large a kernel",
                          std::to_string(options_.max_instructions).append(" instructions at most"));
       return false;
     }

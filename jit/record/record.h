@@ -11,6 +11,7 @@
 #include "runtime/node/recorded.h"
 #include "runtime/node/texture_source.h"
 #include "runtime/program/recorder.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -38,6 +39,8 @@ struct RecordOptions {
   std::size_t max_instructions = 2'000'000;
   /// The file that a name written in `document` stands for; the name itself if null.
   std::function<std::string(const std::string& name, const std::string& document)> resolve_file;
+  /// Ends recording early, as an error.
+  Stop stop = {};
 };
 
 /// Records the nodes of a graph that its outputs may need, and returns the values of

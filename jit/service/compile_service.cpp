@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "jit/service/service_kernel.h"
 #include "jit/service/threads.h"
 #include "runtime/interpreter/interpreter.h"
+#include "runtime/report_stop.h"
 
 namespace nacre {
 
@@ -35,9 +35,7 @@ class Service final : public CompileService {
   std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
                                                            const CodegenOptions& options,
                                                            Diagnostics& diagnostics,
-                                                           double max_seconds) override {
-    const auto deadline =
-        std::chrono::steady_clock::now() + std::chrono::duration<double>(max_seconds);
+                                                           const Stop& stop) override {
     std::vector<std::shared_ptr<CompiledKernel>> kernels;
     std::vector<std::shared_ptr<CompileJob>> jobs;
     for (Program& program : programs) {
@@ -53,8 +51,8 @@ class Service final : public CompileService {
     if (session_ == nullptr) return kernels;
     for (std::size_t i = 0; i < kernels.size(); ++i) {
       std::shared_ptr<CompiledKernel>& kernel = kernels[i];
-      if (!jobs[i]->wait_until(deadline)) {
-        kernel = late_kernel(kernel->program(), max_seconds, diagnostics);
+      if (!jobs[i]->wait(stop)) {
+        kernel = late_kernel(kernel->program(), stop, diagnostics);
         continue;
       }
       const bool ready = kernel->wait();
@@ -76,12 +74,16 @@ class Service final : public CompileService {
 
  private:
   /// In the place of one whose code is not ready; nobody waits for that any more.
-  static std::shared_ptr<CompiledKernel> late_kernel(const Program& program, double max_seconds,
+  static std::shared_ptr<CompiledKernel> late_kernel(const Program& program, const Stop& stop,
                                                      Diagnostics& diagnostics) {
+    if (stop.is_requested()) {
+      report_if_due(stop, fmt::format("compiling '{}'", program.name), {}, diagnostics);
+      return nullptr;
+    }
     Diagnostics why;
     why.warning("compile-timeout", {},
                 fmt::format("compiling '{}' takes too long, so it is interpreted", program.name),
-                fmt::format("at most {} seconds", max_seconds));
+                fmt::format("at most {} seconds", stop.seconds()));
     diagnostics.add(why.all().front());
     return interpreting_kernel(program, std::move(why));
   }
@@ -149,7 +151,8 @@ std::vector<std::shared_ptr<const Kernel>> CompileService::compile(std::vector<P
                                                                    Diagnostics& diagnostics) {
   const CodegenOptions codegen = codegen_options(options);
   if (!options.asynchronous) {
-    auto kernels = request_all(std::move(programs), codegen, diagnostics, options.max_seconds);
+    auto kernels = request_all(std::move(programs), codegen, diagnostics,
+                               options.stop.within(options.max_seconds));
     return {kernels.begin(), kernels.end()};
   }
   std::vector<std::shared_ptr<const Kernel>> kernels;

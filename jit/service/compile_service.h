@@ -42,8 +42,6 @@ struct ServiceOptions {
 /// again. All members may be called from any thread. Kernels may outlive it.
 class CompileService {
  public:
-  static constexpr double no_limit = 1e9;
-
   /// Never null. Where the system allows no code to be made at run time, and
   /// where the cache is not to be trusted, that is a warning.
   static std::unique_ptr<CompileService> create(const ServiceOptions& options,
@@ -51,12 +49,14 @@ class CompileService {
   /// Cancels what is not finished.
   virtual ~CompileService() = default;
 
-  /// Compiles them side by side and returns when all are ready, or after `max_seconds`.
-  /// Null, with a diagnostic, for those that LLVM refuses; interpreting kernels for
-  /// those that take longer, with a warning, and where there is no JIT at all.
-  virtual std::vector<std::shared_ptr<CompiledKernel>> request_all(
-      std::vector<Program> programs, const CodegenOptions& options, Diagnostics& diagnostics,
-      double max_seconds = no_limit) = 0;
+  /// Compiles them side by side and returns when all are ready, or `stop` is due.
+  /// Null, with a diagnostic, for those that LLVM refuses and where a stop was requested;
+  /// interpreting kernels for those that are late, with a warning, and where there is no
+  /// JIT at all.
+  virtual std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
+                                                                   const CodegenOptions& options,
+                                                                   Diagnostics& diagnostics,
+                                                                   const Stop& stop = {}) = 0;
   std::shared_ptr<CompiledKernel> request(Program program, const CodegenOptions& options,
                                           Diagnostics& diagnostics);
   /// Returns at once.

@@ -104,11 +104,10 @@ bool CompileJob::wait() const {
   return state_ == State::ready;
 }
 
-bool CompileJob::wait_until(
-    std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>> deadline)
-    const {
+bool CompileJob::wait(const Stop& stop) const {
   std::unique_lock lock(mutex_);
-  return ended_.wait_until(lock, deadline, [this] { return state_ != State::waiting; });
+  const auto has_ended = [this] { return state_ != State::waiting; };
+  return ended_.wait_until(lock, stop.token(), stop.deadline(), has_ended);
 }
 
 CompileJob::State CompileJob::state() const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -9,6 +8,7 @@
 
 #include "jit/cache/kernel_cache.h"
 #include "jit/service/compile_service.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -33,9 +33,8 @@ class CompileJob {
   /// Ends it without code, if it has not ended; running, it stops at the next stage.
   void give_up();
   bool wait() const;
-  /// False if it has not ended by then.
-  bool wait_until(std::chrono::time_point<std::chrono::steady_clock, std::chrono::duration<double>>
-                      deadline) const;
+  /// False if it has not ended when `stop` is due.
+  bool wait(const Stop& stop) const;
 
   State state() const;
   /// The code to run, or null. Once not null it stays the same.
@@ -56,7 +55,7 @@ class CompileJob {
   std::atomic<LoadedCode::Entry> entry_ = nullptr;
 
   mutable std::mutex mutex_;
-  mutable std::condition_variable ended_;
+  mutable std::condition_variable_any ended_;
   State state_ = State::waiting;
   int interested_ = 0;  ///< Kernels that were not cancelled.
   std::shared_ptr<const LoadedCode> code_;

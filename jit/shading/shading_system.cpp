@@ -47,6 +47,13 @@ std::string find_file(const std::string& name, const std::string& document,
   return folders.empty() ? name : (folders.front() / path).lexically_normal().string();
 }
 
+/// The options of a call that begins now: how long it may take becomes when it must end.
+ShaderOptions from_now(const ShaderOptions& options) {
+  ShaderOptions result = options;
+  result.compile.stop = stop_from_now(options.compile);
+  return result;
+}
+
 /// One graph being made into kernels.
 class Compilation {
  public:
@@ -72,7 +79,8 @@ class Compilation {
         .resolve_file =
             [this](const std::string& name, const std::string& document) {
               return find_file(name, document, options_.search_paths);
-            }};
+            },
+        .stop = options_.compile.stop};
     return record_graph(graph, bodies_, record, recorder_, diagnostics_);
   }
 
@@ -198,11 +206,13 @@ GraphOptions ShadingSystem::graph_options(const ShaderOptions& options) const {
   GraphOptions result = options.graph;
   result.is_native = [this](std::string_view nodedef) { return bodies_->contains(nodedef); };
   if (result.colors == nullptr) result.colors = colors_;
+  result.stop = options.compile.stop;
   return result;
 }
 
-void ShadingSystem::check(const Document& document, const ShaderOptions& options,
+void ShadingSystem::check(const Document& document, const ShaderOptions& asked,
                           Diagnostics& diagnostics) {
+  const ShaderOptions options = from_now(asked);
   if (!check_document(document, *library_, graph_options(options), diagnostics)) return;
   Diagnostics known;
   const Definitions definitions(document, &library_->definitions(), known);
@@ -257,15 +267,17 @@ void ShadingSystem::check_sides(const Document& document, const std::string& mat
 }
 
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(
-    const Document& document, const std::vector<std::string>& outputs, const ShaderOptions& options,
+    const Document& document, const std::vector<std::string>& outputs, const ShaderOptions& asked,
     Diagnostics& diagnostics) {
+  const ShaderOptions options = from_now(asked);
   const auto graph = build(document, {.outputs = outputs, .material = {}}, options, diagnostics);
   return graph ? compile_outputs(*graph, options, diagnostics) : nullptr;
 }
 
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
-                                                             const ShaderOptions& options,
+                                                             const ShaderOptions& asked,
                                                              Diagnostics& diagnostics) {
+  const ShaderOptions options = from_now(asked);
   Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics);
   const auto values = compilation.record(graph);
   if (!values) return nullptr;
@@ -300,15 +312,18 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
 
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document& document,
                                                                  const std::string& material,
-                                                                 const ShaderOptions& options,
+                                                                 const ShaderOptions& asked,
                                                                  Diagnostics& diagnostics) {
+  const ShaderOptions options = from_now(asked);
   const auto graph = build(document, {.outputs = {}, .material = material}, options, diagnostics);
   return graph ? compile_material(*graph, options, diagnostics) : nullptr;
 }
 
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& graph,
-                                                                 const ShaderOptions& options,
+                                                                 const ShaderOptions& asked,
                                                                  Diagnostics& diagnostics) {
+  const ShaderOptions options = from_now(asked);
+  const std::size_t errors = diagnostics.error_count();
   const auto has = [&](Type type) {
     return std::ranges::any_of(graph.outputs,
                                [&](const GraphOutput& output) { return output.type == type; });
@@ -371,7 +386,7 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
   for (std::size_t i = 0; i < compiled.size(); ++i) *places[i] = std::move(compiled[i]);
   kernels->lobes = recorded.lobes;
   kernels->manifest = recorded.manifest;
-  if (diagnostics.has_errors()) return nullptr;
+  if (diagnostics.error_count() != errors) return nullptr;
   return kernels;
 }
 

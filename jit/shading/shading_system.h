@@ -49,8 +49,9 @@ struct ShaderOptions {
   CompileOptions compile;
   ParameterMode parameters = ParameterMode::frozen;
   KernelRequest kernels;
-  GraphOptions graph;  ///< `is_native` is filled in, and `colors` where it is null.
-  bool lazy = true;    ///< See RecordOptions.
+  /// `is_native` and `stop` (that of `compile`) are filled in, and `colors` where it is null.
+  GraphOptions graph;
+  bool lazy = true;  ///< See RecordOptions.
   /// Of footprints on images, 1 .. largest_anisotropy; see runtime/texture/sampling.h.
   int max_anisotropy = default_anisotropy;
   Side side = Side::front;  ///< Of a material; see MaterialKernels::has_back.
