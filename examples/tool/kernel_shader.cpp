@@ -132,9 +132,10 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
     // A slot named as the property says whether the mesh has it (nodes/geometric).
     if (const auto slot = kernel->parameter_index(group))
       bound.present.emplace_back(*slot, primvar);
-    bound.from_batch.back() = [primvar, i = i](const ShadingBatch& b) -> const float* {
+    // Clang 19 takes no structured binding into a lambda under its own name without a warning.
+    bound.from_batch.back() = [primvar, component = i](const ShadingBatch& b) -> const float* {
       const auto& lanes = b.primvars[primvar];
-      return lanes.present ? lanes.component[i] : nullptr;
+      return lanes.present ? lanes.component[component] : nullptr;
     };
   }
 }

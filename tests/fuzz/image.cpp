@@ -1,40 +1,21 @@
 // Bytes as an image file: header, decoding, pyramid, and tiles through the cache.
-#include <unistd.h>
-
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "runtime/texture/texture_store.h"
 #include "tests/fuzz/host.h"
+#include "tests/fuzz/memory_file.h"
 
 namespace {
 
 using namespace nacre;
 
-/// Memory that looks like a file. TGA has no signature, so the name says it; all
-/// other formats are told by their first bytes.
-struct MemoryFile {
-  std::string name;
-
-  MemoryFile() {
-    const std::filesystem::path memory = "/dev/shm";
-    const auto folder =
-        std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
-    name = (folder / ("nacre_fuzz_image_" + std::to_string(getpid()) + ".tga")).string();
-  }
-  ~MemoryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(name, ignored);
-  }
-};
-
-const std::string& file_name() {
-  static const MemoryFile file;
-  return file.name;
+/// TGA has no signature, so the name says it; all other formats are told by their first bytes.
+const fuzz::MemoryFile& file() {
+  static const fuzz::MemoryFile file(".tga");
+  return file;
 }
 
 void look_up(const HostTexture& texture) {
@@ -56,7 +37,7 @@ void load(std::uint64_t budget, const std::string& layer) {
   options.limits.max_bytes = 4 << 20;
   TextureStore store(options);
   Diagnostics diagnostics;
-  const TextureHandle texture = store.acquire({.path = file_name(), .layer = layer}, diagnostics);
+  const TextureHandle texture = store.acquire({.path = file().path(), .layer = layer}, diagnostics);
   if (texture->missing() != diagnostics.has_errors()) {
     fuzz::fail("an image is missing without a reason, or there with an error");
   }
@@ -67,8 +48,7 @@ void load(std::uint64_t budget, const std::string& layer) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  std::ofstream(file_name(), std::ios::binary | std::ios::trunc)
-      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  file().write(fuzz::as_text(data, size));
   load(8 << 20, size % 3 == 0 ? "1" : "");
   load(0, "");  // no room: through the tile cache
   return 0;

@@ -15,6 +15,7 @@ MAY_INCLUDE = {
     "tests": ("jit", "nodes", "pbs", "runtime", "tests"),
     "tests/conformance": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
     "tests/examples": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
+    "tests/fuzz": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
     "tests/render": ("examples", "runtime", "tests"),
 }
 
