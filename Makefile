@@ -6,29 +6,69 @@ OUT    ?= out
 JOBS   ?= $(shell nproc)
 
 CTEST  = ctest --test-dir "$(BUILD)" --output-on-failure --no-tests=error -j $(JOBS)
-# Files of ours that clang-format and clang-tidy look at.
-CXX_SOURCES = $(shell git ls-files '*.h' '*.cpp')
+# Tests that say whether the engines' bits are the same: those that another compiler could fail.
+ENGINES = ^(Engines|Interpreter|Identity|.*/Identity|Threads)
 
-# Where configuring looks; the same folder unless somebody names another.
-NACRE_MATERIALX_LIBRARIES ?= $(abspath $(BUILD))/materialx/libraries
+# Nobody named a build: the targets that test take the ones that they are for.
+ALL_BUILDS = $(if $(filter-out file,$(origin PRESET) $(origin BUILD)),,yes)
+
+export ASAN_OPTIONS ?= detect_stack_use_after_return=1:strict_string_checks=1
+export UBSAN_OPTIONS ?= print_stacktrace=1
+export TSAN_OPTIONS ?= suppressions=$(CURDIR)/tests/support/tsan.suppressions:second_deadlock_stack=1
+
+# Files of ours that clang-format and clang-tidy look at.
+CXX_SOURCES = $(shell git ls-files '*.h' '*.cpp' 2> /dev/null \
+  || find runtime nodes pbs jit examples bench tests -name '*.h' -o -name '*.cpp')
+
+# Where configuring looks: one copy for all builds, unless somebody names a folder of theirs.
+OWN_LIBRARIES = $(abspath $(if $(filter file,$(origin BUILD)),build,$(BUILD)))/materialx/libraries
+NACRE_MATERIALX_LIBRARIES ?= $(OWN_LIBRARIES)
 
 .DEFAULT_GOAL := build
 .PHONY: bench build clean configure demo deps format format-check fuzz help install \
-        materialx mutants test test-full tidy
+        materialx mutants test test-clang test-full \
+        test-sanitized tidy
 
 help: ## This list
 	@grep -E '^[a-z-]+:.*## ' Makefile | sort \
-	  | awk -F ':.*## ' '{ printf "  make %-13s %s\n", $$1, $$2 }'
-	@echo "Variables: PRESET=release|debug|asan|ci|clang  BUILD=folder  OUT=folder  JOBS=n"
+	  | awk -F ':.*## ' '{ printf "  make %-15s %s\n", $$1, $$2 }'
+	@echo "Variables: PRESET=release|debug|ci|clang|asan|tsan  BUILD=folder  OUT=folder  JOBS=n"
 
 demo: build ## Render and bake the examples into out/demo
 	examples/demo.sh "$(BUILD)" "$(OUT)/demo"
 
-test: build ## Run the tests, except the very long ones
+test: ## What CI runs; with PRESET=release (say) the tests in that build alone
+ifeq ($(ALL_BUILDS),yes)
+	$(MAKE) format-check
+	$(MAKE) test-clang
+	$(MAKE) test PRESET=ci
+else
+	$(MAKE) build
 	$(CTEST) --label-exclude '^full$$'
+endif
 
-test-full: build ## Run every test, and let sweeps visit all they can
+# Warnings are errors, and the engines' bits are the same as GCC's.
+test-clang:
+	$(MAKE) build PRESET=clang
+	ctest --test-dir build-clang --output-on-failure --no-tests=error -j $(JOBS) -R '$(ENGINES)'
+
+test-full: ## The same with all sweeps whole, and then with sanitizers
+ifeq ($(ALL_BUILDS),yes)
+	$(MAKE) format-check
+	$(MAKE) test-clang
+	$(MAKE) test-full PRESET=ci
+	$(MAKE) test-sanitized
+else
+	$(MAKE) build
 	NACRE_TEST_FULL=1 $(CTEST)
+endif
+
+test-sanitized: ## Tests, fuzzers and mutants under ASan and UBSan, what is concurrent under TSan
+	$(MAKE) test PRESET=asan
+	ctest --test-dir build-asan --output-on-failure --no-tests=error -L '^full$$' -R '^fuzz/'
+	$(MAKE) configure PRESET=tsan
+	cmake --build build-tsan --parallel $(JOBS) --target concurrent_tests
+	ctest --test-dir build-tsan --output-on-failure --no-tests=error -j $(JOBS) -L '^concurrent$$'
 
 fuzz: ## Build the fuzzers and run each for FUZZ_SECONDS (default 60)
 	$(MAKE) configure PRESET=asan
@@ -54,7 +94,7 @@ deps: ## Install the Debian packages that are missing (root or sudo)
 
 materialx: deps ## Fetch the MaterialX data library (pinned, hash checked)
 	@test -f "$(NACRE_MATERIALX_LIBRARIES)/stdlib/stdlib_defs.mtlx" \
-	  && test "$(NACRE_MATERIALX_LIBRARIES)" != "$(abspath $(BUILD))/materialx/libraries" \
+	  && test "$(NACRE_MATERIALX_LIBRARIES)" != "$(OWN_LIBRARIES)" \
 	  || .ci/fetch-materialx "$(NACRE_MATERIALX_LIBRARIES)"
 
 install: build ## Install into PREFIX (default /usr/local)
@@ -63,7 +103,7 @@ install: build ## Install into PREFIX (default /usr/local)
 format: ## Format the C++ sources
 	clang-format-19 -i $(CXX_SOURCES)
 
-format-check: ## Fail if a C++ source is not formatted
+format-check: deps ## Fail if a C++ source is not formatted
 	clang-format-19 --dry-run --Werror $(CXX_SOURCES)
 
 tidy: configure ## Run clang-tidy over the C++ sources

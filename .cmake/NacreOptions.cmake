@@ -36,15 +36,19 @@ function(nacre_public_headers)
   set_property(GLOBAL APPEND PROPERTY NACRE_PUBLIC_HEADERS ${ARGN})
 endfunction()
 
-# nacre_test(NAME [FULL] SOURCES...): a GoogleTest program, one ctest entry per test.
+# nacre_test(NAME [FULL] [CONCURRENT] SOURCES...): a GoogleTest program, one ctest entry per test.
 # FULL: too long for every day; left out by `make test`, run by `make test-full`.
+# CONCURRENT: threads of ours meet in it; `make test-full` runs it with the thread sanitizer too.
 function(nacre_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "FULL" "" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "FULL;CONCURRENT" "" "")
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_link_libraries(${name} PRIVATE nacre_flags GTest::gtest GTest::gtest_main)
   set(properties TIMEOUT 600)
   if(arg_FULL)
     set(properties TIMEOUT 7200 LABELS full)
+  elseif(arg_CONCURRENT)
+    list(APPEND properties LABELS concurrent)
+    set_property(GLOBAL APPEND PROPERTY NACRE_CONCURRENT_TESTS ${name})
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()

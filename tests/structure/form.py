@@ -9,7 +9,7 @@ MOST_LINES = 500
 
 # Calls of CMake whose arguments are a list in alphabetical order, and how many come first.
 SORTED_CALLS = {"nacre_bench": 1, "nacre_library": 1, "nacre_public_headers": 0, "nacre_test": 1}
-KEYWORDS = {"FULL"}
+KEYWORDS = {"CONCURRENT", "FULL"}
 
 
 def length(root: pathlib.Path) -> list[str]:
