@@ -13,7 +13,7 @@ example = (root / "examples/embed/main.cpp").read_text(encoding="utf-8").rstrip(
 if example not in text:
     faults.append("README.md does not contain examples/embed/main.cpp as it is")
 
-for document in ("README.md", "HACKING.md"):
+for document in ("README.md", "HACKING.md", "SECURITY.md"):
     for target in re.findall(r"\]\(([^)#]+)\)", (root / document).read_text(encoding="utf-8")):
         if "://" not in target and not (root / target).exists():
             faults.append(f"{document}: links to {target}, which does not exist")
