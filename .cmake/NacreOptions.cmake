@@ -11,6 +11,11 @@ target_compile_options(nacre_flags INTERFACE
   -fno-semantic-interposition
   $<$<BOOL:${NACRE_WERROR}>:-Werror>)
 
+# What a sanitizer takes itself, as a factor: tests that bound time or memory allow it.
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,-]*address")
+  set(NACRE_SANITIZER_SHARE 4)
+endif()
+
 # A rebuild after switching branches costs seconds; somebody who includes us decides for themselves.
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(NACRE_CCACHE ccache)

@@ -9,7 +9,9 @@
 #include <iterator>
 #include <string>
 
+#include "jit/document/read.h"
 #include "tests/fuzz/host.h"
+#include "tests/fuzz/minimize.h"
 #include "tests/fuzz/splice.h"
 #include "tests/fuzz/workers.h"
 
@@ -20,12 +22,14 @@ using namespace nacre;
 constexpr const char* usage =
     "usage: mutants [--count N] [--from N] [--jobs N] [--jit N] [--agreeing] [--keep FOLDER]\n"
     "       mutants --print N\n"
+    "       mutants --minimize FILE [--agreeing]\n"
     "       mutants [--agreeing] FILE...\n"
     "\n"
     "Runs documents number FROM and on; what fails is kept in FOLDER (mutants) with what was\n"
     "said. One in N (--jit, default 97, 0: none) goes through LLVM, the others through the\n"
     "interpreter. --agreeing: what checking finds nothing wrong with must compile. --print shows\n"
-    "a document. FILEs are run in this process instead.\n";
+    "a document; --minimize leaves out of one what is not needed to fail alike, and prints the\n"
+    "rest. FILEs are run in this process instead.\n";
 
 struct Arguments {
   std::uint64_t count = 300;
@@ -35,6 +39,7 @@ struct Arguments {
   bool agreeing = false;
   std::string keep = "mutants";
   long long print = -1;
+  std::string minimize;
   std::vector<std::string> files;
 };
 
@@ -57,6 +62,8 @@ bool read_arguments(int argc, char** argv, Arguments& arguments) {
       arguments.jit = std::strtoull(argv[i], nullptr, 10);
     } else if (word == "--keep") {
       arguments.keep = argv[i];
+    } else if (word == "--minimize") {
+      arguments.minimize = argv[i];
     } else if (word == "--print") {
       arguments.print = std::atoll(argv[i]);
     } else {
@@ -88,10 +95,14 @@ fuzz::Result run(const std::string& text, const std::string& file, std::uint64_t
   return result;
 }
 
+std::string contents(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 int run_files(const Arguments& arguments) {
   for (const std::string& file : arguments.files) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::string text = contents(file);
     const fuzz::Result result = run(text, file, 0, arguments);
     if (result.clean == 0) {
       Diagnostics diagnostics;
@@ -106,6 +117,21 @@ int run_files(const Arguments& arguments) {
   return 0;
 }
 
+int minimize_file(const Arguments& arguments) {
+  const auto tree = fuzz::read_tree(contents(arguments.minimize));
+  if (!tree) return std::fputs("not XML\n", stderr), 2;
+  fuzz::host();  // once, for all that follow
+  const auto ending = [&](const fuzz::Tree& one) {
+    return fuzz::ending([&] { run(fuzz::write_tree(one), arguments.minimize, 0, arguments); });
+  };
+  const std::string whole = ending(*tree);
+  if (whole.empty()) return std::fputs("it does not fail\n", stderr), 1;
+  const fuzz::Tree small =
+      fuzz::minimize(*tree, [&](const fuzz::Tree& one) { return ending(one) == whole; });
+  std::printf("%s<!-- %s -->\n", fuzz::write_tree(small).c_str(), whole.c_str());
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -115,6 +141,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   if (!arguments.files.empty()) return run_files(arguments);
+  if (!arguments.minimize.empty()) return minimize_file(arguments);
   const fuzz::Splicer& splicer = fuzz::project_splicer();
   if (arguments.print >= 0) {
     const fuzz::Mutant mutant = splicer.mutant(static_cast<std::uint64_t>(arguments.print));

@@ -17,24 +17,15 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/sanitizer.h"
+
 namespace nacre::fuzz {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr double share = 5;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr double share = 5;
-#else
-constexpr double share = 1;
-#endif
-#else
-constexpr double share = 1;
-#endif
-
+constexpr double share = address_sanitizer ? 5 : 1;
 constexpr std::uint64_t batch = 1000;  // Pieces of one process.
 constexpr std::uint64_t none = ~std::uint64_t{0};
 

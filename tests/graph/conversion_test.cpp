@@ -10,9 +10,10 @@ namespace {
 GraphOptions native_transforms() {
   GraphOptions options;
   options.is_native = [](std::string_view name) {
-    return name.find("_to_lin_rec709") != std::string_view::npos ||
-           standard_library().definitions().graph_of(
-               *standard_library().definitions().nodedef(name)) == nullptr;
+    const Definitions& known = standard_library().definitions();
+    const NodeDef* nodedef = known.nodedef(name);  // null: the document's own
+    return name.find("_to_lin_rec709") != std::string_view::npos || nodedef == nullptr ||
+           known.graph_of(*nodedef) == nullptr;
   };
   return options;
 }
