@@ -109,5 +109,5 @@ format-check: deps ## Fail if a C++ source is not formatted
 tidy: configure ## Run clang-tidy over the C++ sources
 	run-clang-tidy-19 -quiet -p "$(BUILD)" -j $(JOBS) '$(CURDIR)/(runtime|nodes|pbs|jit|examples|bench|tests)/'
 
-clean: ## Remove the build folder and the output
-	rm -rf "$(BUILD)" "$(OUT)"
+clean: ## Remove the build folders and the output
+	rm -rf $(if $(ALL_BUILDS),build build-*,"$(BUILD)") "$(OUT)"
