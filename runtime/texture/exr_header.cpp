@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <istream>
 #include <string_view>
-
-#include "runtime/texture/image_io.h"
 
 namespace nacre {
 
@@ -15,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t flag_multipart = 0x1000;
 constexpr std::size_t longest_name = 255;
+constexpr std::uint64_t longest_header = std::uint64_t{16} << 20;  // Of all parts together.
 constexpr std::uint64_t offset_bytes = 8;  // Of each chunk in the table behind the headers.
 
 /// Largest number of lines compressed together, by the number of the method.
@@ -59,8 +57,9 @@ struct Window {
 /// What one header says about the memory that its image takes.
 struct Part {
   Window data;
+  Window display;
   Window tile;  ///< Zero where there are none.
-  std::uint64_t pixel_bytes = 0;
+  std::uint64_t channels = 0;
   std::uint64_t lines = 1;
 };
 
@@ -76,41 +75,36 @@ std::int64_t signed_word(std::string_view bytes, std::size_t at) {
 
 class HeaderReader {
  public:
-  HeaderReader(std::istream& file, std::uint64_t file_bytes, const ImageLimits& limits)
-      : file_(file), file_bytes_(file_bytes), limits_(limits) {}
+  HeaderReader(const ImageFile& file, const ImageLimits& limits)
+      : cursor_(file), file_bytes_(file.bytes()), limits_(limits) {}
 
   std::optional<std::string> run() {
     std::string start;
-    if (!take(8, start)) return "the file ends inside its signature";
+    if (!cursor_.take(8, start)) return "the file ends inside its signature";
     const bool is_multipart = (word(start, 4) & flag_multipart) != 0;
     bool ended = false;
-    while (!ended && !fault_) {
+    for (int parts = 0; !ended && !fault_; ++parts) {
       Part part;
       const int attributes = read_part(part);
       ended = !is_multipart || attributes == 0;
       if (!fault_ && attributes > 0) check_part(part);
+      if (!fault_ && !ended && parts >= limits_.max_layers) {
+        fault_ = fmt::format("there are more than {} parts", limits_.max_layers);
+      }
     }
     return fault_;
   }
 
  private:
-  bool take(std::uint64_t count, std::string& bytes) {
-    if (count > file_bytes_ - at_) return false;
-    bytes.resize(static_cast<std::size_t>(count));
-    file_.read(bytes.data(), static_cast<std::streamsize>(count));
-    at_ += count;
-    return file_.gcount() == static_cast<std::streamsize>(count);
-  }
-
   /// Text up to a zero byte.
   bool take_text(std::string& text) {
     text.clear();
     for (std::string byte; text.size() <= longest_name;) {
-      if (at_ >= file_bytes_ || !take(1, byte)) break;
+      if (cursor_.at() > longest_header || !cursor_.take(1, byte)) break;
       if (byte[0] == '\0') return true;
       text += byte[0];
     }
-    fault_ = "the header is cut short or a name in it is too long";
+    fault_ = "the header is cut short, or it or a name in it is too long";
     return false;
   }
 
@@ -121,7 +115,8 @@ class HeaderReader {
       std::string name, type, size, data;
       if (!take_text(name) || name.empty()) return count;
       if (!take_text(type)) return count;
-      if (!take(4, size) || !take(word(size, 0), data)) {
+      if (!cursor_.take(4, size) || word(size, 0) > longest_header ||
+          !cursor_.take(word(size, 0), data)) {
         fault_ = fmt::format("attribute '{}' claims more bytes than the file has", name);
         return count;
       }
@@ -138,10 +133,11 @@ class HeaderReader {
     for (const FixedSize& fixed : fixed_sizes) {
       if (fixed.type == type && fixed.bytes != data.size()) return false;
     }
-    if (name == "dataWindow") {
+    if (name == "dataWindow" || name == "displayWindow") {
       if (type != "box2i") return false;
-      part.data = {signed_word(data, 8) - signed_word(data, 0) + 1,
-                   signed_word(data, 12) - signed_word(data, 4) + 1};
+      (name == "dataWindow" ? part.data : part.display) = {
+          signed_word(data, 8) - signed_word(data, 0) + 1,
+          signed_word(data, 12) - signed_word(data, 4) + 1};
     } else if (name == "tiles") {
       if (type != "tiledesc") return false;
       part.tile = {word(data, 0), word(data, 4)};
@@ -150,9 +146,9 @@ class HeaderReader {
       const auto method = static_cast<unsigned char>(data[0]);
       part.lines = chunk_lines[std::min<std::size_t>(method, chunk_lines.size() - 1)];
     } else if (type == "chlist") {
-      const auto bytes = channel_bytes(data);
-      if (name == "channels") part.pixel_bytes = bytes.value_or(0);
-      return bytes.has_value();
+      const auto channels = channel_count(data);
+      if (name == "channels") part.channels = channels.value_or(0);
+      return channels.has_value();
     } else if (type == "preview") {
       return data.size() >= 8 &&
              std::uint64_t{word(data, 0)} * word(data, 4) == (data.size() - 8) / 4;
@@ -172,16 +168,16 @@ class HeaderReader {
     return true;
   }
 
-  /// Four bytes a channel at most: a name, its zero byte, and 16 bytes each, up to an
-  /// empty name. Nothing if that does not end with the data.
-  static std::optional<std::uint64_t> channel_bytes(std::string_view data) {
-    std::uint64_t bytes = 0;
+  /// A name, its zero byte, and 16 bytes each, up to an empty name. Nothing if that does
+  /// not end with the data.
+  static std::optional<std::uint64_t> channel_count(std::string_view data) {
+    std::uint64_t channels = 0;
     for (;;) {
       const std::size_t end = data.find('\0');
-      if (end == 0 && data.size() == 1) return bytes;
+      if (end == 0 && data.size() == 1) return channels;
       if (end == std::string_view::npos || end == 0 || data.size() < end + 17) return std::nullopt;
       data.remove_prefix(end + 17);
-      bytes += 4;
+      ++channels;
     }
   }
 
@@ -192,14 +188,18 @@ class HeaderReader {
 
   void check_part(const Part& part) {
     const bool is_tiled = part.tile.width != 0 || part.tile.height != 0;
-    if (outside(part.data) || (is_tiled && outside(part.tile))) {
+    if (part.channels > static_cast<std::uint64_t>(limits_.max_channels)) {
+      fault_ = fmt::format("there are more than {} channels", limits_.max_channels);
+      return;
+    }
+    if (outside(part.data) || outside(part.display) || (is_tiled && outside(part.tile))) {
       fault_ =
           fmt::format("a window or tile is larger than {} or smaller than 1", limits_.max_size);
       return;
     }
     const Window chunk =
         is_tiled ? part.tile : Window{part.data.width, static_cast<std::int64_t>(part.lines)};
-    const auto bytes = static_cast<std::uint64_t>(chunk.width * chunk.height) * part.pixel_bytes;
+    const auto bytes = static_cast<std::uint64_t>(chunk.width * chunk.height) * part.channels * 4;
     const auto chunks = static_cast<std::uint64_t>(((part.data.width - 1) / chunk.width + 1) *
                                                    ((part.data.height - 1) / chunk.height + 1));
     if (bytes > limits_.max_bytes) {
@@ -209,18 +209,16 @@ class HeaderReader {
     }
   }
 
-  std::istream& file_;
+  FileCursor cursor_;
   std::uint64_t file_bytes_;
   const ImageLimits& limits_;
-  std::uint64_t at_ = 0;
   std::optional<std::string> fault_;
 };
 
 }  // namespace
 
-std::optional<std::string> exr_header_fault(std::istream& file, std::uint64_t file_bytes,
-                                            const ImageLimits& limits) {
-  return HeaderReader(file, file_bytes, limits).run();
+std::optional<std::string> exr_header_fault(const ImageFile& file, const ImageLimits& limits) {
+  return HeaderReader(file, limits).run();
 }
 
 }  // namespace nacre

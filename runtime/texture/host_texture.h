@@ -6,9 +6,9 @@
 #include <memory>
 #include <span>
 
-#include "runtime/texture/image_io.h"
 #include "runtime/texture/sampling.h"
 #include "runtime/texture/texel.h"
+#include "runtime/texture/tile_cache.h"
 
 namespace nacre {
 

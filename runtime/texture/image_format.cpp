@@ -1,14 +1,7 @@
 #include "runtime/texture/image_format.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 namespace nacre {
 
@@ -31,16 +24,20 @@ constexpr std::array signatures{
     Signature{"MM\0+"sv, ImageFormat::tiff},
     Signature{"#?RADIANCE"sv, ImageFormat::hdr},
     Signature{"#?RGBE"sv, ImageFormat::hdr},
-    Signature{"GIF8"sv, ImageFormat::gif},
-    Signature{"BM"sv, ImageFormat::bmp},
 };
 
-bool has_extension(std::string_view path, std::string_view extension) {
-  if (path.size() < extension.size()) return false;
-  return std::equal(extension.begin(), extension.end(), path.end() - extension.size(),
-                    [](char a, char b) {
-                      return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b)));
-                    });
+/// No palette, which would be five numbers more; true colour or grey, packed or not.
+bool is_tga(std::span<const unsigned char> header) {
+  if (header.size() < image_signature_bytes || header[1] != 0) return false;
+  if (std::any_of(header.begin() + 3, header.begin() + 8, [](auto byte) { return byte != 0; })) {
+    return false;
+  }
+  const int kind = header[2] & ~8;  // 8: packed.
+  const int bits = header[16];
+  const bool is_color =
+      kind == 2 && header[2] <= 10 && (bits == 15 || bits == 16 || bits == 24 || bits == 32);
+  const bool is_grey = kind == 3 && header[2] <= 11 && (bits == 8 || bits == 16);
+  return (is_color || is_grey) && (header[17] & 0xc0) == 0;
 }
 
 }  // namespace
@@ -53,14 +50,11 @@ std::string_view reader_name(ImageFormat format) {
     case ImageFormat::tiff: return "tiff";
     case ImageFormat::hdr: return "hdr";
     case ImageFormat::tga: return "targa";
-    case ImageFormat::bmp: return "bmp";
-    case ImageFormat::gif: return "gif";
   }
   return "";
 }
 
-std::optional<ImageFormat> recognise_image(std::span<const unsigned char> first_bytes,
-                                           std::string_view path) {
+std::optional<ImageFormat> recognise_image(std::span<const unsigned char> first_bytes) {
   for (const Signature& signature : signatures) {
     if (first_bytes.size() < signature.bytes.size()) continue;
     if (std::equal(signature.bytes.begin(), signature.bytes.end(), first_bytes.begin(),
@@ -68,41 +62,8 @@ std::optional<ImageFormat> recognise_image(std::span<const unsigned char> first_
       return signature.format;
     }
   }
-  if (has_extension(path, ".tga") || has_extension(path, ".tpic")) return ImageFormat::tga;
+  if (is_tga(first_bytes)) return ImageFormat::tga;
   return std::nullopt;
-}
-
-std::optional<ImageFormat> probe_image(const std::string& path, Diagnostic& error) {
-  namespace fs = std::filesystem;
-  std::error_code code;
-  const fs::file_status status = fs::status(path, code);
-  if (!fs::exists(status)) {
-    error = image_error("missing-image", path, "the image does not exist");
-    return std::nullopt;
-  }
-  if (!fs::is_regular_file(status)) {  // Opening a pipe would wait for ever.
-    error = image_error("unreadable-image", path, "the image is not a regular file");
-    return std::nullopt;
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, 16> bytes{};
-  file.read(bytes.data(), bytes.size());
-  const auto count = static_cast<std::size_t>(file.gcount());
-  if (file.bad() || count == 0) {
-    error = image_error("unreadable-image", path,
-                        file.is_open() ? "the image is empty" : "the image cannot be opened");
-    return std::nullopt;
-  }
-  std::array<unsigned char, 16> first{};
-  std::copy(bytes.begin(), bytes.end(), first.begin());
-  const auto format = recognise_image(std::span(first).first(count), path);
-  if (!format) {
-    error = image_error("unsupported-image", path, "the image is of no supported format",
-                        "exr, png, jpeg, tiff, tx, hdr, tga, bmp or gif",
-                        fmt::format("a file beginning with bytes {:02x} {:02x} {:02x} {:02x}",
-                                    first[0], first[1], first[2], first[3]));
-  }
-  return format;
 }
 
 Diagnostic image_error(std::string code, const std::string& path, std::string message,
@@ -114,6 +75,13 @@ Diagnostic image_error(std::string code, const std::string& path, std::string me
   error.expected = std::move(expected);
   error.found = std::move(found);
   return error;
+}
+
+Diagnostic broken_image(const std::string& path, std::string reason) {
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
+  while (!reason.empty() && (reason.back() == ' ' || reason.back() == '.')) reason.pop_back();
+  return image_error("broken-image", path, "the image cannot be read", {},
+                     reason.empty() ? "no reason given by the reader" : std::move(reason));
 }
 
 }  // namespace nacre

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,14 @@ struct TextureSet {
   std::vector<TextureHandle> textures;   ///< By the numbers the directory holds.
 };
 
-/// All tiles of a name. A tile that cannot be read is missing in its own right, with a
-/// diagnostic, and does not disturb the others. Limits are those of the store.
+/// All tiles of a name, each as `acquire` gives it, never null. A tile that cannot be read
+/// is missing in its own right, with a diagnostic, and does not disturb the others. Limits
+/// are those of the store.
+TextureSet acquire_set(const TextureStore& store, const TextureKey& pattern,
+                       Diagnostics& diagnostics,
+                       const std::function<TextureHandle(const TextureKey& tile)>& acquire);
+
+/// The same, with every tile from the store.
 TextureSet acquire_set(TextureStore& store, const TextureKey& pattern, Diagnostics& diagnostics);
 
 }  // namespace nacre

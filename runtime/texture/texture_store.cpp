@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <utility>
 
+#include "runtime/texture/file_identity.h"
 #include "runtime/texture/image_format.h"
 
 namespace nacre {
@@ -20,16 +22,24 @@ void report(const Diagnostic& problem, Diagnostics& diagnostics) {
   if (!known) diagnostics.add(problem);
 }
 
+TextureOptions for_textures(TextureOptions options) {
+  options.limits.max_size = std::min(options.limits.max_size, texture_layout::max_size);
+  return options;
+}
+
 /// Under the store's lock nobody but a holder can make another handle, so a count of one
 /// cannot grow behind our back.
 bool unused(const TextureHandle& texture) { return texture && texture.use_count() == 1; }
 
 }  // namespace
 
-TextureStore::TextureStore(const TextureOptions& options) : options_(options) {}
+TextureStore::TextureStore(const TextureOptions& options) : options_(for_textures(options)) {}
 
-TextureHandle TextureStore::acquire(const TextureKey& key, Diagnostics& diagnostics) {
+TextureHandle TextureStore::acquire(const TextureKey& wanted, Diagnostics& diagnostics,
+                                    const Stop& stop) {
+  const Entries::key_type key{wanted, identify(wanted.path)};
   std::unique_lock lock(mutex_);
+  forget_others(key);
   for (;;) {
     const auto found = entries_.find(key);
     if (found == entries_.end()) break;
@@ -54,7 +64,7 @@ TextureHandle TextureStore::acquire(const TextureKey& key, Diagnostics& diagnost
   lock.unlock();
   Loaded loaded;
   try {
-    loaded = load(key);
+    loaded = load(wanted, stop);
   } catch (...) {  // Not even a placeholder could be allocated: leave no entry to wait for.
     lock.lock();
     entries_.erase(key);
@@ -72,20 +82,18 @@ TextureHandle TextureStore::acquire(const TextureKey& key, Diagnostics& diagnost
   return loaded.texture;
 }
 
-/// Readers of hostile files may throw; to the user that is one more broken image.
-TextureStore::Loaded TextureStore::load(const TextureKey& key) {
+/// What cannot be allocated is, to the user, one more image that cannot be read.
+TextureStore::Loaded TextureStore::load(const TextureKey& key, const Stop& stop) {
   try {
-    return load_image(key);
+    return load_image(key, stop);
   } catch (const std::exception& error) {
-    return {std::make_shared<Texture>(image_error("broken-image", key.path,
-                                                  "the image cannot be read", {}, error.what())),
-            0};
+    return {std::make_shared<Texture>(broken_image(key.path, error.what())), 0};
   }
 }
 
-TextureStore::Loaded TextureStore::load_image(const TextureKey& key) {
+TextureStore::Loaded TextureStore::load_image(const TextureKey& key, const Stop& stop) {
   ImageReader reader;
-  if (auto problem = reader.open(key.path, key.layer, options_.limits)) {
+  if (auto problem = reader.open(key.path, key.layer, options_.limits, stop)) {
     return {std::make_shared<Texture>(std::move(*problem)), 0};
   }
   const texture_layout::Plan plan = plan_texture(reader.info(), key.policy);
@@ -112,7 +120,8 @@ TextureHandle TextureStore::open_on_host(const TextureKey& key, const ImageInfo&
   std::shared_ptr<TileCache> cache;
   {
     const std::lock_guard lock(mutex_);
-    if (!tile_cache_) tile_cache_ = std::make_shared<TileCache>(options_.host_cache);
+    if (!tile_cache_)
+      tile_cache_ = std::make_shared<TileCache>(options_.host_cache, options_.limits);
     cache = tile_cache_;
   }
   auto file = cache->open(key.path, info);
@@ -159,6 +168,15 @@ TextureStore::Entries::iterator TextureStore::forget(Entries::iterator entry) {
   return entries_.erase(entry);
 }
 
+/// Textures of the same name that nobody holds, of a file that is no longer there.
+void TextureStore::forget_others(const Entries::key_type& key) {
+  for (auto entry = entries_.lower_bound({key.first, {}});
+       entry != entries_.end() && entry->first.first == key.first;) {
+    const bool is_stale = entry->first.second != key.second && unused(entry->second.texture);
+    entry = is_stale ? forget(entry) : std::next(entry);
+  }
+}
+
 void TextureStore::drop_unused() {
   const std::lock_guard lock(mutex_);
   for (auto entry = entries_.begin(); entry != entries_.end();) {
@@ -171,6 +189,7 @@ void TextureStore::drop_unused() {
 TextureStatistics TextureStore::statistics() const {
   const std::lock_guard lock(mutex_);
   TextureStatistics result = statistics_;
+  if (tile_cache_) result.read_failures = tile_cache_->read_failures();
   for (const auto& [key, entry] : entries_) {
     if (!entry.texture) continue;
     if (entry.texture->missing()) {

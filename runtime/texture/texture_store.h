@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "runtime/diagnostic.h"
 #include "runtime/texture/image_io.h"
@@ -25,11 +26,19 @@ struct TextureKey {
   auto operator<=>(const TextureKey&) const = default;
 };
 
+/// What it means that an image cannot be had. The node's default colour takes its place
+/// either way.
+enum class MissingImages {
+  error,       ///< The result is not what was asked for.
+  use_default  ///< It is, with a warning.
+};
+
 struct TextureOptions {
   /// Bytes of texels kept in memory, unused textures included.
   std::uint64_t budget = std::uint64_t{2} << 30;
   /// Bytes of tiles kept for images that are not resident, by all of them together.
   std::uint64_t host_cache = std::uint64_t{256} << 20;
+  /// Of every image. The store keeps to sides of 16384, which its layout can hold.
   ImageLimits limits;
   TileLimits tiles;  ///< Of what a name with <UDIM> or <UVTILE> stands for.
 };
@@ -44,10 +53,13 @@ struct TextureStatistics {
   std::uint64_t hits = 0;              ///< Requests that found their texture loaded.
   std::uint64_t evictions = 0;         ///< Unused textures dropped for room.
   std::uint64_t replaced_texels = 0;   ///< NaN and infinite samples, over all loads.
+  std::uint64_t read_failures = 0;     ///< Lookups through the host that read 0 instead.
 };
 
 /// Textures by file, shared by all that ask for the same key. A texture lives while a
-/// handle does; without one it stays for the next request until its room is needed.
+/// handle does; without one it stays for the next request until its room is needed. A file
+/// that was written again or replaced (FileIdentity) is another one: who asks next gets its
+/// pixels, who holds the old ones keeps them.
 ///
 /// Over the budget, unused textures go first, the least recently asked for before others;
 /// if there still is no room the image is served by the host (Texture::host) for as long
@@ -63,12 +75,12 @@ class TextureStore {
   TextureStore(const TextureStore&) = delete;
   TextureStore& operator=(const TextureStore&) = delete;
 
-  /// Never null. When the image cannot be had the texture is `missing`, and its problem is
-  /// added to `diagnostics` unless that already has it. An image that failed is tried again
-  /// once nobody holds the failed texture.
-  TextureHandle acquire(const TextureKey& key, Diagnostics& diagnostics);
+  /// Never null. When the image cannot be had, or not before `stop` is due, the texture is
+  /// `missing`, and its problem is added to `diagnostics` unless that already has it. An
+  /// image that failed is tried again once nobody holds the failed texture.
+  TextureHandle acquire(const TextureKey& key, Diagnostics& diagnostics, const Stop& stop = {});
 
-  /// Forgets every texture that no handle refers to, so that changed files are read again.
+  /// Forgets every texture that no handle refers to.
   void drop_unused();
 
   const TextureOptions& options() const { return options_; }
@@ -81,18 +93,20 @@ class TextureStore {
     std::uint64_t bytes = 0;
     std::uint64_t last_request = 0;
   };
-  using Entries = std::map<TextureKey, Entry>;
+  /// The key, and which file that is at the time.
+  using Entries = std::map<std::pair<TextureKey, FileIdentity>, Entry>;
 
   struct Loaded {
     TextureHandle texture;
     std::uint64_t bytes = 0;
   };
-  Loaded load(const TextureKey& key);
-  Loaded load_image(const TextureKey& key);
+  Loaded load(const TextureKey& key, const Stop& stop);
+  Loaded load_image(const TextureKey& key, const Stop& stop);
   TextureHandle open_on_host(const TextureKey& key, const ImageInfo& info);
   bool reserve(std::uint64_t bytes);
   void release(std::uint64_t bytes);
   Entries::iterator forget(Entries::iterator entry);
+  void forget_others(const Entries::key_type& key);
 
   const TextureOptions options_;
   mutable std::mutex mutex_;

@@ -6,6 +6,7 @@
 
 #include "runtime/texture/texel.h"
 #include "runtime/texture/texture_store.h"
+#include "tests/texture/hostile_image.h"
 #include "tests/texture/test_image.h"
 
 namespace nacre {
@@ -46,14 +47,13 @@ TEST_F(BrokenImage, TruncatedAtEveryKilobyteIsReportedOrSound) {
   struct Case {
     const char* name;
     const char* type;
-    /// Cut below this size it must be found out: the JPEG and GIF readers fill in what is
-    /// missing, and after the pixels of a TGA comes a footer that nobody needs.
+    /// Cut below this size it must be found out: after the pixels of a TGA comes a footer
+    /// that nobody needs.
     std::size_t found_below;
   };
-  for (const Case& one :
-       {Case{"a.png", "uint8", all}, Case{"b.exr", "half", all}, Case{"c.tif", "float", all},
-        Case{"d.jpg", "uint8", 0}, Case{"e.tga", "uint8", 64 * 48 * 3}, Case{"f.bmp", "uint8", all},
-        Case{"g.hdr", "float", all}, Case{"h.gif", "uint8", 0}}) {
+  for (const Case& one : {Case{"a.png", "uint8", all}, Case{"b.exr", "half", all},
+                          Case{"c.tif", "float", all}, Case{"d.jpg", "uint8", all},
+                          Case{"e.tga", "uint8", 64 * 48 * 3}, Case{"g.hdr", "float", all}}) {
     WriteOptions options;
     options.type = one.type;
     ASSERT_TRUE(write_image(file(one.name), random_image(64, 48, 3, 255), options)) << one.name;
@@ -93,7 +93,7 @@ TEST_F(BrokenImage, DamagedPngIsNotPrintedAbout) {
 }
 
 TEST_F(BrokenImage, FlippedBytesAreReportedOrSound) {
-  for (const char* name : {"a.png", "b.exr", "c.tif", "d.jpg", "e.tga", "f.bmp", "g.hdr"}) {
+  for (const char* name : {"a.png", "b.exr", "c.tif", "d.jpg", "e.tga", "g.hdr"}) {
     WriteOptions options;
     if (name[2] == 'e' || name[2] == 'h') options.type = "float";
     ASSERT_TRUE(write_image(file(name), random_image(24, 16, 3, 255), options)) << name;
@@ -108,18 +108,6 @@ TEST_F(BrokenImage, FlippedBytesAreReportedOrSound) {
       expect_sound(store.acquire({path, "", {}}, diagnostics), diagnostics, path);
     }
   }
-}
-
-/// An uncompressed true-colour TGA of 18 bytes that promises any size.
-std::string tga_header(int width, int height) {
-  std::string bytes(18, '\0');
-  bytes[2] = 2;
-  bytes[12] = static_cast<char>(width & 255);
-  bytes[13] = static_cast<char>(width >> 8);
-  bytes[14] = static_cast<char>(height & 255);
-  bytes[15] = static_cast<char>(height >> 8);
-  bytes[16] = 24;
-  return bytes;
 }
 
 TEST_F(BrokenImage, HeaderThatPromisesTooMuchIsRefusedBeforeAllocation) {

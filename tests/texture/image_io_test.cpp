@@ -65,7 +65,6 @@ TEST_F(ImageIo, ReadsWhatWasWrittenInEveryFormat) {
                           Case{"h.exr", "half", 4, 1024, SampleType::half},
                           Case{"i.exr", "float", 2, 1 << 20, SampleType::floating},
                           Case{"j.tga", "uint8", 4, 255, SampleType::unsigned8},
-                          Case{"k.bmp", "uint8", 3, 255, SampleType::unsigned8},
                           Case{"l.hdr", "float", 3, 2, SampleType::floating}}) {
     const TestImage image = random_image(17, 5, one.channels, one.steps);
     WriteOptions options;
@@ -148,6 +147,25 @@ TEST_F(ImageIo, LayerIsASubimageByName) {
   EXPECT_EQ(read(file("a.exr"), "1").samples, parts[1].samples);
   EXPECT_EQ(code_of(file("a.exr"), "normal"), "unknown-image-layer");
   EXPECT_EQ(code_of(file("a.exr"), "2"), "unknown-image-layer");
+}
+
+TEST_F(ImageIo, LayerIsAPageByNumber) {
+  const std::vector<TestImage> pages{random_image(4, 4, 3, 255, 1), random_image(5, 3, 3, 255, 2),
+                                     random_image(2, 2, 3, 255, 3)};
+  ASSERT_TRUE(write_parts(file("a.tif"), pages, {"", "", ""}));
+  EXPECT_EQ(read(file("a.tif")).samples, pages[0].samples);
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    EXPECT_EQ(read(file("a.tif"), std::to_string(i)).samples, pages[i].samples);
+  }
+  for (const char* wrong : {"3", "-1", "1.5", "99999999999"}) {
+    EXPECT_EQ(code_of(file("a.tif"), wrong), "unknown-image-layer");
+  }
+  // A file of one image has its number too, whatever the format.
+  for (const char* name : {"a.png", "a.jpg", "a.tga"}) {
+    ASSERT_TRUE(write_image(file(name), random_image(4, 4, 3, 255)));
+    EXPECT_EQ(read(file(name), "0").samples, read(file(name)).samples);
+    EXPECT_EQ(code_of(file(name), "1"), "unknown-image-layer");
+  }
 }
 
 TEST_F(ImageIo, LayerIsAGroupOfChannelsByPrefix) {

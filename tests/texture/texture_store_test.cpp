@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <thread>
@@ -200,6 +203,69 @@ TEST_F(TextureStoreTest, DropUnusedReadsChangedFilesAgain) {
   store.drop_unused();
   EXPECT_EQ(store.statistics().resident_bytes, 0u);
   EXPECT_NE(texel(*store.acquire(key, diagnostics_), 0, 0, 0), before);
+}
+
+/// Written again within a second, with as many bytes, while the old texture is held.
+TEST_F(TextureStoreTest, AChangedFileIsAnotherTextureAndTheOldOneStays) {
+  TextureStore store;
+  const TestImage first = random_image(4, 4, 3, 255, 1), second = random_image(4, 4, 3, 255, 2);
+  const TextureKey key = write("a.tif", first);
+  const TextureHandle old = store.acquire(key, diagnostics_);
+  const auto size = std::filesystem::file_size(key.path);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // Some ticks of the clock.
+  write("a.tif", second);
+  ASSERT_EQ(std::filesystem::file_size(key.path), size);
+  const TextureHandle fresh = store.acquire(key, diagnostics_);
+  EXPECT_NEAR(texel(*old, 0, 1, 2)[0], first.at(1, 2, 0), 1e-6);
+  EXPECT_NEAR(texel(*fresh, 0, 1, 2)[0], second.at(1, 2, 0), 1e-6);
+  EXPECT_EQ(store.acquire(key, diagnostics_), fresh);
+  EXPECT_EQ(store.statistics().loads, 2u);
+
+  // Another file under the same name, as careful programs write.
+  write("b.tif", first);
+  std::filesystem::rename(folder_.file("b.tif"), key.path);
+  EXPECT_NEAR(texel(*store.acquire(key, diagnostics_), 0, 1, 2)[0], first.at(1, 2, 0), 1e-6);
+  EXPECT_EQ(store.statistics().resident_textures, 3u)
+      << "all three are held or were just asked for";
+}
+
+/// Through the host too; what of the old file was not read is gone, and counted.
+TEST_F(TextureStoreTest, AChangedFileOnTheHostIsAnotherTexture) {
+  TextureStore store(budget_of(0));
+  const TestImage first = random_image(200, 200, 1, 255, 1);
+  const TextureKey key = write("a.tif", first);
+  const auto look_up = [](const Texture& texture) {
+    const float u = 3.5f / 200, v = 4.5f / 200;
+    std::array<float, 4> value{};
+    HostLookup lookup;
+    lookup.count = 1;
+    lookup.u = &u;
+    lookup.v = &v;
+    lookup.filter = TextureFilter::closest;
+    texture.host()->lookup(lookup, {&value[0], &value[1], &value[2], &value[3]});
+    return value[0];
+  };
+  const TextureHandle seen = store.acquire(key, diagnostics_);
+  ASSERT_NE(seen->host(), nullptr);
+  EXPECT_NEAR(look_up(*seen), first.at(3, 4, 0), 1e-6);
+  const TestImage second = random_image(200, 200, 1, 255, 2);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  write("a.tif", second);
+  const TextureHandle fresh = store.acquire(key, diagnostics_);
+  ASSERT_NE(fresh->host(), nullptr);
+  EXPECT_NEAR(look_up(*fresh), second.at(3, 4, 0), 1e-6);
+  EXPECT_NEAR(look_up(*seen), first.at(3, 4, 0), 1e-6);
+}
+
+/// The format is the contents' here too: the cache would choose a reader by the name.
+TEST_F(TextureStoreTest, TheHostReadsByContentsNotByName) {
+  TextureStore store(budget_of(0));
+  const TestImage image = random_image(64, 64, 3, 255);
+  write("a.tif", image);
+  std::filesystem::rename(folder_.file("a.tif"), folder_.file("a.dds"));
+  const TextureHandle texture = store.acquire({folder_.file("a.dds"), "", {}}, diagnostics_);
+  ASSERT_NE(texture->host(), nullptr);
+  EXPECT_EQ(store.statistics().read_failures, 0u);
 }
 
 TEST_F(TextureStoreTest, HandlesOutliveTheStore) {

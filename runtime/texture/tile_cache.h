@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "runtime/texture/image_io.h"
+
+namespace nacre {
+
+/// Tiles of images too large to be resident, kept by OpenImageIO's ImageCache within a
+/// budget. Thread-safe. Coarser levels are the file's own, or made on demand by the cache.
+/// Files go through the same guard as an ImageReader's, whenever the cache opens them.
+class TileCache {
+ public:
+  /// A file of the cache; valid while the cache lives.
+  struct File;
+
+  TileCache(std::uint64_t budget_bytes, const ImageLimits& limits);
+  ~TileCache();
+  TileCache(const TileCache&) = delete;
+  TileCache& operator=(const TileCache&) = delete;
+
+  /// Null when the cache cannot open the file. `info` as an ImageReader gave it. Tiles are
+  /// of that file alone: once another has its name, or it was written again, what is not in
+  /// the cache yet cannot be read any more.
+  std::shared_ptr<File> open(const std::string& path, const ImageInfo& info);
+
+  static int level_count(const File& file);
+  static int width(const File& file, int level);
+  static int height(const File& file, int level);
+
+  /// Pixels [x0, x1) x [y0, y1) of a level into `samples`, channels together, y from the
+  /// TOP; the range lies inside the level. False: the file could not be read there.
+  bool read(const File& file, int level, int x0, int x1, int y0, int y1, float* samples) const;
+
+  /// How often `read` gave false.
+  std::uint64_t read_failures() const;
+
+ private:
+  struct Cache;
+  std::unique_ptr<Cache> cache_;
+};
+
+}  // namespace nacre
