@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Renders every material and bakes every graph output of MaterialX documents.
 
-usage: gallery.py --nacre build/bin/nacre --out FOLDER [--scene FILE] DOCUMENT...
+usage: gallery.py --nacre build/bin/nacre --out FOLDER [--scene FILE] [--allow-outside] DOCUMENT...
 
 Writes FOLDER/rendered/NAME.png, FOLDER/baked/NAME/..., one labelled sheet
 FOLDER/gallery.png and FOLDER/log.txt with what nacre said. Ends with status 1 if
@@ -27,6 +27,8 @@ def main():
     parser.add_argument("--nacre", required=True)
     parser.add_argument("--out", required=True, type=pathlib.Path)
     parser.add_argument("--scene")
+    parser.add_argument("--search-path", action="append", default=[], help="as nacre's, for images")
+    parser.add_argument("--allow-outside", action="store_true", help="as nacre's, for images")
     parser.add_argument("--size", default="256")
     parser.add_argument("--spp", default="64")
     parser.add_argument("--bake-size", default="64")
@@ -42,19 +44,24 @@ def main():
             nonlocal missing
             done = subprocess.run(command, capture_output=True, text=True)
             log.write(f"== {what}\n{done.stdout}{done.stderr}")
-            missing += done.stderr.count("[missing-image]")
+            missing += done.stderr.count("[missing-image]") + done.stderr.count("[image-outside]")
             if done.returncode != 0 and "[nothing-to-bake]" not in done.stderr:
                 failures.append(what)
                 print(f"failed: {what}\n{done.stderr}", file=sys.stderr)
             return done.returncode == 0
 
         for document in arguments.documents:
-            bake = [arguments.nacre, "bake", str(document), "--size", arguments.bake_size]
+            images = ["--missing-images", "default"]
+            for folder in arguments.search_path:
+                images += ["--search-path", folder]
+            if arguments.allow_outside:
+                images.append("--allow-outside")
+            bake = [arguments.nacre, "bake", str(document), "--size", arguments.bake_size, *images]
             run(f"bake {document.stem}", bake + ["--out", str(arguments.out / "baked" / document.stem)])
             for material in materials(document):
                 picture = rendered / f"{document.stem}.{material}.png"
                 render = [arguments.nacre, "render", str(document), "--material", material]
-                render += ["--spp", arguments.spp, "--size", arguments.size, "--out", str(picture)]
+                render += ["--spp", arguments.spp, "--size", arguments.size, "--out", str(picture), *images]
                 if arguments.scene:
                     render += ["--scene", arguments.scene, "--ground"]
                 if run(f"render {document.stem} {material}", render):

@@ -5,10 +5,13 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "examples/common/atomic_file.h"
 #include "examples/common/srgb.h"
@@ -17,6 +20,12 @@
 namespace nacre::host {
 
 namespace {
+
+constexpr float largest_half = 65504.0f;
+
+bool is_vector(Type type) {
+  return type == Type::vector2 || type == Type::vector3 || type == Type::vector4;
+}
 
 bool is_color(Type type) { return type == Type::color3 || type == Type::color4; }
 
@@ -67,6 +76,13 @@ OIIO::TypeDesc type_of(const Format& format, int bits) {
   }
 }
 
+/// Numbers that a file cannot hold, and the span of all that there were.
+struct Cut {
+  std::size_t count = 0;
+  float least = std::numeric_limits<float>::infinity();
+  float most = -std::numeric_limits<float>::infinity();
+};
+
 /// One output on its way into one file.
 struct Job {
   const OutputKernel& kernel;
@@ -76,6 +92,7 @@ struct Job {
   const Format& format;
   const BakeControl& control;
   TexelRange* range;
+  Cut* cut;
 
   const OutputKernel::Output& output() const { return kernel.outputs[index]; }
   int components() const { return component_count(output().type); }
@@ -88,6 +105,10 @@ struct Job {
     const std::string_view known = canonical_colorspace(space);
     return known.empty() || known == "lin_rec709" ? "Linear" : space;
   }
+  bool is_direction() const {
+    return encoding.is_direction || (encoding.encodes_vectors && is_vector(output().type));
+  }
+  OIIO::TypeDesc type() const { return type_of(format, encoding.bits); }
   bool is_srgb() const {
     return host::is_srgb(
         texture_colorspace(output().type, std::string(format.extension), encoding));
@@ -96,13 +117,14 @@ struct Job {
 
 OIIO::ImageSpec spec_of(const Job& job) {
   const int channels = job.channels();
-  OIIO::ImageSpec spec(job.settings.width, job.settings.height, channels,
-                       type_of(job.format, job.encoding.bits));
+  OIIO::ImageSpec spec(job.settings.width, job.settings.height, channels, job.type());
   spec.channelnames = channel_names(channels);
   spec.attribute("compression", "zip");
   // A fourth channel is a number like the others: nothing is multiplied by it.
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("oiio:ColorSpace", job.file_colorspace());
+  spec.attribute("DateTime", "");  // Else the writers note the time.
+  spec.attribute("tiff:half", 1);  // Else 16-bit floats become 32-bit ones.
   return spec;
 }
 
@@ -116,6 +138,14 @@ void widen(TexelRange& range, const std::vector<float>& texels, std::size_t chan
     if (texels[i] < least) least = texels[i];
     if (texels[i] > most) most = texels[i];
   }
+}
+
+/// Notes what lies outside the numbers that the file holds, or is none.
+void note(Cut& cut, float value, float least, float most) {
+  constexpr float rounding = 1e-5f;
+  if (!(value >= least - rounding && value <= most + rounding)) ++cut.count;
+  cut.least = std::min(cut.least, value);
+  cut.most = std::max(cut.most, value);
 }
 
 BakedRows chosen_channels(const Job& job, const BakedRows& rows) {
@@ -135,15 +165,22 @@ BakedRows chosen_channels(const Job& job, const BakedRows& rows) {
 bool bake_encoded(const Job& job, const std::function<bool(const BakedRows&)>& sink) {
   const auto channels = static_cast<std::size_t>(job.channels());
   const bool srgb = job.is_srgb();
+  const bool direction = job.is_direction();
+  const bool is_half = job.type() == half_float;
   BakedRows encoded;
   const auto encode = [&](const BakedRows& rows) {
     encoded = chosen_channels(job, rows);
     if (job.range != nullptr) widen(*job.range, encoded.texels, channels);
     for (std::size_t i = 0; i < encoded.texels.size(); ++i) {
       float& texel = encoded.texels[i];
-      const bool alpha = channels == 4 && i % 4 == 3;
-      if (srgb && !alpha) texel = srgb_encode(texel);
-      if (job.encoding.is_direction) texel = 0.5f * texel + 0.5f;
+      const bool is_coded = srgb && !(channels == 4 && i % 4 == 3);  // Alpha never is.
+      if (job.format.is_integer || is_coded) {
+        note(*job.cut, texel, direction ? -1.0f : 0.0f, 1.0f);
+      } else if (is_half && std::isfinite(texel)) {
+        note(*job.cut, texel, -largest_half, largest_half);
+      }
+      if (is_coded) texel = srgb_encode(texel);
+      if (direction) texel = 0.5f * texel + 0.5f;
     }
     return sink(encoded);
   };
@@ -171,13 +208,42 @@ std::string write_tx(const Job& job, const std::string& file) {
     return image.set_pixels(roi, OIIO::TypeDesc::FLOAT, rows.texels.data());
   });
   if (!finished) return job.control.stop.stop_requested() ? "stopped" : image.geterror();
+  // Else tiles lie in the order they are ready. The smaller levels have no attribute of
+  // their own for it, only the process has.
+  OIIO::attribute("tiff:multithread", 0);
   OIIO::ImageSpec config;
   config.attribute("maketx:highlightcomp", 0);
+  config.attribute("tiff:half", 1);
+  config.attribute("DateTime", "");
+  config.attribute("wrapmodes", job.encoding.is_tile ? "clamp,clamp" : "periodic,periodic");
   if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image, file, config)) {
     return {};
   }
   const std::string why = OIIO::geterror();
   return why.empty() ? "the texture could not be made" : why;
+}
+
+/// What there is to say of numbers that were cut off; nothing if there are none.
+std::optional<Diagnostic> complaint_of(const Job& job, const std::string& path) {
+  const Cut& cut = *job.cut;
+  if (cut.count == 0) return std::nullopt;
+  const bool is_refused = is_vector(job.output().type);
+  const bool is_half = job.type() == half_float;
+  Diagnostic complaint;
+  complaint.severity = is_refused ? Severity::error : Severity::warning;
+  complaint.code = "out-of-range";
+  complaint.where = {path, 0, 0, job.output().name};
+  complaint.message =
+      is_refused ? "the texture cannot hold these vectors; exr and tx can, and png with --vectors "
+                   "encoded unit vectors"
+                 : "what the texture cannot hold was cut off";
+  complaint.expected = is_half ? "-65504 to 65504" : job.is_direction() ? "-1 to 1" : "0 to 1";
+  const std::size_t all = static_cast<std::size_t>(job.settings.width) *
+                          static_cast<std::size_t>(job.settings.height) *
+                          static_cast<std::size_t>(job.channels());
+  complaint.found =
+      fmt::format("{} to {}, {} of {} numbers outside", cut.least, cut.most, cut.count, all);
+  return complaint;
 }
 
 /// What makes a job impossible, or "".
@@ -221,16 +287,29 @@ bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSett
                   const TextureEncoding& encoding, const std::string& path,
                   Diagnostics& diagnostics, const BakeControl& control, TexelRange* range) {
   const Format* format = format_of(std::filesystem::path(path).extension().string());
-  return write_atomically(
+  Cut cut;
+  std::optional<Diagnostic> complaint;
+  Diagnostics writing;
+  const bool done = write_atomically(
       path,
       [&](const std::string& file) -> std::string {
         if (format == nullptr) return "unknown extension; .exr, .png and .tx can be written";
-        const Job job{kernel, output, settings, encoding, *format, control, range};
+        const Job job{kernel, output, settings, encoding, *format, control, range, &cut};
         const std::string fault = fault_of(job);
         if (!fault.empty()) return fault;
-        return format->extension == ".tx" ? write_tx(job, file) : write_rows(job, file);
+        const std::string problem =
+            format->extension == ".tx" ? write_tx(job, file) : write_rows(job, file);
+        if (problem.empty() && (range == nullptr || job.type() == half_float))
+          complaint = complaint_of(job, path);
+        return complaint && complaint->severity == Severity::error ? complaint->message : problem;
       },
-      diagnostics);
+      writing);
+  const bool is_refused = complaint && complaint->severity == Severity::error;
+  if (complaint) diagnostics.add(*complaint);
+  if (!is_refused) {
+    for (const Diagnostic& said : writing.all()) diagnostics.add(said);
+  }
+  return done;
 }
 
 }  // namespace nacre::host

@@ -17,6 +17,10 @@ struct TextureEncoding {
   std::string colorspace = {};
   /// Unit vectors, stored as (v + 1) / 2 as normal maps are.
   bool is_direction = false;
+  /// The same for every output whose type is a vector.
+  bool encodes_vectors = false;
+  /// One of a set of tiles: beyond its edges are others, not itself again.
+  bool is_tile = false;
   /// The channels of the output to write; 0 of them: all.
   int first_channel = 0, channels = 0;
 };
@@ -47,11 +51,16 @@ bool holds_unit_range_only(const std::string& extension);
 ///
 ///   .exr  32 bits, or 16: floats, as computed
 ///   .png  8 bits, or 16: integers, clamped to [0, 1]
-///   .tx   a tiled, mip-mapped texture of 32-bit or 16-bit floats
+///   .tx   a tiled, mip-mapped texture of 32-bit or 16-bit floats, that repeats; a tile
+///         of a set does not
 ///
 /// Other numbers of bits are an error. One channel for float, boolean and integer,
 /// else as many as the type has or `encoding` asks for. Widens `range`, of those
-/// channels, if there is one.
+/// channels, if there is one. The bytes depend on nothing but all this: no time, no host.
+///
+/// What a file cannot hold is cut off at its ends: a warning, how much and what there was.
+/// For vectors, of which half would be lost, it is an error, and there is no file. Whoever
+/// asks for the range judges that himself.
 bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
                   const TextureEncoding& encoding, const std::string& path,
                   Diagnostics& diagnostics, const BakeControl& control = {},

@@ -7,6 +7,8 @@
 #include "examples/render/sampler.h"
 #include "examples/render/vec.h"
 #include "runtime/diagnostic.h"
+#include "runtime/stop.h"
+#include "runtime/texture/image_limits.h"
 
 namespace nacre::host {
 
@@ -27,9 +29,12 @@ class Environment {
   static Environment constant(Vec3 radiance) { return {1, 1, {radiance}}; }
   /// A photographer's dome: a dim grey gradient with two soft boxes and a strip.
   static Environment studio();
-  /// Any image OpenImageIO reads, taken as linear Rec. 709 radiance times `scale`.
+  /// An image of any format that textures have, taken as linear Rec. 709 radiance times
+  /// `scale`; one channel is grey. What counts as 0 is warned about. Nothing, with an error,
+  /// for what cannot be read or is outside the limits.
   static std::optional<Environment> load(const std::string& path, float scale, float rotation,
-                                         Diagnostics& diagnostics);
+                                         const ImageLimits& limits, Diagnostics& diagnostics,
+                                         const Stop& stop = {});
 
   struct Sample {
     Vec3 wi;

@@ -1,17 +1,14 @@
 #include "examples/render/image_io.h"
 
 #include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "examples/common/atomic_file.h"
 #include "examples/common/srgb.h"
-#include "examples/render/environment.h"
 
 namespace nacre::host {
 
@@ -67,6 +64,7 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
   OIIO::ImageSpec spec(film.width(), film.height(), film.has_alpha() ? 4 : 3, type);
   spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // Else the writer notes the time.
   if (!exr) spec.attribute("oiio:UnassociatedAlpha", 1);
   if (!out->open(path, spec)) return out->geterror();
   const bool ok = exr ? out->write_image(OIIO::TypeDesc::FLOAT, interleaved(film).data())
@@ -90,40 +88,6 @@ bool write_image(const Film& film, const std::string& path, const WriteOptions& 
       path,
       [&](const std::string& file) { return write_file(film, file, extension == ".exr", options); },
       diagnostics);
-}
-
-std::optional<Environment> Environment::load(const std::string& path, float scale, float rotation,
-                                             Diagnostics& diagnostics) {
-  constexpr int largest_side = 1 << 15;
-  const std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::open(path);
-  if (!in) {
-    diagnostics.error("cannot-read", {path, 0, 0, {}}, "cannot open the environment", {},
-                      OIIO::geterror());
-    return {};
-  }
-  const OIIO::ImageSpec& spec = in->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > largest_side ||
-      spec.height > largest_side || spec.nchannels < 1) {
-    diagnostics.error("bad-environment", {path, 0, 0, {}}, "the environment has an unusable size",
-                      fmt::format("1 to {} on each side", largest_side),
-                      fmt::format("{} by {}", spec.width, spec.height));
-    return {};
-  }
-  const auto count = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  const int channels = std::min(spec.nchannels, 3);
-  std::vector<float> values(count * static_cast<std::size_t>(channels));
-  if (!in->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data())) {
-    diagnostics.error("cannot-read", {path, 0, 0, {}}, "cannot read the environment", {},
-                      in->geterror());
-    return {};
-  }
-  std::vector<Vec3> texels(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* v = &values[i * static_cast<std::size_t>(channels)];
-    texels[i] = channels == 3 ? Vec3{scale * v[0], scale * v[1], scale * v[2]}
-                              : Vec3{scale * v[0], scale * v[0], scale * v[0]};
-  }
-  return Environment(spec.width, spec.height, std::move(texels), rotation);
 }
 
 }  // namespace nacre::host

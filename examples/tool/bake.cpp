@@ -91,6 +91,7 @@ void bake_outputs(const BakeOptions& options, const Opened& opened, host::BakeSe
                           diagnostics)) {
       continue;
     }
+    texture.encoding.is_tile = !tiles.empty();
     shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
     const auto kernel =
         opened.system->compile_outputs(*opened.document, {name}, shader, diagnostics);
@@ -156,6 +157,7 @@ int run(const BakeOptions& options) {
         shader,           options.common.quiet};
     if (!bake.materials.empty()) bake_document(bake, opened, stop.token(), diagnostics);
   }
+  report_texels(*opened.system, diagnostics);
   return report(diagnostics);
 }
 

@@ -59,6 +59,8 @@ class MaterialBaker {
     TextureSettings texture;
     if (!texture_settings(options_.textures, job.output, texture, diagnostics_)) return;
     texture.encoding.is_direction = !job.frame.empty();
+    texture.encoding.encodes_vectors = false;  // The document reads them as they are.
+    texture.encoding.is_tile = !options_.tiles.empty();
     ShaderOptions shader = options_.shader;
     shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
     const auto kernel =

@@ -35,6 +35,18 @@ void CommonOptions::add_document(CLI::App& command) {
       ->type_name("DIR");
   command.add_option("--search-path", search_paths, "Where includes and images are looked for too")
       ->type_name("DIR");
+  command.add_flag("--allow-outside", allow_outside,
+                   "Let includes and images lie anywhere, not only below the folder of FILE, a "
+                   "--search-path or a --library");
+  const std::map<std::string, MissingImages> missing{{"error", MissingImages::error},
+                                                     {"default", MissingImages::use_default}};
+  command
+      .add_option("--missing-images", missing_images,
+                  "What an image is that cannot be had: an error, or with a warning its node's "
+                  "default; the default is used in either case")
+      ->transform(CLI::CheckedTransformer(missing, CLI::ignore_case))
+      ->default_str("error")
+      ->type_name("error|default");
   const std::map<std::string, Preference> preferences{
       {"body", Preference::body}, {"graph", Preference::graph}, {"source", Preference::source}};
   command
@@ -82,6 +94,12 @@ void CommonOptions::add_limits(CLI::App& command) {
   add_count("--max-image-side", texture_limits.limits.max_size, "Pixels of an image on a side");
   add_size("--max-image-size", texture_limits.limits.max_bytes, "Bytes of an image, decoded");
   add_size("--max-image-file-size", texture_limits.limits.max_file_bytes, "Bytes of an image file");
+  add_count("--max-image-channels", texture_limits.limits.max_channels,
+            "Channels of an image file");
+  add_count("--max-image-layers", texture_limits.limits.max_layers,
+            "Parts, pages or levels of an image file");
+  add_count("--max-image-expansion", texture_limits.limits.max_expansion,
+            "Bytes of pixels for each byte of the file, of images above 256 MB in memory");
   add_count("--max-tiles", texture_limits.tiles.max_tiles, "Files that a <UDIM> name stands for");
 }
 
@@ -133,6 +151,8 @@ ShaderOptions CommonOptions::shader_options() const {
   options.graph.max_inputs = graph_limits.max_inputs;
   options.graph.working_space = working_space;
   for (const std::string& path : search_paths) options.search_paths.emplace_back(path);
+  options.files_anywhere = allow_outside;
+  options.missing_images = missing_images;
   return options;
 }
 
@@ -175,8 +195,23 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   ReadOptions read;
   read.limits = options.read_limits;
   for (const std::string& path : options.search_paths) read.search_paths.emplace_back(path);
+  read.includes_anywhere = options.allow_outside;
   opened.document = read_document(options.file, read, diagnostics);
   return opened;
+}
+
+void report_texels(ShadingSystem& system, Diagnostics& diagnostics) {
+  const TextureStatistics found = system.textures().statistics();
+  if (found.replaced_texels != 0) {
+    diagnostics.warning("bad-texels", {}, "what is not finite in images counts as 0",
+                        "finite numbers", std::to_string(found.replaced_texels) + " that are not");
+  }
+  if (found.read_failures != 0) {
+    diagnostics.error("unreadable-texels", {},
+                      "parts of images could not be read any more and count as 0",
+                      "files that stay as they are",
+                      std::to_string(found.read_failures) + " lookups that failed");
+  }
 }
 
 int report(const Diagnostics& diagnostics) {

@@ -21,6 +21,8 @@ struct CommonOptions {
   std::string file;
   std::vector<std::string> libraries;  ///< Node packs beside the data library.
   std::vector<std::string> search_paths;
+  bool allow_outside = false;  ///< Files that the document names may lie anywhere.
+  MissingImages missing_images = MissingImages::error;
   std::string accuracy = "standard";
   std::string backend = "jit";
   std::optional<std::string> working_space;
@@ -55,6 +57,10 @@ struct Opened {
   explicit operator bool() const { return system != nullptr && document != nullptr; }
 };
 Opened open(const CommonOptions& options, Diagnostics& diagnostics);
+
+/// Says what was taken for 0 in images that could be had: numbers that are none, and what
+/// could no longer be read while it was looked up.
+void report_texels(ShadingSystem& system, Diagnostics& diagnostics);
 
 /// Prints diagnostics on standard error; the status they mean.
 int report(const Diagnostics& diagnostics);

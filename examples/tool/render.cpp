@@ -43,7 +43,8 @@ std::optional<host::Environment> environment(const RenderOptions& options,
                                              Diagnostics& diagnostics) {
   if (options.environment.empty()) return host::Environment::studio();
   return host::Environment::load(options.environment, options.environment_scale,
-                                 options.environment_rotation * radians, diagnostics);
+                                 options.environment_rotation * radians,
+                                 options.common.texture_limits.limits, diagnostics);
 }
 
 /// The scene with a camera that sees it, whatever floor is put below.
@@ -163,6 +164,7 @@ int run(RenderOptions& options) {
   if (film && host::write_image(*film, options.out, options.write, diagnostics)) {
     print_summary(options, statistics);
   }
+  report_texels(*opened.system, diagnostics);
   const int status = report(diagnostics);
   return film ? status : status_problems;
 }

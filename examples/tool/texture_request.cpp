@@ -57,6 +57,13 @@ void TextureRequest::add(CLI::App& command) {
                   "exr and tx hold floats, png whole numbers (default: exr, but png for an "
                   "output of bitdepth 8)")
       ->check(CLI::IsMember({"exr", "png", "tx"}));
+  command
+      .add_option("--vectors", vectors,
+                  "How vectors are written: raw, or encoded as (v + 1) / 2, as normalmap reads "
+                  "unit vectors; png holds none that are negative otherwise (--document writes "
+                  "what its nodes read)")
+      ->check(CLI::IsMember({"raw", "encoded"}))
+      ->capture_default_str();
 }
 
 bool TextureRequest::check(Diagnostics& diagnostics) const {
@@ -69,6 +76,7 @@ bool texture_settings(const TextureRequest& request, const Element* output,
                       TextureSettings& settings, Diagnostics& diagnostics) {
   settings = {};
   settings.encoding.bits = request.bits;
+  settings.encoding.encodes_vectors = request.vectors == "encoded";
   if (!request.size.empty()) {
     parse_size(request.size, settings.width, settings.height, diagnostics);
   }

@@ -13,9 +13,10 @@ namespace nacre::tool {
 /// taken from the `width`, `height`, `bitdepth` and `colorspace` of an <output>
 /// (MaterialX Specification, "Output Elements"), then from the format.
 struct TextureRequest {
-  std::string size;    ///< --size: "N", "WxH", or "" if not given.
-  int bits = 0;        ///< --bitdepth, 0 if not given.
-  std::string format;  ///< --format, "" if not given.
+  std::string size;             ///< --size: "N", "WxH", or "" if not given.
+  int bits = 0;                 ///< --bitdepth, 0 if not given.
+  std::string format;           ///< --format, "" if not given.
+  std::string vectors = "raw";  ///< --vectors: "raw" or "encoded".
 
   void add(CLI::App& command);
   /// True if what was given can be understood.

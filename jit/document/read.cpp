@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "jit/document/file_roots.h"
 #include "jit/document/upgrade.h"
 #include "jit/document/xml.h"
 #include "runtime/report_stop.h"
@@ -25,24 +26,14 @@ namespace {
 constexpr std::array<std::string_view, 4> pushed_attributes{"fileprefix", "geomprefix",
                                                             "colorspace", "namespace"};
 
-bool is_below(const fs::path& file, const fs::path& folder) {
-  const auto ends = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-  return ends.first == folder.end() ||
-         (ends.first->empty() && std::next(ends.first) == folder.end());
-}
-
 class FileReader {
  public:
   FileReader(Document& document, const ReadOptions& options, Diagnostics& diagnostics)
       : document_(document), options_(options), diagnostics_(diagnostics) {
-    for (const fs::path& path : options.search_paths) add_folder(path);
+    for (const fs::path& path : options.search_paths) roots_.add(path);
   }
 
-  void add_folder(const fs::path& path) {
-    std::error_code error;
-    const fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
-    if (!error) folders_.push_back(canonical);
-  }
+  void add_folder(const fs::path& path) { roots_.add(path); }
 
   /// Root of the file with what it includes in front of its own children.
   Element* read(const fs::path& path, const SourceLocation& asked_by) {
@@ -213,8 +204,10 @@ class FileReader {
     }
     const std::optional<fs::path> file = find(href, folder);
     // The same for files that are there and that are not: a document is not to learn it.
-    if (!file && !is_allowed(canonical_path(folder / fs::path(href)))) {
-      report_outside(where, href);
+    if (!file && !is_allowed(folder / fs::path(href))) {
+      diagnostics_.error(
+          "include-outside", where, "the included file is outside the allowed folders",
+          "a file below the document's folder or a search path", fmt::format("'{}'", href));
       return nullptr;
     }
     if (!file) {
@@ -223,10 +216,6 @@ class FileReader {
       return nullptr;
     }
     const fs::path canonical = canonical_path(*file);
-    if (!is_allowed(canonical)) {
-      report_outside(where, href);
-      return nullptr;
-    }
     if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
       diagnostics_.error("include-cycle", where, "the file includes itself, directly or not", "",
                          fmt::format("'{}'", href));
@@ -240,42 +229,28 @@ class FileReader {
     return read(*file, where);
   }
 
-  void report_outside(const SourceLocation& where, std::string_view href) {
-    diagnostics_.error("include-outside", where, "the included file is outside the allowed folders",
-                       "a file below the document's folder or a search path",
-                       fmt::format("'{}'", href));
-  }
-
-  // Without "..", "." and symbolic links; the path itself where the system refuses.
-  static fs::path canonical_path(const fs::path& path) {
-    std::error_code error;
-    fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
-    return error ? path.lexically_normal() : canonical;
-  }
-
+  /// The first that is there of those that may be read, without "..": it is opened by the
+  /// name that was looked at.
   std::optional<fs::path> find(std::string_view href, const fs::path& folder) const {
     std::error_code error;
     const fs::path named(href);
-    if (named.is_absolute()) {
-      return fs::is_regular_file(named, error) ? std::optional(named) : std::nullopt;
-    }
-    if (fs::is_regular_file(folder / named, error)) return folder / named;
-    for (const fs::path& path : options_.search_paths) {
-      if (fs::is_regular_file(path / named, error)) return path / named;
+    std::vector<fs::path> folders{folder};
+    folders.insert(folders.end(), options_.search_paths.begin(), options_.search_paths.end());
+    for (const fs::path& place : folders) {
+      const fs::path file = (place / named).lexically_normal();
+      if (is_allowed(file) && fs::is_regular_file(file, error)) return file;
     }
     return std::nullopt;
   }
 
-  bool is_allowed(const fs::path& canonical) const {
-    if (options_.includes_anywhere) return true;
-    const auto holds = [&](const fs::path& folder) { return is_below(canonical, folder); };
-    return std::any_of(folders_.begin(), folders_.end(), holds);
+  bool is_allowed(const fs::path& file) const {
+    return options_.includes_anywhere || roots_.hold(file);
   }
 
   Document& document_;
   const ReadOptions& options_;
   Diagnostics& diagnostics_;
-  std::vector<fs::path> folders_;
+  FileRoots roots_;
   std::vector<fs::path> open_;
   std::size_t total_bytes_ = 0;
   int file_count_ = 0;

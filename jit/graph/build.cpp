@@ -206,7 +206,11 @@ std::optional<Graph> build_graph(const Document& document, const Definitions& de
   for (const std::string& name : request.outputs) build.add_output(name);
   if (!request.material.empty()) build.add_material(request.material);
   if (diagnostics.error_count() != errors) return std::nullopt;
-  return build.take();
+  std::optional<Graph> graph = build.take();
+  const auto named = [](const std::string& file) { return !file.empty(); };
+  const auto main_file = std::ranges::find_if(document.files(), named);
+  if (graph && main_file != document.files().end()) graph->document = *main_file;
+  return graph;
 }
 
 void try_all_graphs(const Document& document, const Definitions& definitions,

@@ -112,6 +112,9 @@ struct Graph {
   std::vector<GraphOutput> outputs;
   /// For nodes whose nodedef has neither a body nor a graph; each nodedef once.
   std::vector<NodeSource> sources;
+  /// Main file of the document that it was built from, "" without one: the files that a
+  /// document names lie below its folder (see ShaderOptions::files_anywhere).
+  std::string document;
 };
 
 /// The parameter of that path, to be read or given another value, or null. Graphs that

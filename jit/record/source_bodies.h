@@ -28,6 +28,7 @@ class SourceBodies {
   /// the including file and that of the document. Nothing outside the roots and
   /// the document's folder is read.
   explicit SourceBodies(std::vector<std::filesystem::path> roots = {});
+  const std::vector<std::filesystem::path>& roots() const { return roots_; }
 
   /// Records the node and sets its outputs. False, with a diagnostic, for a
   /// text that cannot be read or does not fit the node.

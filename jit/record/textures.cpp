@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
 
+#include "runtime/texture/similar_name.h"
 #include "runtime/texture/tile_set.h"
 
 namespace nacre {
@@ -24,17 +26,49 @@ TextureSource RecordedTextures::add(const TextureHandle& texture, const std::str
   return source;
 }
 
-void RecordedTextures::warn(const Diagnostics& problems) {
+void RecordedTextures::complain(const Diagnostics& problems) {
   for (Diagnostic problem : problems.all()) {
-    problem.severity = std::min(problem.severity, Severity::warning);
+    if (access_.missing == MissingImages::use_default) {
+      problem.severity = std::min(problem.severity, Severity::warning);
+    }
     problem.message += "; the node's default is used";
+    if (problem.code == "missing-image" && !has_tile_token(problem.where.file)) {
+      const std::string other = find_other_case(problem.where.file);
+      const bool may_say = !other.empty() && (!access_.may_read || access_.may_read(other));
+      if (may_say) problem.expected = "a file of this name; there is '" + other + "'";
+    }
     if (!where_.file.empty() || !where_.path.empty()) {
       if (!problem.found.empty()) problem.found += " in ";
       problem.found.append("'").append(problem.where.file).append("'");
       problem.where = where_;
     }
+    if (problem.severity == Severity::error) ++errors_;
     diagnostics_.add(std::move(problem));
   }
+}
+
+/// A file outside is refused in the same words whether it is there or not.
+TextureHandle RecordedTextures::acquire(const TextureKey& key, Diagnostics& problems) {
+  if (!access_.may_read || access_.may_read(key.path)) {
+    return store_.acquire(key, problems, access_.stop);
+  }
+  Diagnostic problem;
+  problem.code = "image-outside";
+  problem.where.file = key.path;
+  problem.message = "the image is outside the allowed folders";
+  problem.expected = "a file below the document's folder or a search path";
+  problems.add(problem);
+  return std::make_shared<Texture>(std::move(problem));
+}
+
+TextureSet RecordedTextures::acquire_tiles(const TextureKey& pattern, Diagnostics& problems) {
+  // Nothing is listed outside, and a link in a folder may lead there.
+  if (access_.may_read && !access_.may_read(pattern.path)) {
+    acquire(pattern, problems);
+    return {};
+  }
+  return acquire_set(store_, pattern, problems,
+                     [&](const TextureKey& tile) { return acquire(tile, problems); });
 }
 
 TextureSources RecordedTextures::find(const std::string& name, const std::string& layer) {
@@ -46,15 +80,15 @@ TextureSources RecordedTextures::find(const std::string& name, const std::string
   if (name.empty()) {
     // No file named: the node's default, without a complaint.
   } else if (has_tile_token(name)) {
-    const TextureSet set = acquire_set(store_, {.path = name, .layer = layer}, problems);
+    const TextureSet set = acquire_tiles({.path = name, .layer = layer}, problems);
     sources.directory = set.directory;
     for (std::size_t i = 0; i < set.textures.size(); ++i) {
       sources.images.push_back(add(set.textures[i], key + '#' + std::to_string(i)));
     }
   } else {
-    sources.images.push_back(add(store_.acquire({.path = name, .layer = layer}, problems), key));
+    sources.images.push_back(add(acquire({.path = name, .layer = layer}, problems), key));
   }
-  warn(problems);
+  complain(problems);
   found_.emplace(key, sources);
   return sources;
 }

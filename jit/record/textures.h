@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/kernel.h"
@@ -13,10 +15,18 @@
 
 namespace nacre {
 
+/// Which images a recording may have.
+struct ImageAccess {
+  MissingImages missing = MissingImages::error;
+  /// Whether a file may be read; null: all may.
+  std::function<bool(const std::string& path)> may_read;
+  Stop stop;  ///< Images that are not read by then are missing.
+};
+
 /// The textures that one recording uses: finds them in the store while nodes
-/// are recorded (one that cannot be read is a warning, since the node's default
-/// takes its place), and binds them to kernels afterwards. Holds the handles, so it
-/// must live as long as a kernel runs.
+/// are recorded, and binds them to kernels afterwards. One that cannot be read, or may
+/// not be, is a complaint as `access` says. Holds the handles, so it must live as long as
+/// a kernel runs.
 class RecordedTextures final : public TextureProvider {
  public:
   RecordedTextures(TextureStore& store, Recorder& recorder, Diagnostics& diagnostics,
@@ -28,7 +38,11 @@ class RecordedTextures final : public TextureProvider {
 
   TextureSources find(const std::string& name, const std::string& layer) override;
 
-  /// Who asks for what is found from now on: warnings are given there.
+  /// Of what is found from now on; without it all may be read, and what is missing is an error.
+  void give_access(ImageAccess access) { access_ = std::move(access); }
+  /// How many of its complaints were errors: of images, with which kernels are made all the same.
+  std::size_t error_count() const { return errors_; }
+  /// Who asks for what is found from now on: complaints are made there.
   void asked_by(const SourceLocation& where) { where_ = where; }
 
   /// For KernelArguments::textures: one binding a slot of the recording.
@@ -37,14 +51,18 @@ class RecordedTextures final : public TextureProvider {
   static void look_up(void* user, const TextureCall* call);
 
  private:
-  void warn(const Diagnostics& problems);
+  void complain(const Diagnostics& problems);
+  TextureHandle acquire(const TextureKey& key, Diagnostics& problems);
+  TextureSet acquire_tiles(const TextureKey& pattern, Diagnostics& problems);
   TextureSource add(const TextureHandle& texture, const std::string& key);
 
   TextureStore& store_;
   Recorder& recorder_;
   Diagnostics& diagnostics_;
   int max_anisotropy_;
+  ImageAccess access_;
   SourceLocation where_;
+  std::size_t errors_ = 0;
   std::vector<TextureHandle> slots_;
   std::map<std::string, TextureSources> found_;
 };

@@ -12,6 +12,7 @@
 #include "jit/record/source_bodies.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
+#include "jit/shading/find_image.h"
 #include "pbs/shader_channels.h"
 #include "pbs/sides.h"
 #include "runtime/program/fix_inputs.h"
@@ -22,30 +23,6 @@ namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// An image file as a document names it: beside the document, then on the
-/// search paths; the name itself where nothing is found, for the complaint.
-std::string find_file(const std::string& name, const std::string& document,
-                      const std::vector<fs::path>& search_paths) {
-  const fs::path path(name);
-  if (path.is_absolute()) return name;
-  std::vector<fs::path> folders;
-  if (!document.empty()) folders.push_back(fs::path(document).parent_path());
-  folders.insert(folders.end(), search_paths.begin(), search_paths.end());
-  // A tile pattern names no file: its folder must do.
-  const bool is_pattern = name.find('<') != std::string::npos;
-  std::error_code ignored;
-  for (const fs::path& folder : folders) {
-    const fs::path candidate = (folder / path).lexically_normal();
-    if (is_pattern ? fs::is_directory(
-                         candidate.parent_path().empty() ? fs::path(".") : candidate.parent_path(),
-                         ignored)
-                   : fs::exists(candidate, ignored)) {
-      return candidate.string();
-    }
-  }
-  return folders.empty() ? name : (folders.front() / path).lexically_normal().string();
-}
 
 /// The options of a call that begins now: how long it may take becomes when it must end.
 ShaderOptions from_now(const ShaderOptions& options) {
@@ -68,6 +45,10 @@ class Compilation {
                                                      options.max_anisotropy)) {}
 
   std::optional<std::vector<Recorded>> record(const Graph& graph) {
+    const FileRoots roots = options_.files_anywhere
+                                ? FileRoots{}
+                                : image_roots(graph, options_.search_paths, sources_.roots());
+    textures_->give_access(image_access(roots, options_.missing_images, options_.compile.stop));
     const RecordOptions record{
         .accuracy = options_.compile.accuracy,
         .parameters = options_.parameters,
@@ -77,8 +58,8 @@ class Compilation {
         .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
         .max_instructions = options_.compile.max_instructions,
         .resolve_file =
-            [this](const std::string& name, const std::string& document) {
-              return find_file(name, document, options_.search_paths);
+            [&](const std::string& name, const std::string& document) {
+              return find_image(name, document, options_.search_paths, roots);
             },
         .stop = options_.compile.stop};
     return record_graph(graph, bodies_, record, recorder_, diagnostics_);
@@ -109,6 +90,7 @@ class Compilation {
   }
 
   Recorder& recorder() { return recorder_; }
+  std::size_t image_errors() const { return textures_->error_count(); }
 
  private:
   const ShaderOptions& options_;
@@ -386,7 +368,7 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
   for (std::size_t i = 0; i < compiled.size(); ++i) *places[i] = std::move(compiled[i]);
   kernels->lobes = recorded.lobes;
   kernels->manifest = recorded.manifest;
-  if (diagnostics.error_count() != errors) return nullptr;
+  if (diagnostics.error_count() != errors + compilation.image_errors()) return nullptr;
   return kernels;
 }
 

@@ -57,6 +57,14 @@ struct ShaderOptions {
   Side side = Side::front;  ///< Of a material; see MaterialKernels::has_back.
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;
+  /// The images that a document names must lie below the folder of its main file, a search
+  /// path or a library's folder, whatever ".." and symbolic links say, as its includes
+  /// must (ReadOptions::includes_anywhere). True lifts that. A Graph that was made without
+  /// a document names what its maker wants.
+  bool files_anywhere = false;
+  /// Whether an image that cannot be had is an error or a warning. The kernels are made in
+  /// both cases, so that a host that shows pictures can go on showing them.
+  MissingImages missing_images = MissingImages::error;
 };
 
 /// Outputs of node graphs as one kernel: channel "<name>", or "<name>.x" ... for

@@ -62,6 +62,7 @@ class Corpus : public ::testing::Test {
     ShaderOptions result;
     result.compile.backend = backend;
     result.search_paths = {images_};
+    result.files_anywhere = true;
     return result;
   }
 

@@ -44,6 +44,7 @@ class ExampleDocuments : public ::testing::Test {
     const auto document = read_document(file, read, diagnostics);
     ASSERT_NE(document, nullptr) << diagnostics.to_string();
     ShaderOptions options;
+    options.files_anywhere = true;
     for (const FoundOutput& output : find_outputs(*document)) {
       if (!is_numeric(output.type)) continue;
       const auto kernel = system_->compile_outputs(*document, {output.name}, options, diagnostics);

@@ -10,10 +10,13 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace nacre;
-  static const fuzz::MemoryFile file(".tga");  // the one format without a signature
+  static const fuzz::MemoryFile file(".image");
   file.write(fuzz::as_text(data, size));
+  ImageLimits limits;
+  limits.max_size = 512;
+  limits.max_bytes = 4 << 20;
   Diagnostics diagnostics;
-  const auto environment = host::Environment::load(file.path(), 1.5f, 0.25f, diagnostics);
+  const auto environment = host::Environment::load(file.path(), 1.5f, 0.25f, limits, diagnostics);
   if (environment.has_value() == diagnostics.has_errors()) {
     fuzz::fail("an environment is refused without a reason, or there with an error");
   }

@@ -4,9 +4,11 @@ import struct
 import zlib
 
 
-def exr(width, height, claimed=None):
-    """Uncompressed float R, G, B scanlines; `claimed`: the size the header gives instead."""
+def exr(width, height, claimed=None, shown=None):
+    """Uncompressed float R, G, B scanlines; `claimed`: the size the header gives instead;
+    `shown`: the size of the picture that they are the corner of."""
     claims = claimed or (width, height)
+    shows = shown or claims
 
     def attribute(name, kind, data):
         return name + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
@@ -17,7 +19,7 @@ def exr(width, height, claimed=None):
     head += attribute(b"channels", b"chlist", channels + b"\0")
     head += attribute(b"compression", b"compression", b"\0")
     head += attribute(b"dataWindow", b"box2i", window)
-    head += attribute(b"displayWindow", b"box2i", window)
+    head += attribute(b"displayWindow", b"box2i", struct.pack("<iiii", 0, 0, shows[0] - 1, shows[1] - 1))
     head += attribute(b"lineOrder", b"lineOrder", b"\0")
     head += attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1))
     head += attribute(b"screenWindowCenter", b"v2f", struct.pack("<ff", 0, 0))
@@ -28,10 +30,20 @@ def exr(width, height, claimed=None):
     return head + offsets + b"".join(struct.pack("<ii", y, len(line)) + line for y in range(height))
 
 
-def png(width, height):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
+
+def packed_png(width, height):
+    """Black, in as few bytes as can be."""
+    pack = zlib.compressobj(9)
+    row = b"\0" * (width + 1)
+    data = b"".join(pack.compress(row) for _ in range(height)) + pack.flush()
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", data) + chunk(b"IEND", b""))
+
+
+def png(width, height):
     # Not to be compressed much: the file should be long enough to be cut.
     noise = bytes((x * x * 7919 + x // 251) & 255 for x in range(3 * width))
     rows = b"".join(b"\0" + noise[y % width:] + noise[:y % width] for y in range(height))
@@ -44,10 +56,11 @@ def hdr(width, height):
     return head + b"\x80\x80\x80\x81" * (width * height)
 
 
-def tiff(width, height):
-    """One uncompressed strip of 8-bit R, G, B."""
+def tiff(width, height, claimed=None):
+    """One uncompressed strip of 8-bit R, G, B; `claimed`: the size the header gives instead."""
+    claims = claimed or (width, height)
     pixels = b"\x80" * (3 * width * height)
-    entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 3, 0), (259, 3, 1, 1), (262, 3, 1, 2),
+    entries = [(256, 4, 1, claims[0]), (257, 4, 1, claims[1]), (258, 3, 3, 0), (259, 3, 1, 1), (262, 3, 1, 2),
                (273, 4, 1, 0), (277, 3, 1, 3), (278, 4, 1, height), (279, 4, 1, len(pixels)), (284, 3, 1, 1)]
     directory = 8
     bits = directory + 2 + 12 * len(entries) + 4

@@ -271,7 +271,7 @@ std::string targa(unsigned char width, unsigned char height) {
   return file + std::string(std::size_t{width} * height, '\x40');
 }
 
-/// The warnings of a document that names an image, "code line:column path", one a line.
+/// The complaints about a document that names an image, "code line:column path", one a line.
 std::string naming(const fs::path& folder, const std::string& image) {
   std::ofstream(folder / "a.mtlx") << "<materialx version=\"1.39\">\n"
                                       "  <nodegraph name=\"NG\">\n"
@@ -289,7 +289,7 @@ std::string naming(const fs::path& folder, const std::string& image) {
   std::string said;
   for (const Diagnostic& one : diagnostics.all()) {
     EXPECT_EQ(one.where.file, (folder / "a.mtlx").string());
-    EXPECT_EQ(one.severity, Severity::warning);
+    EXPECT_EQ(one.severity, Severity::error);
     said += one.code + ' ' + std::to_string(one.where.line) + ':' +
             std::to_string(one.where.column) + ' ' + one.where.path + '\n';
   }
@@ -319,12 +319,13 @@ TEST_F(Limits, FileNamesLeadNowhere) {
   const std::string missing = "missing-image 3:6 NG/i\n";
   const std::string unreadable = "unreadable-image 3:6 NG/i\n";
   const std::string unsupported = "unsupported-image 3:6 NG/i\n";
+  const std::string outside = "image-outside 3:6 NG/i\n";
   EXPECT_EQ(naming(folder_, "gone.png"), missing);
-  EXPECT_EQ(naming(folder_, "../../../../../../../../../../etc/passwd"), unsupported);
-  EXPECT_EQ(naming(folder_, "/etc/passwd"), unsupported);
-  EXPECT_EQ(naming(folder_, "/etc/shadow/a.png"), missing);
-  EXPECT_EQ(naming(folder_, "/dev/zero"), unreadable);
-  EXPECT_EQ(naming(folder_, "/proc/self/mem"), unreadable);
+  EXPECT_EQ(naming(folder_, "../../../../../../../../../../etc/passwd"), outside);
+  for (const char* name : {"/etc/passwd", "/etc/shadow/a.png", "/dev/zero", "/proc/self/mem",
+                           "/nowhere/a.png", "../gone/t.&lt;UDIM>.png"}) {
+    EXPECT_EQ(naming(folder_, name), outside);
+  }
   EXPECT_EQ(naming(folder_, "."), unreadable);
   EXPECT_EQ(naming(folder_, "\\\\server\\share\\a.png"), missing);
   EXPECT_EQ(naming(folder_, "C:\\textures\\a.png"), missing);

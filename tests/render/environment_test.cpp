@@ -130,7 +130,7 @@ TEST(Environment, BlackGivesNoSample) {
 
 TEST(Environment, MissingFileIsADiagnostic) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(Environment::load("/nonexistent/sky.hdr", 1.f, 0.f, diagnostics));
+  EXPECT_FALSE(Environment::load("/nonexistent/sky.hdr", 1.f, 0.f, {}, diagnostics));
   EXPECT_EQ(diagnostics.error_count(), 1u);
 }
 
