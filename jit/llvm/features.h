@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace nacre::codegen {
 
 /// The x86 features that the emitter asks about.
@@ -7,7 +9,8 @@ struct Features {
   bool avx = false;
   bool avx2 = false;
   bool f16c = false;
-  bool avx512 = false;  ///< F, BW, DQ and VL: masks are native at every width.
+  bool avx512 = false;   ///< F, BW, CD, DQ and VL at 512 bits: masks are native at every width.
+  std::string all = {};  ///< Of the machine, in LLVM's words; on top of baseline_cpu.
 };
 
 }  // namespace nacre::codegen

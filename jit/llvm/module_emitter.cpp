@@ -7,6 +7,7 @@
 
 #include "jit/llvm/entry.h"
 #include "jit/llvm/function_emitter.h"
+#include "jit/llvm/target.h"
 #include "runtime/program/fold.h"
 
 namespace nacre::codegen {
@@ -116,8 +117,9 @@ void ModuleEmitter::set_attributes(llvm::Function& function) {
   const char* width = lanes() == 16 ? "512" : "256";
   function.addFnAttr("prefer-vector-width", width);
   function.addFnAttr("min-legal-vector-width", width);
-  function.addFnAttr("target-cpu", options_.target.cpu);
-  function.addFnAttr("target-features", options_.target.features);
+  function.addFnAttr("target-cpu", baseline_cpu);
+  function.addFnAttr("tune-cpu", options_.target.cpu);
+  function.addFnAttr("target-features", features_.all);
   if (!function.hasInternalLinkage()) function.addParamAttr(0, llvm::Attribute::NonNull);
 }
 

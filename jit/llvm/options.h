@@ -7,12 +7,13 @@
 
 namespace nacre {
 
-/// The CPU that code is made for, in LLVM's words.
+/// The CPU that code is made for, in LLVM's words. Code uses no more than what kernels
+/// gain from, up to x86-64-v4; other features count for nothing, named or of the CPU.
 struct Target {
   std::string cpu;       ///< "znver4", "x86-64-v3", ...
   std::string features;  ///< "+avx2,-avx512f,...": on top of the CPU's own.
 
-  /// This machine, with the features that it really has.
+  /// This machine, with those features that it really has.
   static Target host();
   /// A CPU by name with the features that name implies.
   static Target named(std::string cpu) { return {std::move(cpu), {}}; }

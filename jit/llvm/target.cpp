@@ -9,6 +9,7 @@
 #include <llvm/TargetParser/SubtargetFeature.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <utility>
 
@@ -27,6 +28,40 @@ void initialize_llvm() {
 
 llvm::CodeGenOptLevel level(Tier tier) {
   return tier == Tier::quick ? llvm::CodeGenOptLevel::None : llvm::CodeGenOptLevel::Default;
+}
+
+/// What the emitter and LLVM's selection gain from, sorted. Nothing else of a CPU is
+/// used, because LLVM takes what it is given: with avx512fp16 it keeps masks as halves
+/// and then has no instruction for that ("Cannot select: f16 = bitcast v16i1").
+constexpr std::array<std::string_view, 19> useful{
+    "avx",    "avx2", "avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl",
+    "bmi",    "bmi2", "evex512",  "f16c",     "fma",      "lzcnt",   "movbe",
+    "popcnt", "sse3", "sse4.1",   "sse4.2",   "ssse3"};
+static_assert(std::ranges::is_sorted(useful));
+
+/// AVX-512 counts as a whole, at its full width, or not at all: the first CPUs had some
+/// of it only, the last may have it for 256 bits only.
+bool is_avx512(std::string_view feature) {
+  return feature.starts_with("avx512") || feature == "evex512";
+}
+
+/// The useful ones of a CPU as LLVM writes them, "+avx,+avx2". What CPUs without a name
+/// have (x86-64) goes without saying.
+std::string useful_features(const llvm::MCSubtargetInfo& info) {
+  std::vector<std::string_view> found;
+  for (const llvm::SubtargetFeatureKV& feature : info.getAllProcessorFeatures()) {
+    if (!info.getFeatureBits()[feature.Value]) continue;
+    if (std::ranges::binary_search(useful, feature.Key)) found.push_back(feature.Key);
+  }
+  if (std::ranges::count_if(found, is_avx512) != std::ranges::count_if(useful, is_avx512)) {
+    std::erase_if(found, is_avx512);
+  }
+  std::string text;
+  for (const std::string_view feature : found) {
+    text += text.empty() ? "+" : ",+";
+    text += feature;
+  }
+  return text;
 }
 
 /// Asked first, because LLVM prints about names that it does not know.
@@ -53,10 +88,11 @@ bool is_known(const llvm::Target& target, const std::string& triple, const Targe
 
 Target Target::host() {
   static const Target found = [] {
+    // Where the system hides a feature (virtual machines do), the CPU's name would turn
+    // it on again: so each is named.
+    const llvm::StringMap<bool> all = llvm::sys::getHostCPUFeatures();
     llvm::SubtargetFeatures features;
-    for (const auto& feature : llvm::sys::getHostCPUFeatures()) {
-      features.AddFeature(feature.getKey(), feature.getValue());
-    }
+    for (const std::string_view name : useful) features.AddFeature(name, all.lookup(name));
     return Target{llvm::sys::getHostCPUName().str(), features.getString()};
   }();
   return found;
@@ -85,12 +121,14 @@ std::unique_ptr<llvm::TargetMachine> make_target_machine(const CodegenOptions& o
   const std::string triple = llvm::sys::getProcessTriple();
   const llvm::Target* target = llvm::TargetRegistry::lookupTarget(triple, error);
   if (target == nullptr || !is_known(*target, triple, options.target, error)) return nullptr;
+  const std::unique_ptr<llvm::MCSubtargetInfo> wanted(
+      target->createMCSubtargetInfo(triple, options.target.cpu, options.target.features));
   llvm::TargetOptions flags;
   // `fma` is an operation of ours; nothing else is to be contracted, unless an
   // instruction's own flags allow it.
   flags.AllowFPOpFusion = llvm::FPOpFusion::Standard;
   std::unique_ptr<llvm::TargetMachine> machine(target->createTargetMachine(
-      triple, options.target.cpu, options.target.features, flags, llvm::Reloc::PIC_,
+      triple, baseline_cpu, useful_features(*wanted), flags, llvm::Reloc::PIC_,
       llvm::CodeModel::Small, level(options.tier), /*JIT=*/true));
   if (machine == nullptr) {
     error = "no code can be made for this machine";
@@ -105,7 +143,8 @@ Features features_of(const llvm::TargetMachine& machine) {
   return {.avx = has("+avx"),
           .avx2 = has("+avx2"),
           .f16c = has("+f16c"),
-          .avx512 = has("+avx512f") && has("+avx512bw") && has("+avx512dq") && has("+avx512vl")};
+          .avx512 = has("+avx512f"),
+          .all = machine.getTargetFeatureString().str()};
 }
 
 }  // namespace codegen
