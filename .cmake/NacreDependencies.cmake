@@ -1,5 +1,6 @@
 # Everything comes from Debian 12; nothing is fetched while configuring.
 find_package(Threads REQUIRED)
+find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(fmt REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(TBB REQUIRED)

@@ -1,82 +1,83 @@
 #include "jit/cache/entry_file.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+
+#include "runtime/digest.h"
 
 namespace nacre {
 
 namespace {
 
 /// Begins every file. The version changes with the form of the head.
-constexpr std::string_view magic = "nacre-1\n";
+constexpr std::string_view magic = "nacre-2\n";
 
 struct Head {
   char magic[8];
-  char digest[32];  ///< Of everything after it.
+  Digest signature;  ///< Of everything after it.
   std::uint64_t key;
   std::uint64_t symbol;
+  std::uint64_t interface;
   std::uint64_t object;
 };
-static_assert(sizeof(Head) == 64);
+static_assert(sizeof(Head) == 72);
 
-/// The finalizer of SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): a bijection.
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return z ^ (z >> 31);
+std::string_view bytes_of(const char* data, std::size_t size) { return {data, size}; }
+
+/// The sizes in a head.
+std::string_view sizes_of(const Head& head) {
+  return bytes_of(reinterpret_cast<const char*>(&head) + offsetof(Head, key),
+                  sizeof head - offsetof(Head, key));
 }
-
-std::string_view after_digest(std::string_view file) { return file.substr(offsetof(Head, key)); }
 
 }  // namespace
 
-std::string digest(std::string_view bytes) {
-  std::uint64_t low = 0x243f6a8885a308d3ull ^ bytes.size();
-  std::uint64_t high = 0x13198a2e03707344ull;
-  for (std::size_t at = 0; at < bytes.size(); at += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + at, std::min<std::size_t>(8, bytes.size() - at));
-    low = mix(low ^ word);
-    high = mix(high + word * 0x9e3779b97f4a7c15ull + 1);
-  }
-  return fmt::format("{:016x}{:016x}", high, low);
-}
-
-std::string pack(std::string_view key, const ObjectCode& object) {
+std::string pack(std::string_view key, const ObjectCode& object, std::string_view secret) {
   Head head{};
   std::memcpy(head.magic, magic.data(), sizeof head.magic);
   head.key = key.size();
   head.symbol = object.symbol.size();
+  head.interface = object.interface.size();
   head.object = object.bytes.size();
+  const std::string_view code = bytes_of(object.bytes.data(), object.bytes.size());
+  head.signature =
+      hmac_sha256(secret, {sizes_of(head), key, object.symbol, object.interface, code});
   std::string file(reinterpret_cast<const char*>(&head), sizeof head);
   file += key;
   file += object.symbol;
-  file.append(object.bytes.begin(), object.bytes.end());
-  file.replace(offsetof(Head, digest), sizeof head.digest, digest(after_digest(file)));
+  file += object.interface;
+  file += code;
   return file;
 }
 
-std::optional<ObjectCode> unpack(std::string_view file, std::string_view key) {
+std::optional<ObjectCode> unpack(std::string_view file, std::string_view key,
+                                 std::string_view secret) {
   Head head{};
   if (file.size() < sizeof head) return std::nullopt;
   std::memcpy(&head, file.data(), sizeof head);
-  const std::uint64_t rest = file.size() - sizeof head;
-  // Each against the file's size first, so that the sum can't overflow.
-  const bool sizes = head.key <= rest && head.symbol <= rest && head.object <= rest &&
-                     head.key + head.symbol + head.object == rest;
-  if (!sizes || std::string_view(head.magic, sizeof head.magic) != magic) return std::nullopt;
-  if (digest(after_digest(file)) != std::string_view(head.digest, sizeof head.digest)) {
+  file.remove_prefix(sizeof head);
+  if (bytes_of(head.magic, sizeof head.magic) != magic) return std::nullopt;
+  if (!equal_in_constant_time(head.signature, hmac_sha256(secret, {sizes_of(head), file}))) {
     return std::nullopt;
   }
-  file.remove_prefix(sizeof head);
-  if (file.substr(0, head.key) != key) return std::nullopt;
-  file.remove_prefix(head.key);
-  const std::string_view bytes = file.substr(head.symbol);
-  return ObjectCode{std::string(file.substr(0, head.symbol)), {bytes.begin(), bytes.end()}};
+  // Each against the file's size first, so that the sum can't overflow.
+  const std::uint64_t all = file.size();
+  const bool sizes = head.key <= all && head.symbol <= all && head.interface <= all &&
+                     head.object <= all &&
+                     head.key + head.symbol + head.interface + head.object == all;
+  if (!sizes || file.substr(0, head.key) != key) return std::nullopt;
+  const auto take = [&](std::uint64_t size) {
+    const std::string_view part = file.substr(0, size);
+    file.remove_prefix(size);
+    return part;
+  };
+  take(head.key);
+  ObjectCode object;
+  object.symbol = take(head.symbol);
+  object.interface = take(head.interface);
+  object.bytes.assign(file.begin(), file.end());
+  return object;
 }
 
 }  // namespace nacre

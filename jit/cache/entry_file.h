@@ -8,14 +8,13 @@
 
 namespace nacre {
 
-/// 128 bits over bytes, as 32 hexadecimal digits. Any damage to one word changes it.
-std::string digest(std::string_view bytes);
+/// A kernel as the bytes of a file: a head with all sizes, then the whole key, the symbol,
+/// the interface and the object. All of it is signed with a secret (HMAC-SHA-256), so that
+/// only who knows the secret can make a file that is taken.
+std::string pack(std::string_view key, const ObjectCode& object, std::string_view secret);
 
-/// A kernel as the bytes of a file: a head with all sizes and a digest of the
-/// rest, then the whole key, the symbol and the object.
-std::string pack(std::string_view key, const ObjectCode& object);
-
-/// The object, if the bytes are a sound file of exactly this key.
-std::optional<ObjectCode> unpack(std::string_view file, std::string_view key);
+/// The object, if the bytes are a file of exactly this key, made with this secret.
+std::optional<ObjectCode> unpack(std::string_view file, std::string_view key,
+                                 std::string_view secret);
 
 }  // namespace nacre

@@ -38,6 +38,8 @@ std::vector<Entry> list(int folder) {
     struct stat status{};
     if (fstatat(folder, item->d_name, &status, AT_SYMLINK_NOFOLLOW) != 0) continue;
     if (!S_ISREG(status.st_mode)) continue;
+    const std::string_view name = item->d_name;
+    if (!name.starts_with(temporary_prefix) && !name.ends_with(kernel_suffix)) continue;
     entries.push_back({item->d_name, status.st_mtim, static_cast<std::uint64_t>(status.st_size)});
   }
   closedir(stream);
@@ -103,16 +105,22 @@ std::optional<std::string> read_trusted(int folder, const std::string& name, std
   return bytes;
 }
 
-bool write_and_rename(int folder, const std::string& name, const std::string& temporary,
-                      std::string_view bytes) {
-  const Descriptor file(openat(folder, temporary.c_str(),
+bool write_new(int folder, const std::string& name, std::string_view bytes) {
+  const Descriptor file(openat(folder, name.c_str(),
                                O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
                                S_IRUSR | S_IWUSR));
   if (!file) return false;
-  if (write_all(file.get(), bytes) &&
-      renameat(folder, temporary.c_str(), folder, name.c_str()) == 0) {
-    return true;
-  }
+  if (write_all(file.get(), bytes)) return true;
+  const int reason = errno;
+  unlinkat(folder, name.c_str(), 0);
+  errno = reason;
+  return false;
+}
+
+bool write_and_rename(int folder, const std::string& name, const std::string& temporary,
+                      std::string_view bytes) {
+  if (!write_new(folder, temporary, bytes)) return false;
+  if (renameat(folder, temporary.c_str(), folder, name.c_str()) == 0) return true;
   const int reason = errno;
   unlinkat(folder, temporary.c_str(), 0);
   errno = reason;

@@ -33,15 +33,21 @@ std::string distrust(int descriptor, bool folder);
 std::optional<std::string> read_trusted(int folder, const std::string& name, std::uint64_t largest,
                                         std::string& fault);
 
+/// Writes a file that must not exist, for the owner alone. False, with errno, if that
+/// failed; then there is none.
+bool write_new(int folder, const std::string& name, std::string_view bytes);
+
 /// Writes a file under a temporary name and renames it. False if that failed.
 bool write_and_rename(int folder, const std::string& name, const std::string& temporary,
                       std::string_view bytes);
 
-/// Bytes of all files in a folder. Removes what is left of interrupted writes,
-/// then the least recently used files until the sum is at most `limit`.
+/// Bytes of all kernels in a folder. Removes what is left of interrupted writes,
+/// then the least recently used kernels until the sum is at most `limit`.
 std::uint64_t sweep(int folder, std::uint64_t limit);
 
 /// What temporary names start with.
 inline constexpr std::string_view temporary_prefix = ".writing-";
+/// What names of kernels end with. Other files are left alone.
+inline constexpr std::string_view kernel_suffix = ".kernel";
 
 }  // namespace nacre

@@ -12,6 +12,8 @@
 
 #include "jit/cache/entry_file.h"
 #include "jit/cache/folder.h"
+#include "jit/cache/secret.h"
+#include "runtime/digest.h"
 
 namespace nacre {
 
@@ -42,14 +44,23 @@ std::unique_ptr<KernelCache> KernelCache::open(const std::filesystem::path& fold
     report(diagnostics, folder.string(), "kernels are not cached, because the folder " + fault);
     return nullptr;
   }
-  return std::unique_ptr<KernelCache>(new KernelCache(opened.release(), limit));
+  std::optional<std::string> secret = folder_secret(opened.get(), fault);
+  if (!secret) {
+    report(diagnostics, (folder / secret_name).string(),
+           "kernels are not cached, because the file that signs them " + fault);
+    return nullptr;
+  }
+  return std::unique_ptr<KernelCache>(new KernelCache(opened.release(), std::move(*secret), limit));
 }
 
 KernelCache::~KernelCache() { close(folder_); }
 
-std::string KernelCache::file_name(const std::string& key) { return digest(key) + ".kernel"; }
+std::string KernelCache::file_name(const std::string& key) {
+  return to_hex(sha256(key)) + std::string(kernel_suffix);
+}
 
-std::optional<ObjectCode> KernelCache::load(const std::string& key, Diagnostics& diagnostics) {
+std::optional<ObjectCode> KernelCache::load(const std::string& key, const std::string& interface,
+                                            Diagnostics& diagnostics) {
   const std::string name = file_name(key);
   std::string fault;
   const std::optional<std::string> bytes = read_trusted(folder_, name, largest_file, fault);
@@ -58,18 +69,20 @@ std::optional<ObjectCode> KernelCache::load(const std::string& key, Diagnostics&
       warn(diagnostics, "a cached kernel was not used, because it " + fault, name);
     return std::nullopt;
   }
-  std::optional<ObjectCode> object = unpack(*bytes, key);
-  if (!object) {
-    warn(diagnostics, "a cached kernel was not used, because it is damaged", name);
-    unlinkat(folder_, name.c_str(), 0);
-  }
-  return object;
+  std::optional<ObjectCode> object = unpack(*bytes, key, secret_);
+  if (object && object->interface == interface) return object;
+  warn(diagnostics,
+       object ? "a cached kernel was not used, because it is bound to other channels"
+              : "a cached kernel was not used, because it is damaged or was made by somebody else",
+       name);
+  unlinkat(folder_, name.c_str(), 0);
+  return std::nullopt;
 }
 
 void KernelCache::store(const std::string& key, const ObjectCode& object,
                         Diagnostics& diagnostics) {
   if (read_only_) return;
-  const std::string file = pack(key, object);
+  const std::string file = pack(key, object, secret_);
   const std::string name = file_name(key);
   const std::string temporary = fmt::format("{}{}-{}-{}", temporary_prefix, getpid(),
                                             reinterpret_cast<std::uintptr_t>(this), number_++);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "jit/llvm/codegen.h"
 #include "runtime/diagnostic.h"
@@ -16,9 +17,9 @@ namespace nacre {
 /// Compiled kernels in a folder, one file each. What is in there gets executed,
 /// so it must be as trustworthy as the program itself: the folder and its files
 /// have to belong to the effective user and be writable by nobody else, links
-/// are not followed, and a file counts only if its whole key, its sizes and its
-/// checksum are right. Whatever is doubtful is a miss, and the first time also a
-/// warning "kernel-cache". A checksum finds damage; it is no signature.
+/// are not followed, and a file counts only if its whole key and its signature are
+/// right, made with a secret that lies in the folder for the user's eyes only. Whatever
+/// is doubtful is a miss, and the first time also a warning "kernel-cache".
 ///
 /// Any number of threads and processes may use one folder at once: files appear
 /// by renaming. The least recently used go when the sum of sizes passes a limit.
@@ -35,8 +36,10 @@ class KernelCache {
   KernelCache(const KernelCache&) = delete;
   KernelCache& operator=(const KernelCache&) = delete;
 
-  /// The object stored under exactly this key, or nothing.
-  std::optional<ObjectCode> load(const std::string& key, Diagnostics& diagnostics);
+  /// The object stored under exactly this key, or nothing; nothing also if it is not for
+  /// this `interface` (see ObjectCode).
+  std::optional<ObjectCode> load(const std::string& key, const std::string& interface,
+                                 Diagnostics& diagnostics);
   /// Stores it. Failing (disk full, read-only) is a warning, and the last attempt.
   void store(const std::string& key, const ObjectCode& object, Diagnostics& diagnostics);
 
@@ -44,12 +47,14 @@ class KernelCache {
   static std::string file_name(const std::string& key);
 
  private:
-  KernelCache(int folder, std::uint64_t limit) : folder_(folder), limit_(limit) {}
+  KernelCache(int folder, std::string secret, std::uint64_t limit)
+      : folder_(folder), secret_(std::move(secret)), limit_(limit) {}
   void warn(Diagnostics& diagnostics, const std::string& message, const std::string& file);
   void grow(std::uint64_t bytes);
 
   int folder_;  ///< Descriptor: what happens to the path later does not matter.
-  std::uint64_t limit_;
+  const std::string secret_;
+  const std::uint64_t limit_;
   std::mutex mutex_;
   std::optional<std::uint64_t> total_;  ///< Bytes in the folder, about.
   std::atomic<bool> warned_ = false;

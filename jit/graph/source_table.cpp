@@ -1,18 +1,14 @@
 #include "jit/graph/source_table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
-#include "runtime/program/program.h"
+#include "runtime/program/digest.h"
 
 namespace nacre {
 
-TableValues::TableValues(std::vector<float> values) : values_(std::move(values)) {
-  const std::array<std::uint64_t, 2> bits = hash(values_);
-  digest_ = fmt::format("{:016x}{:016x}", bits[1], bits[0]);
-}
+TableValues::TableValues(std::vector<float> values)
+    : values_(std::move(values)), digest_(to_hex(nacre::digest(values_))) {}
 
 bool is_whole(const SourceTable& table) {
   constexpr std::size_t most = std::size_t{1} << 28;

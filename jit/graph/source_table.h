@@ -15,7 +15,7 @@ class TableValues {
   explicit TableValues(std::vector<float> values);
 
   const std::vector<float>& values() const { return values_; }
-  /// 128 bits over the values, as 32 hexadecimal digits.
+  /// SHA-256 over the values, as 64 hexadecimal digits.
   const std::string& digest() const { return digest_; }
 
  private:

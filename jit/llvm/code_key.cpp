@@ -7,13 +7,14 @@
 #include <string>
 
 #include "jit/llvm/codegen.h"
+#include "runtime/program/digest.h"
 
 namespace nacre {
 
 namespace {
 
 /// To be raised when what kernels do or expect changes and no build id tells.
-constexpr int code_version = 1;
+constexpr int code_version = 2;
 
 /// The object file that is loaded at an address, and the id its linker gave it.
 struct BuildId {
@@ -83,24 +84,12 @@ std::string llvm_version() {
   return fmt::format("{}.{}.{}", major, minor, patch);
 }
 
-/// Which values are varying: no part of the meaning, but of the code.
-std::uint64_t varying_digest(const Program& program) {
-  std::uint64_t state = 0xcbf29ce484222325ull;  // FNV-1a.
-  for (const Function& function : program.functions) {
-    for (const Instruction& instruction : function.code) {
-      state = (state ^ static_cast<std::uint64_t>(instruction.varying)) * 0x100000001b3ull;
-    }
-  }
-  return state;
-}
-
 }  // namespace
 
 std::string code_key(const Program& program, const CodegenOptions& options) {
-  const auto number = hash(program);
-  return fmt::format("nacre kernel {} build {} llvm {}\n{} {:016x}{:016x} varying {:016x}\n{}\n",
-                     code_version, build_id(), llvm_version(), entry_symbol(program, options),
-                     number[1], number[0], varying_digest(program), options.key());
+  // The name last: it may be any text.
+  return fmt::format("nacre kernel {} build {} llvm {}\n{}\n{}\n{}", code_version, build_id(),
+                     llvm_version(), to_hex(code_digest(program)), options.key(), program.name);
 }
 
 }  // namespace nacre

@@ -20,6 +20,7 @@
 #include "jit/llvm/module_emitter.h"
 #include "jit/llvm/optimize.h"
 #include "jit/llvm/target.h"
+#include "runtime/program/digest.h"
 
 namespace nacre {
 
@@ -81,8 +82,8 @@ class Job {
     module_->setTargetTriple(machine_->getTargetTriple().str());
     module_->setDataLayout(machine_->createDataLayout());
     const codegen::Features features = codegen::features_of(*machine_);
-    codegen::ModuleEmitter(program_, options_, features, *module_)
-        .emit(entry_symbol(program_, options_));
+    symbol_ = entry_symbol(program_, options_);
+    codegen::ModuleEmitter(program_, options_, features, *module_).emit(symbol_);
     stats_.emit = clock.lap();
     assert(is_valid());
     return true;
@@ -93,6 +94,8 @@ class Job {
     codegen::optimize(*module_, *machine_, options_.tier);
     stats_.optimize = clock.lap();
   }
+
+  const std::string& symbol() const { return symbol_; }
 
   std::string ir() const {
     std::string text;
@@ -152,6 +155,7 @@ class Job {
   const CodegenOptions& options_;
   CompileStats& stats_;
   std::string error_;
+  std::string symbol_;
   llvm::LLVMContext context_;
   std::unique_ptr<llvm::TargetMachine> machine_;
   std::unique_ptr<llvm::Module> module_;
@@ -160,10 +164,10 @@ class Job {
 }  // namespace
 
 std::string entry_symbol(const Program& program, const CodegenOptions& options) {
-  const auto number = hash(program);
+  const std::string digits = to_hex(code_digest(program)).substr(0, 32);
   std::string name = program.name;
   std::ranges::replace_if(name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-  return fmt::format("nacre_{:016x}{:016x}_{}_w{}", number[1], number[0], name, options.lanes);
+  return fmt::format("nacre_{}_{}_w{}", digits, name, options.lanes);
 }
 
 std::optional<ObjectCode> compile_object(const Program& program, const CodegenOptions& options,
@@ -183,7 +187,7 @@ std::optional<ObjectCode> compile_object(const Program& program, const CodegenOp
     return std::nullopt;
   }
   if (stats != nullptr) stats->object_bytes = bytes.size();
-  return ObjectCode{entry_symbol(program, options), {bytes.begin(), bytes.end()}};
+  return ObjectCode{job.symbol(), interface_text(program), {bytes.begin(), bytes.end()}};
 }
 
 std::string dump_ir(const Program& program, const CodegenOptions& options,

@@ -28,16 +28,17 @@ struct CompileStats {
 /// Relocatable machine code of one Program: an ELF object without addresses of
 /// this process, so it may be kept on disk.
 struct ObjectCode {
-  std::string symbol;  ///< The entry, `void(const KernelArguments*)`; see run_code().
+  std::string symbol;     ///< The entry, `void(const KernelArguments*)`; see run_code().
+  std::string interface;  ///< interface_text() of the Program: what it may be bound to.
   std::vector<char> bytes;
 };
 
-/// The entry's name: "nacre_<hash of the Program>_<name>_w16".
+/// The entry's name: "nacre_<start of the Program's code_digest()>_<name>_w16".
 std::string entry_symbol(const Program& program, const CodegenOptions& options);
 
 /// Everything that decides what compile_object() gives, as text: the Program's
-/// hash, the options, this build of Nacre and the LLVM it runs with. Objects may
-/// stand for each other if and only if their keys are equal.
+/// code_digest(), the options, this build of Nacre and the LLVM it runs with. Objects
+/// may stand for each other if and only if their keys are equal.
 std::string code_key(const Program& program, const CodegenOptions& options);
 
 /// Compiles on the calling thread, which needs a stack of 8 MiB for large

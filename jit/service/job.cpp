@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "runtime/program/digest.h"
+
 namespace nacre {
 
 namespace {
@@ -63,7 +65,8 @@ std::shared_ptr<const LoadedCode> CompileJob::make(JitSession& session, KernelCa
   };
   if (unwanted()) return nullptr;
   if (cache != nullptr) {
-    const auto found = timed(stats.cache, [&] { return cache->load(key_, said); });
+    const auto found =
+        timed(stats.cache, [&] { return cache->load(key_, interface_text(*program_), said); });
     if (found) {
       Diagnostics unsound;  // Then it is compiled, which says what there is to say.
       stats.object_bytes = found->bytes.size();

@@ -99,13 +99,6 @@ std::string to_string(const Program& program);
 /// before their callers. Returns the first fault, or an empty string.
 std::string verify(const Program& program);
 
-/// 128 bits over everything that decides what the kernel computes; names of
-/// the program and of parameters, and parameter values, do not count.
-std::array<std::uint64_t, 2> hash(const Program& program);
-
-/// 128 bits over the bits of numbers.
-std::array<std::uint64_t, 2> hash(std::span<const float> values);
-
 /// Sets Instruction::varying everywhere: inputs and what depends on them.
 /// With `all`, every value is varying (a debug mode that must change nothing).
 void mark_varying(Program& program, bool all = false);

@@ -101,10 +101,16 @@ Ref Recorder::texture(std::string_view key) {
 }
 
 std::uint32_t Recorder::table(std::string_view name, std::span<const float> values) {
-  const std::uint32_t index =
-      find_or_add(program_.tables, name, Table{std::string(name), {values.begin(), values.end()}});
-  assert(std::ranges::equal(program_.tables[index].values, values));
-  return index;
+  const auto is_same = [](float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+  };
+  std::string unused(name);
+  for (int copy = 2;; ++copy) {
+    const std::uint32_t index =
+        find_or_add(program_.tables, unused, Table{unused, {values.begin(), values.end()}});
+    if (std::ranges::equal(program_.tables[index].values, values, is_same)) return index;
+    unused = std::string(name) + '.' + std::to_string(copy);
+  }
 }
 
 Ref Recorder::emit(Op op, std::span<const Ref> operands, std::uint32_t imm) {

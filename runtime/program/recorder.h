@@ -33,7 +33,8 @@ class Recorder {
   Ref parameter(std::string_view name, Scalar type, std::uint32_t bits);
   /// The slot number (an i32 literal) of the texture that the host knows by `key`.
   Ref texture(std::string_view key);
-  /// The index of a constant table, for Op::table.
+  /// The index of a constant table, for Op::table. The same name with other numbers is
+  /// another table.
   std::uint32_t table(std::string_view name, std::span<const float> values);
 
   /// Records one operation; see `record` in runtime/value/ref.h.

@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string interface = "ff/f/f/0";
+
 class Cache : public testing::Test {
  protected:
   void SetUp() override {
@@ -34,7 +36,7 @@ class Cache : public testing::Test {
     return KernelCache::open(folder_, diagnostics_, limit);
   }
   static ObjectCode object(std::size_t size = 3000) {
-    ObjectCode made{"entry", std::vector<char>(size)};
+    ObjectCode made{"entry", interface, std::vector<char>(size)};
     Random random(size);
     for (char& byte : made.bytes) byte = static_cast<char>(random.word());
     return made;
@@ -54,8 +56,8 @@ class Cache : public testing::Test {
     Diagnostics said;
     const auto cache = KernelCache::open(folder_, said);
     ASSERT_NE(cache, nullptr);
-    EXPECT_FALSE(cache->load(key, said).has_value());
-    EXPECT_FALSE(cache->load(key, said).has_value());
+    EXPECT_FALSE(cache->load(key, interface, said).has_value());
+    EXPECT_FALSE(cache->load(key, interface, said).has_value());
     ASSERT_EQ(said.all().size(), 1u);
     EXPECT_EQ(said.all().front().code, "kernel-cache");
     EXPECT_EQ(said.error_count(), 0u);
@@ -69,11 +71,11 @@ class Cache : public testing::Test {
 TEST_F(Cache, GivesBackWhatWasStored) {
   const ObjectCode stored = object();
   open()->store("key", stored, diagnostics_);
-  const auto found = open()->load("key", diagnostics_);
+  const auto found = open()->load("key", interface, diagnostics_);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->symbol, stored.symbol);
   EXPECT_EQ(found->bytes, stored.bytes);
-  EXPECT_FALSE(open()->load("another key", diagnostics_).has_value());
+  EXPECT_FALSE(open()->load("another key", interface, diagnostics_).has_value());
   EXPECT_TRUE(diagnostics_.all().empty());
 }
 
@@ -119,6 +121,61 @@ TEST_F(Cache, ComparesTheWholeKey) {
   expect_refused("version 2");
 }
 
+TEST_F(Cache, ComparesTheInterface) {
+  ObjectCode other = object();
+  other.interface = "ff/f/f/1";
+  open()->store("key", other, diagnostics_);
+  EXPECT_FALSE(open()->load("key", interface, diagnostics_).has_value());
+  ASSERT_EQ(diagnostics_.warning_count(), 1u);
+}
+
+TEST_F(Cache, RefusesWhatIsNotSignedWithItsSecret) {
+  // Sound files of another folder, and so of another secret: as if somebody could write here.
+  open()->store("key", object(), diagnostics_);
+  const fs::path elsewhere = root_ / "elsewhere";
+  Diagnostics said;
+  KernelCache::open(elsewhere, said)->store("key", object(), said);
+  ASSERT_NE(read(elsewhere / ".secret"), read(folder_ / ".secret"));
+  fs::copy_file(elsewhere / KernelCache::file_name("key"), file("key"),
+                fs::copy_options::overwrite_existing);
+  expect_refused("key");
+  EXPECT_EQ(said.to_string(), "");
+}
+
+TEST_F(Cache, KeepsItsSecret) {
+  open()->store("key", object(), diagnostics_);
+  const fs::path secret = folder_ / ".secret";
+  EXPECT_EQ(fs::status(secret).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(fs::file_size(secret), 32u);
+  const std::string bytes = read(secret);
+  open(1)->store("another", object(), diagnostics_);  // Sweeps everything away.
+  EXPECT_EQ(read(secret), bytes);
+  // What others may know, and what is not whole, signs nothing.
+  chmod(secret.c_str(), 0640);
+  EXPECT_EQ(open(), nullptr);
+  write(secret, bytes.substr(1));
+  EXPECT_EQ(open(), nullptr);
+  EXPECT_EQ(diagnostics_.warning_count(), 2u);
+  write(secret, bytes);
+  EXPECT_NE(open(), nullptr);
+}
+
+TEST_F(Cache, ThoseWhoComeFirstAgreeOnTheSecret) {
+  std::vector<std::thread> threads;
+  std::vector<Diagnostics> said(8);
+  for (std::size_t t = 0; t < said.size(); ++t) {
+    threads.emplace_back([&, t] {
+      const auto cache = KernelCache::open(folder_, said[t]);
+      cache->store("key " + std::to_string(t), object(), said[t]);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t t = 0; t < said.size(); ++t) {
+    EXPECT_TRUE(open()->load("key " + std::to_string(t), interface, said[t]).has_value());
+    EXPECT_EQ(said[t].to_string(), "");
+  }
+}
+
 TEST_F(Cache, RefusesWhatOthersCanWrite) {
   open()->store("key", object(), diagnostics_);
   chmod(file("key").c_str(), 0620);
@@ -126,7 +183,7 @@ TEST_F(Cache, RefusesWhatOthersCanWrite) {
   chmod(file("key").c_str(), 0602);
   expect_refused("key");
   chmod(file("key").c_str(), 0600);
-  EXPECT_TRUE(open()->load("key", diagnostics_).has_value());
+  EXPECT_TRUE(open()->load("key", interface, diagnostics_).has_value());
   for (const mode_t mode : {0720u, 0702u, 0777u}) {
     chmod(folder_.c_str(), mode);
     Diagnostics said;
@@ -179,7 +236,7 @@ TEST_F(Cache, WarnsOnceIfItCanNotStore) {
   cache->store("a", object(), diagnostics_);
   cache->store("b", object(), diagnostics_);
   EXPECT_EQ(diagnostics_.warning_count(), 1u);
-  EXPECT_FALSE(cache->load("a", diagnostics_).has_value());
+  EXPECT_FALSE(cache->load("a", interface, diagnostics_).has_value());
 }
 
 TEST_F(Cache, LeastRecentlyUsedGo) {
@@ -190,7 +247,7 @@ TEST_F(Cache, LeastRecentlyUsedGo) {
     utimensat(AT_FDCWD, file(key).c_str(), times, 0);
   };
   for (int k = 0; k < 4; ++k) stored_at("key " + std::to_string(k), 1000 + k);
-  EXPECT_TRUE(cache->load("key 0", diagnostics_).has_value());  // Now the newest.
+  EXPECT_TRUE(cache->load("key 0", interface, diagnostics_).has_value());  // Now the newest.
   for (int k = 4; k < 6; ++k) stored_at("key " + std::to_string(k), 1000 + k);
   EXPECT_TRUE(fs::exists(file("key 0")));
   EXPECT_FALSE(fs::exists(file("key 1")));
@@ -214,7 +271,7 @@ TEST_F(Cache, ReadersSeeWholeFilesWhileWritersReplaceThem) {
         const ObjectCode right = object(1000 + 5000 * number);
         if (t % 2 == 0) {
           cache->store(key, right, said[t]);
-        } else if (const auto found = cache->load(key, said[t])) {
+        } else if (const auto found = cache->load(key, interface, said[t])) {
           ASSERT_EQ(found->bytes, right.bytes);
         }
       }
@@ -223,7 +280,7 @@ TEST_F(Cache, ReadersSeeWholeFilesWhileWritersReplaceThem) {
   for (std::thread& thread : threads) thread.join();
   for (const Diagnostics& each : said) EXPECT_EQ(each.to_string(), "");
   for (const auto& entry : fs::directory_iterator(folder_)) {
-    EXPECT_EQ(entry.path().extension(), ".kernel");
+    EXPECT_TRUE(entry.path().extension() == ".kernel" || entry.path().filename() == ".secret");
   }
 }
 

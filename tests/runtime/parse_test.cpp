@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/program/digest.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/slice.h"
 #include "runtime/value/control.h"
@@ -26,7 +27,7 @@ void expect_round_trip(const Program& program) {
   const std::optional<Program> parsed = parse_program(text, diagnostics);
   ASSERT_TRUE(parsed.has_value()) << diagnostics.to_string() << text;
   EXPECT_EQ(to_string(*parsed), text);
-  EXPECT_EQ(hash(*parsed), hash(program)) << text;
+  EXPECT_EQ(digest(*parsed), digest(program)) << text;
   EXPECT_EQ(parsed->parameters, program.parameters);
   for (std::size_t f = 0; f < program.functions.size(); ++f) {
     EXPECT_EQ(parsed->functions[f].code, program.functions[f].code) << text;
