@@ -55,6 +55,12 @@ std::unique_ptr<KernelCache> KernelCache::open(const std::filesystem::path& fold
 
 KernelCache::~KernelCache() { close(folder_); }
 
+std::unique_ptr<KernelCache> KernelCache::reopened() const {
+  const int copy = fcntl(folder_, F_DUPFD_CLOEXEC, 0);
+  if (copy < 0) return nullptr;
+  return std::unique_ptr<KernelCache>(new KernelCache(copy, secret_, limit_));
+}
+
 std::string KernelCache::file_name(const std::string& key) {
   return to_hex(sha256(key)) + std::string(kernel_suffix);
 }

@@ -33,6 +33,9 @@ class KernelCache {
                                            Diagnostics& diagnostics,
                                            std::uint64_t limit = default_limit);
   ~KernelCache();
+  /// The same folder for a child of fork(), which must not use this any more. Null if
+  /// there are no more file descriptors.
+  std::unique_ptr<KernelCache> reopened() const;
   KernelCache(const KernelCache&) = delete;
   KernelCache& operator=(const KernelCache&) = delete;
 

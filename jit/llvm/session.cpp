@@ -11,7 +11,9 @@
 #include <mutex>
 #include <utility>
 
+#include "jit/llvm/code_memory.h"
 #include "jit/llvm/orc.h"
+#include "runtime/process.h"
 
 namespace nacre {
 
@@ -66,7 +68,7 @@ class Core {
       error = llvm::toString(control.takeError());
       return nullptr;
     }
-    auto core = std::shared_ptr<Core>(new Core(std::move(*control)));
+    auto core = shared_in_process(std::unique_ptr<Core>(new Core(std::move(*control))));
     if (llvm::Error failed = core->prepare(options)) {
       error = llvm::toString(std::move(failed));
       return nullptr;
@@ -76,7 +78,12 @@ class Core {
 
   ~Core() { llvm::consumeError(session_.endSession()); }
 
-  orc::JITDylib* load(const ObjectCode& object, orc::ExecutorAddr& entry, std::string& error) {
+  orc::JITDylib* load(const ObjectCode& object, orc::ExecutorAddr& entry, std::string& error,
+                      bool& no_memory) {
+    if (!process_.is_this()) {
+      error = "it is for the session of another process";
+      return nullptr;
+    }
     const std::scoped_lock lock(mutex_);
     reported_.clear();
     orc::JITDylib& library = session_.createBareJITDylib(fmt::format("kernel.{}", number_++));
@@ -93,19 +100,20 @@ class Core {
       failed = found.takeError();
     }
     error = llvm::toString(std::move(failed)) + reported_;
+    no_memory = memory_.has_run_out();
     remove_locked(library);
     return nullptr;
   }
 
   void remove(orc::JITDylib& library) {
-    if (keeps_code_) return;
+    if (keeps_code_ || !process_.is_this()) return;
     const std::scoped_lock lock(mutex_);
     remove_locked(library);
   }
 
  private:
   explicit Core(std::unique_ptr<orc::SelfExecutorProcessControl> control)
-      : session_(std::move(control)), layer_(session_) {
+      : session_(std::move(control)), layer_(session_, memory_) {
     // ORC prints by default. It reports on the thread that asked.
     session_.setErrorReporter(
         [this](llvm::Error error) { reported_ += "; " + llvm::toString(std::move(error)); });
@@ -128,10 +136,12 @@ class Core {
 
   // Loading and unloading take a tenth of a millisecond: one at a time.
   std::mutex mutex_;
+  const Process process_;
   std::string reported_;
   std::uint64_t number_ = 0;
   bool keeps_code_ = false;
   orc::ExecutionSession session_;
+  CodeMemory memory_;
   orc::ObjectLinkingLayer layer_;
   orc::JITDylib* functions_ = nullptr;
 };
@@ -157,7 +167,13 @@ class Session final : public JitSession {
                                          Diagnostics& diagnostics) override {
     orc::ExecutorAddr entry;
     std::string error;
-    orc::JITDylib* library = core_->load(object, entry, error);
+    bool no_memory = false;
+    orc::JITDylib* library = core_->load(object, entry, error, no_memory);
+    if (library == nullptr && no_memory) {
+      diagnostics.warning("code-memory", {}, "a kernel is interpreted: " + error, {},
+                          object.symbol);
+      return nullptr;
+    }
     if (library == nullptr) {
       diagnostics.error("link", {}, "can't load a kernel: " + error, {}, object.symbol);
       return nullptr;

@@ -39,8 +39,9 @@ class JitSession {
                                             Diagnostics& diagnostics);
   virtual ~JitSession() = default;
 
-  /// Links an object into memory. Null, with an error "link" in `diagnostics`,
-  /// if it is not a sound object or memory is short.
+  /// Links an object into memory. Null, with an error "link" in `diagnostics`, if it is
+  /// not a sound object; with a warning "code-memory", if the system has no memory for it.
+  /// A child of fork() makes a session of its own: here it gets an error "link".
   virtual std::shared_ptr<const LoadedCode> load(const ObjectCode& object,
                                                  Diagnostics& diagnostics) = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
@@ -10,32 +11,60 @@
 #include "jit/service/service_kernel.h"
 #include "jit/service/threads.h"
 #include "runtime/interpreter/interpreter.h"
+#include "runtime/process.h"
 #include "runtime/report_stop.h"
 
 namespace nacre {
 
 namespace {
 
-class Service final : public CompileService {
+/// What compiles, in one process.
+class Workshop {
  public:
-  Service(std::shared_ptr<JitSession> session, std::unique_ptr<KernelCache> cache, int threads,
-          Diagnostics no_session)
-      : session_(std::move(session)),
+  Workshop(const ServiceOptions& options, std::shared_ptr<JitSession> session,
+           std::unique_ptr<KernelCache> cache, Diagnostics no_session)
+      : options_(options),
+        session_(std::move(session)),
         cache_(std::move(cache)),
         no_session_(std::move(no_session)),
-        threads_(session_ == nullptr ? 1 : threads) {}
+        threads_(session_ == nullptr ? 1 : options.threads) {}
 
-  ~Service() override {
+  ~Workshop() {
     const std::scoped_lock lock(mutex_);
     for (const auto& [key, weak] : jobs_) {
       if (const auto job = weak.lock()) job->give_up();
     }
   }
 
+  bool is_of_this_process() const { return process_.is_this(); }
+
+  /// What a child of fork() has in its place. Reads only what no thread changes.
+  std::unique_ptr<Workshop> heir() const {
+    Diagnostics refused;
+    std::shared_ptr<JitSession> session;
+    // Whoever was cut off in LLVM may have held a lock of it, for ever now.
+    if (session_ != nullptr && compiling_ != 0) {
+      refused.warning("forked", {},
+                      "kernels are interpreted, because the process forked while one was compiled");
+    } else if (session_ != nullptr) {
+      session = JitSession::create(options_.session, refused);
+    } else {
+      refused = no_session_;
+    }
+    auto made = std::make_unique<Workshop>(options_, std::move(session),
+                                           cache_ == nullptr ? nullptr : cache_->reopened(),
+                                           std::move(refused));
+    made->has_warned_ = session_ == nullptr;
+    return made;
+  }
+
   std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
                                                            const CodegenOptions& options,
                                                            Diagnostics& diagnostics,
-                                                           const Stop& stop) override {
+                                                           const Stop& stop) {
+    if (session_ == nullptr && !has_warned_.exchange(true)) {
+      diagnostics.warning("no-jit", {}, "kernels are interpreted: " + no_session_.to_string());
+    }
     std::vector<std::shared_ptr<CompiledKernel>> kernels;
     std::vector<std::shared_ptr<CompileJob>> jobs;
     for (Program& program : programs) {
@@ -58,13 +87,14 @@ class Service final : public CompileService {
       const bool ready = kernel->wait();
       const Diagnostics said = kernel->diagnostics();
       for (const Diagnostic& one : said.all()) diagnostics.add(one);
-      if (!ready) kernel = nullptr;
+      if (ready) continue;
+      // Without an error it is the system that has no memory for code.
+      kernel = said.has_errors() ? nullptr : interpreting_kernel(kernel->program(), said);
     }
     return kernels;
   }
 
-  std::shared_ptr<CompiledKernel> request_async(Program program,
-                                                const CodegenOptions& options) override {
+  std::shared_ptr<CompiledKernel> request_async(Program program, const CodegenOptions& options) {
     if (session_ == nullptr) return interpreting_kernel(std::move(program), no_session_);
     auto interpreter = make_interpreter(program);
     auto shared = std::make_shared<const Program>(std::move(program));
@@ -98,12 +128,12 @@ class Service final : public CompileService {
       std::weak_ptr<CompileJob>& known = jobs_[key];
       job = known.lock();
       if (job != nullptr && job->join()) return job;
-      job = std::make_shared<CompileJob>(key, program, options);
+      job = shared_in_process(std::make_unique<CompileJob>(key, program, options));
       job->join();
       known = job;
       forget_dead();
     }
-    threads_.add([this, job] { job->run(*session_, cache_.get()); }, urgent);
+    threads_.add([this, job] { job->run(*session_, cache_.get(), compiling_); }, urgent);
     return job;
   }
 
@@ -114,13 +144,52 @@ class Service final : public CompileService {
     worth_cleaning_ = 2 * jobs_.size() + 64;
   }
 
-  std::shared_ptr<JitSession> session_;  ///< Null where there is no JIT.
-  std::unique_ptr<KernelCache> cache_;
-  Diagnostics no_session_;
+  const Process process_;
+  const ServiceOptions options_;
+  const std::shared_ptr<JitSession> session_;  ///< Null where there is no JIT.
+  const std::unique_ptr<KernelCache> cache_;
+  const Diagnostics no_session_;         ///< Why there is no JIT.
+  std::atomic<bool> has_warned_ = true;  ///< Of that.
+  std::atomic<int> compiling_ = 0;       ///< Threads in LLVM, or about to be.
   std::mutex mutex_;
   std::unordered_map<std::string, std::weak_ptr<CompileJob>> jobs_;
   std::size_t worth_cleaning_ = 64;
   CompileThreads threads_;  ///< Last: ends before what it works with.
+};
+
+/// The workshop of this process: in a child of fork() a new one, made when it is needed.
+class Service final : public CompileService {
+ public:
+  explicit Service(std::unique_ptr<Workshop> workshop) : workshop_(workshop.release()) {}
+
+  /// In a child the threads that would have to end are not there.
+  ~Service() override {
+    Workshop* workshop = workshop_.load();
+    if (workshop->is_of_this_process()) delete workshop;
+  }
+
+  std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
+                                                           const CodegenOptions& options,
+                                                           Diagnostics& diagnostics,
+                                                           const Stop& stop) override {
+    return workshop().request_all(std::move(programs), options, diagnostics, stop);
+  }
+
+  std::shared_ptr<CompiledKernel> request_async(Program program,
+                                                const CodegenOptions& options) override {
+    return workshop().request_async(std::move(program), options);
+  }
+
+ private:
+  Workshop& workshop() {
+    Workshop* known = workshop_.load();
+    if (known->is_of_this_process()) return *known;
+    std::unique_ptr<Workshop> made = known->heir();
+    // Another thread of the child may have been first.
+    return workshop_.compare_exchange_strong(known, made.get()) ? *made.release() : *known;
+  }
+
+  std::atomic<Workshop*> workshop_;
 };
 
 }  // namespace
@@ -134,8 +203,8 @@ std::unique_ptr<CompileService> CompileService::create(const ServiceOptions& opt
   }
   std::unique_ptr<KernelCache> cache;
   if (!options.cache.empty()) cache = KernelCache::open(options.cache, diagnostics);
-  return std::make_unique<Service>(std::move(session), std::move(cache), options.threads,
-                                   std::move(refused));
+  return std::make_unique<Service>(std::make_unique<Workshop>(
+      options, std::move(session), std::move(cache), std::move(refused)));
 }
 
 std::shared_ptr<CompiledKernel> CompileService::request(Program program,

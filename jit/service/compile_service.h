@@ -40,6 +40,10 @@ struct ServiceOptions {
 /// Compiles Programs on its own threads (with stacks of 16 MiB). Programs that
 /// need the same code share it: what is being compiled or alive is not compiled
 /// again. All members may be called from any thread. Kernels may outlive it.
+///
+/// In a child of fork() ready kernels stay, those under way are interpreted, and what is
+/// requested is compiled by threads of the child's own; but interpreted, with a warning, if
+/// one was being compiled at the fork.
 class CompileService {
  public:
   /// Never null. Where the system allows no code to be made at run time, and
@@ -51,8 +55,8 @@ class CompileService {
 
   /// Compiles them side by side and returns when all are ready, or `stop` is due.
   /// Null, with a diagnostic, for those that LLVM refuses and where a stop was requested;
-  /// interpreting kernels for those that are late, with a warning, and where there is no
-  /// JIT at all.
+  /// interpreting kernels for those that are late, with a warning, where the system has
+  /// no memory for code, and where there is no JIT at all.
   virtual std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
                                                                    const CodegenOptions& options,
                                                                    Diagnostics& diagnostics,

@@ -1,6 +1,7 @@
 #include "jit/service/job.h"
 
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "runtime/program/digest.h"
@@ -28,6 +29,7 @@ bool CompileJob::join() {
 }
 
 void CompileJob::leave() {
+  if (!process_.is_this()) return;
   const std::scoped_lock lock(mutex_);
   --interested_;
 }
@@ -42,10 +44,17 @@ bool CompileJob::unwanted() {
   return true;
 }
 
-void CompileJob::run(JitSession& session, KernelCache* cache) {
+void CompileJob::run(JitSession& session, KernelCache* cache, std::atomic<int>& compiling) {
   Diagnostics said;
   CompileStats stats;
-  std::shared_ptr<const LoadedCode> code = make(session, cache, said, stats);
+  std::shared_ptr<const LoadedCode> code;
+  ++compiling;
+  try {
+    code = make(session, cache, said, stats);
+  } catch (const std::bad_alloc&) {
+    said.error("out-of-memory", {}, "can't compile a kernel: memory is short", {}, program_->name);
+  }
+  --compiling;
   {
     const std::scoped_lock lock(mutex_);
     if (state_ != State::waiting) return;
@@ -102,6 +111,7 @@ void CompileJob::give_up() {
 }
 
 bool CompileJob::wait() const {
+  if (!process_.is_this()) return entry() != nullptr;
   std::unique_lock lock(mutex_);
   ended_.wait(lock, [this] { return state_ != State::waiting; });
   return state_ == State::ready;
@@ -114,16 +124,27 @@ bool CompileJob::wait(const Stop& stop) const {
 }
 
 CompileJob::State CompileJob::state() const {
+  if (!process_.is_this()) return entry() != nullptr ? State::ready : State::cancelled;
   const std::scoped_lock lock(mutex_);
   return state_;
 }
 
 CompileStats CompileJob::stats() const {
+  if (!process_.is_this()) return {};
   const std::scoped_lock lock(mutex_);
   return stats_;
 }
 
 Diagnostics CompileJob::diagnostics() const {
+  if (!process_.is_this()) {
+    Diagnostics said;
+    if (entry() == nullptr) {
+      said.warning("forked", {},
+                   "a kernel is interpreted, because it was being compiled when the process forked",
+                   {}, program_->name);
+    }
+    return said;
+  }
   const std::scoped_lock lock(mutex_);
   return diagnostics_;
 }

@@ -8,12 +8,13 @@
 
 #include "jit/cache/kernel_cache.h"
 #include "jit/service/compile_service.h"
+#include "runtime/process.h"
 #include "runtime/stop.h"
 
 namespace nacre {
 
 /// The making of one piece of code, and the code. Shared by all kernels of equal
-/// Programs and options.
+/// Programs and options. In a child of fork(), what was not ready by then never will be.
 class CompileJob {
  public:
   using State = CompiledKernel::State;
@@ -28,8 +29,9 @@ class CompileJob {
   /// One less does.
   void leave();
 
-  /// Cache, or LLVM and cache; then the linker. Sets the state.
-  void run(JitSession& session, KernelCache* cache);
+  /// Cache, or LLVM and cache; then the linker. Sets the state. `compiling` counts while
+  /// that goes on.
+  void run(JitSession& session, KernelCache* cache, std::atomic<int>& compiling);
   /// Ends it without code, if it has not ended; running, it stops at the next stage.
   void give_up();
   bool wait() const;
@@ -52,6 +54,7 @@ class CompileJob {
   const std::string key_;
   const std::shared_ptr<const Program> program_;
   const CodegenOptions options_;
+  const Process process_;
   std::atomic<LoadedCode::Entry> entry_ = nullptr;
 
   mutable std::mutex mutex_;

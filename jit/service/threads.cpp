@@ -4,6 +4,8 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/float_environment.h"
+
 namespace nacre {
 
 namespace {
@@ -14,13 +16,15 @@ constexpr std::size_t stack_bytes = 16u << 20;
 }  // namespace
 
 CompileThreads::CompileThreads(int count) {
-  if (count <= 0) count = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  count = count <= 0 ? cores : std::min(count, std::max(64, 4 * cores));
   pthread_attr_t attributes;
   if (pthread_attr_init(&attributes) != 0) return;
   pthread_attr_setstacksize(&attributes, stack_bytes);
   for (int k = 0; k < count; ++k) {
     pthread_t thread;
-    if (pthread_create(&thread, &attributes, &enter, this) == 0) threads_.push_back(thread);
+    if (pthread_create(&thread, &attributes, &enter, this) != 0) break;
+    threads_.push_back(thread);
   }
   pthread_attr_destroy(&attributes);
 }
@@ -54,6 +58,8 @@ void* CompileThreads::enter(void* self) {
 }
 
 void CompileThreads::work() {
+  // A thread begins in the environment of the one that made it.
+  const ScopedDefaultFloatEnvironment environment;
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return ending_ || !tasks_.empty(); });

@@ -14,8 +14,8 @@ namespace nacre {
 /// std::thread can't choose. Tasks run in order of arrival, urgent ones first.
 class CompileThreads {
  public:
-  /// `count` 0: one a core. Threads that can't be had are done without; with none
-  /// at all, add() runs the task itself.
+  /// `count` 0: one a core; never more than 64, or four a core. Threads that can't be had
+  /// are done without; with none at all, add() runs the task itself.
   explicit CompileThreads(int count);
   /// Ends the running tasks, drops the others.
   ~CompileThreads();

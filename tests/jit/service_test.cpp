@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -6,6 +7,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -164,6 +166,68 @@ TEST(Service, InterpretsWhereMemoryMayNotBecomeExecutable) {
   ASSERT_TRUE(WIFEXITED(status));
   if (WEXITSTATUS(status) == 2) GTEST_SKIP() << "this kernel has no PR_SET_MDWE";
   EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+/// In a process that has no mapping left, so that no page can change its protection.
+[[noreturn]] void interpret_without_memory_for_code() {
+  Diagnostics diagnostics;
+  const auto one = service(one_thread());
+  const auto before = one->request(small_program(0.5f), quick(), diagnostics);
+  if (before == nullptr || !diagnostics.all().empty()) _exit(3);
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  // Neighbours of other protection can't be one mapping.
+  constexpr std::size_t pages = 140000;
+  void* memory = mmap(nullptr, pages * page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) _exit(2);
+  std::size_t k = 0;
+  while (k < pages && mprotect(static_cast<char*>(memory) + k * page, page, PROT_READ) == 0) k += 2;
+  if (k >= pages) _exit(2);
+  const auto kernel = one->request(small_program(1.0f), quick(), diagnostics);
+  const bool runs = kernel != nullptr && run_small(*kernel, 2.0f) == 5.0f &&
+                    std::string(kernel->engine()) == "interpreter";
+  const bool warned = diagnostics.warning_count() == 1 && diagnostics.error_count() == 0 &&
+                      diagnostics.all().front().code == "code-memory";
+  const auto later = one->request_async(small_program(2.0f), quick());
+  const bool answers = !later->wait() && run_small(*later, 2.0f) == 6.0f;
+  munmap(memory, pages * page);
+  const auto after = one->request(small_program(3.0f), quick(), diagnostics);
+  const bool again =
+      after != nullptr && std::string(after->engine()) == "jit" && run_small(*before, 2.0f) == 4.5f;
+  _exit(!runs ? 10 : !warned ? 11 : !answers ? 12 : !again ? 13 : 0);
+}
+
+TEST(Service, InterpretsWhereThereIsNoMemoryForCode) {
+  const pid_t child = fork();
+  if (child == 0) interpret_without_memory_for_code();
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 2) GTEST_SKIP() << "this system has no limit of mappings";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(Service, LanesThatThereAreNotAreADiagnostic) {
+  const auto one = service(one_thread());
+  for (const int lanes : {0, 2, 3, 32, -1}) {
+    CodegenOptions options = quick();
+    options.lanes = lanes;
+    Diagnostics diagnostics;
+    EXPECT_EQ(one->request(small_program(1.0f), options, diagnostics), nullptr);
+    EXPECT_EQ(diagnostics.error_count(), 1u) << lanes;
+    const auto kernel = one->request_async(small_program(1.0f), options);
+    EXPECT_FALSE(kernel->wait());
+    EXPECT_EQ(run_small(*kernel, 2.0f), 5.0f);
+  }
+}
+
+TEST(Service, ThreadsThatThereAreNotAreDoneWithout) {
+  for (const int threads : {100000, std::numeric_limits<int>::max(), -5}) {
+    ServiceOptions options;
+    options.threads = threads;
+    const auto one = service(options);
+    Diagnostics diagnostics;
+    EXPECT_NE(one->request(small_program(1.0f), quick(), diagnostics), nullptr);
+  }
 }
 
 TEST(Service, SecondRunComesFromTheCache) {

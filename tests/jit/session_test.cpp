@@ -68,6 +68,36 @@ TEST(Session, UnloadedCodeLeavesNothing) {
   EXPECT_LE(mappings(), mapped + 4);
 }
 
+/// Linux allows a process 65,530 mappings.
+TEST(Session, ThousandsOfKernelsAreAFewMappings) {
+  const std::size_t count = std::getenv("NACRE_TEST_FULL") != nullptr ? 40000 : 3000;
+  Diagnostics diagnostics;
+  const auto own = JitSession::create({}, diagnostics);
+  const Program program = small_program(1.0f);
+  const auto object = compile_object(program, quick(), diagnostics);
+  ASSERT_TRUE(object.has_value());
+  const std::size_t before = mappings();
+  std::vector<std::shared_ptr<const LoadedCode>> kernels(count);
+  for (auto& kernel : kernels) {
+    kernel = own->load(*object, diagnostics);
+    ASSERT_NE(kernel, nullptr) << diagnostics.to_string();
+  }
+  // Two for a slab of some 1,000 kernels, and what the heap may want.
+  EXPECT_LE(mappings(), before + 4 * (count / 1000) + 8);
+  // Nor do holes become mappings.
+  for (std::size_t k = 0; k < count; k += 2) kernels[k] = nullptr;
+  EXPECT_LE(mappings(), before + 4 * (count / 1000) + 8);
+  for (std::size_t k = 0; k < count; k += 2) kernels[k] = own->load(*object, diagnostics);
+  EXPECT_LE(mappings(), before + 4 * (count / 1000) + 8);
+  for (const std::size_t k : {std::size_t{0}, count / 2, count - 1}) {
+    ASSERT_NE(kernels[k], nullptr) << diagnostics.to_string();
+    EXPECT_EQ(run_small(*make_jit_kernel(program, kernels[k], quick().lanes), 1.0f), 3.0f);
+  }
+  EXPECT_TRUE(writable_code().empty());
+  kernels.clear();
+  EXPECT_LE(mappings(), before + 8);
+}
+
 TEST(Session, NoPageIsWritableAndExecutable) {
   std::atomic<bool> done = false;
   std::atomic<int> seen = 0;
@@ -193,6 +223,18 @@ TEST(Codegen, UnknownCpuIsADiagnostic) {
   EXPECT_FALSE(compile_object(small_program(1.0f), options, diagnostics).has_value());
   ASSERT_EQ(diagnostics.error_count(), 1u);
   EXPECT_EQ(diagnostics.all().front().code, "codegen");
+}
+
+TEST(Codegen, LanesThatThereAreNotAreADiagnostic) {
+  for (const int lanes : {0, 2, 3, 32, -1}) {
+    Diagnostics diagnostics;
+    CodegenOptions options = quick();
+    options.lanes = lanes;
+    EXPECT_FALSE(compile_object(small_program(1.0f), options, diagnostics).has_value());
+    EXPECT_EQ(dump_ir(small_program(1.0f), options, diagnostics), "");
+    EXPECT_EQ(dump_assembly(small_program(1.0f), options, diagnostics), "");
+    EXPECT_EQ(diagnostics.error_count(), 3u) << lanes;
+  }
 }
 
 TEST(Codegen, ObjectHoldsNoAddresses) {
