@@ -12,6 +12,7 @@
 #include "jit/passes/derive.h"
 #include "jit/passes/expand_math.h"
 #include "jit/service/compile_service.h"
+#include "runtime/float_environment.h"
 #include "runtime/interpreter/interpreter.h"
 #include "runtime/reference/reference.h"
 #include "runtime/report_stop.h"
@@ -95,6 +96,7 @@ Stop stop_from_now(const CompileOptions& options) {
 }
 
 Program lower(Program program, const CompileOptions& options, std::vector<StageReport>* reports) {
+  const ScopedDefaultFloatEnvironment environment;
   Stages stages(reports, options.keep_text);
   program = stages.run("recorded", program, [](const Program& p) { return p; });
   const auto is_over = [&] { return is_too_large(program, options) || options.stop.is_due(); };
@@ -126,7 +128,14 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(
     Diagnostics& diagnostics, std::vector<std::vector<StageReport>>* stages) {
   CompileOptions options = asked;
   options.stop = stop_from_now(asked);
+  const ScopedDefaultFloatEnvironment environment;
   if (stages != nullptr) stages->resize(programs.size());
+  if (options.lanes != 0 && !is_lane_count(options.lanes)) {
+    diagnostics.error("bad-lanes", {}, "there is no code of so many lanes",
+                      "1, 4, 8 or 16, or 0 for the widest that pays",
+                      fmt::format("{}", options.lanes));
+    return std::vector<std::shared_ptr<const Kernel>>(programs.size());
+  }
   for (std::size_t i = 0; i < programs.size(); ++i) {
     std::vector<StageReport>* reports = stages != nullptr ? &(*stages)[i] : nullptr;
     programs[i] = lower(std::move(programs[i]), options, reports);

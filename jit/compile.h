@@ -30,7 +30,8 @@ struct StageReport {
 struct CompileOptions {
   Accuracy accuracy = Accuracy::standard;
   Backend backend = Backend::jit;
-  int lanes = 0;  ///< 1, 4, 8, 16; 0: the widest that pays on this machine. JIT only.
+  /// 1, 4, 8, 16; 0: the widest that pays on this machine; else an error. JIT only.
+  int lanes = 0;
   /// Treat every value as varying: slower, and must change no result.
   bool all_varying = false;
   /// Answer through the interpreter while the JIT compiles in the background.

@@ -10,6 +10,9 @@ namespace {
 // nearest), bits 12-7 exception masks, bit 6 denormals-are-zeros.
 constexpr std::uint32_t kernel_mxcsr = 0x8000u | 0x1f80u | 0x0040u;
 
+/// All exceptions masked, nothing else.
+constexpr std::uint32_t default_mxcsr = 0x1f80u;
+
 }  // namespace
 
 ScopedFloatEnvironment::ScopedFloatEnvironment() : saved_(_mm_getcsr()) {
@@ -17,5 +20,14 @@ ScopedFloatEnvironment::ScopedFloatEnvironment() : saved_(_mm_getcsr()) {
 }
 
 ScopedFloatEnvironment::~ScopedFloatEnvironment() { _mm_setcsr(saved_); }
+
+ScopedDefaultFloatEnvironment::ScopedDefaultFloatEnvironment() : saved_() {
+  std::fegetenv(&saved_);
+  // With the control word of the x87, whose rounding strtod() asks for.
+  std::fesetenv(FE_DFL_ENV);
+  _mm_setcsr(default_mxcsr);
+}
+
+ScopedDefaultFloatEnvironment::~ScopedDefaultFloatEnvironment() { std::fesetenv(&saved_); }
 
 }  // namespace nacre

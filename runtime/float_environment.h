@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cfenv>
 #include <cstdint>
 
 namespace nacre {
@@ -17,6 +18,21 @@ class ScopedFloatEnvironment {
 
  private:
   std::uint32_t saved_;
+};
+
+/// The environment in which everything before a kernel runs is computed, whatever the
+/// host's is, so that the same document is the same kernel: the C language's default,
+/// which rounds to nearest even and keeps denormals, exceptions masked. For the beginning
+/// of what a host calls.
+class ScopedDefaultFloatEnvironment {
+ public:
+  ScopedDefaultFloatEnvironment();
+  ~ScopedDefaultFloatEnvironment();
+  ScopedDefaultFloatEnvironment(const ScopedDefaultFloatEnvironment&) = delete;
+  ScopedDefaultFloatEnvironment& operator=(const ScopedDefaultFloatEnvironment&) = delete;
+
+ private:
+  std::fenv_t saved_;
 };
 
 }  // namespace nacre

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "runtime/float_environment.h"
+
 namespace nacre {
 
 namespace fs = std::filesystem;
@@ -44,6 +46,7 @@ std::vector<fs::path> files_below(const fs::path& folder, bool with_sources) {
 std::shared_ptr<const Library> load_library(const std::vector<fs::path>& paths,
                                             Diagnostics& diagnostics,
                                             const LibraryOptions& options) {
+  const ScopedDefaultFloatEnvironment environment;
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {
     std::error_code error;

@@ -13,6 +13,7 @@
 #include "jit/document/file_roots.h"
 #include "jit/document/upgrade.h"
 #include "jit/document/xml.h"
+#include "runtime/float_environment.h"
 #include "runtime/report_stop.h"
 
 namespace nacre {
@@ -290,6 +291,7 @@ bool is_valid_name(std::string_view name) {
 
 std::unique_ptr<Document> read_document(const fs::path& file, const ReadOptions& options,
                                         Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   auto document = empty_document(options);
   FileReader reader(*document, options, diagnostics);
   reader.add_folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
@@ -299,6 +301,7 @@ std::unique_ptr<Document> read_document(const fs::path& file, const ReadOptions&
 
 std::unique_ptr<Document> read_document_text(std::string_view text, const std::string& name,
                                              const ReadOptions& options, Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   auto document = empty_document(options);
   FileReader reader(*document, options, diagnostics);
   if (text.size() > options.limits.file_bytes) {
@@ -313,6 +316,7 @@ std::unique_ptr<Document> read_document_text(std::string_view text, const std::s
 
 std::unique_ptr<Document> read_documents(const std::vector<fs::path>& files,
                                          const ReadOptions& options, Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   auto document = empty_document(options);
   FileReader reader(*document, options, diagnostics);
   auto empty = std::make_unique<char[]>(1);

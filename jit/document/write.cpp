@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "runtime/float_environment.h"
+
 namespace nacre {
 
 namespace {
@@ -183,6 +185,7 @@ class Writer {
 }  // namespace
 
 std::string write_document(const Document& document, const WriteOptions& options) {
+  const ScopedDefaultFloatEnvironment environment;
   return Writer(document, options).write();
 }
 

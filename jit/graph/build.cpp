@@ -10,6 +10,7 @@
 #include "jit/graph/find.h"
 #include "jit/graph/prune.h"
 #include "jit/graph/resolver.h"
+#include "runtime/float_environment.h"
 
 namespace nacre {
 
@@ -254,6 +255,7 @@ void try_all_graphs(const Document& document, const Definitions& definitions,
 std::optional<Graph> build_graph(const Document& document, const Library& library,
                                  const GraphRequest& request, const GraphOptions& options,
                                  Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   const std::size_t errors = diagnostics.error_count();
   const Definitions definitions(document, &library.definitions(), diagnostics);
   if (diagnostics.error_count() != errors) return std::nullopt;

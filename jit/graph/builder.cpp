@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "jit/document/value_text.h"
+#include "runtime/float_environment.h"
 
 namespace nacre {
 
@@ -116,6 +117,7 @@ void GraphBuilder::set_value(Element& element, const Value& value, std::string_v
 
 void GraphBuilder::set(Node node, std::string_view input, const Value& value,
                        std::string_view colorspace, std::string_view unit) {
+  const ScopedDefaultFloatEnvironment environment;
   Element* element = input_element(node, input, value.type);
   if (element == nullptr) return;
   set_value(*element, value, colorspace, unit, nodes_[node.index].path + '/' + std::string(input));
@@ -156,6 +158,7 @@ void GraphBuilder::connect(Node node, std::string_view input, ParameterId source
 GraphBuilder::ParameterId GraphBuilder::parameter(std::string path, const Value& value,
                                                   std::string_view colorspace,
                                                   std::string_view unit) {
+  const ScopedDefaultFloatEnvironment environment;
   const ParameterId id{static_cast<std::uint32_t>(parameters_.size())};
   if (!is_numeric(value.type)) {
     fail("bad-value", path, "only numbers can be parameters", "a numeric type",
@@ -193,6 +196,7 @@ std::string GraphBuilder::public_path(std::string_view path) const {
 }
 
 std::optional<Graph> GraphBuilder::finish(const GraphOptions& options, Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   for (const Diagnostic& fault : faults_.all()) diagnostics.add(fault);
   if (faults_.has_errors()) return std::nullopt;
   document_->build_index();

@@ -13,6 +13,7 @@
 #include "jit/graph/check_parts.h"
 #include "jit/graph/connection.h"
 #include "jit/graph/find.h"
+#include "runtime/float_environment.h"
 
 namespace nacre {
 
@@ -337,6 +338,7 @@ class Checker : ElementCheck {
 
 bool check_document(const Document& document, const Library& library, const GraphOptions& options,
                     Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   Diagnostics found;
   const Definitions definitions(document, &library.definitions(), found);
   Checker(document, definitions, library.definitions(), found).check_all();

@@ -9,6 +9,7 @@
 #include "jit/document/nodedef.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/geometry_names.h"
+#include "runtime/float_environment.h"
 
 namespace nacre {
 
@@ -126,6 +127,7 @@ void add_group_looks(const Element& group, std::unordered_set<const Element*>& s
 }  // namespace
 
 std::vector<Look> find_looks(const Document& document, Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   std::vector<Look> looks;
   for (const Element& element : document.root().children()) {
     if (element.category() != "look") continue;

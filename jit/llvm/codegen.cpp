@@ -20,6 +20,7 @@
 #include "jit/llvm/module_emitter.h"
 #include "jit/llvm/optimize.h"
 #include "jit/llvm/target.h"
+#include "runtime/float_environment.h"
 #include "runtime/program/digest.h"
 
 namespace nacre {
@@ -75,6 +76,10 @@ class Job {
 
   bool make_ir() {
     assert(compilable(program_));
+    if (!is_lane_count(options_.lanes)) {
+      error_ = fmt::format("{} lanes; 1, 4, 8 or 16 are possible", options_.lanes);
+      return false;
+    }
     machine_ = codegen::make_target_machine(options_, error_);
     if (machine_ == nullptr) return false;
     Stopwatch clock;
@@ -154,6 +159,7 @@ class Job {
   const Program& program_;
   const CodegenOptions& options_;
   CompileStats& stats_;
+  const ScopedDefaultFloatEnvironment environment_;  ///< LLVM folds constants too.
   std::string error_;
   std::string symbol_;
   llvm::LLVMContext context_;

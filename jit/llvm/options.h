@@ -27,6 +27,11 @@ enum class Tier : std::uint8_t {
   full,   ///< LLVM's level Default.
 };
 
+/// Whether there is code of so many lanes: 1, 4, 8 or 16.
+constexpr bool is_lane_count(int lanes) {
+  return lanes == 1 || lanes == 4 || lanes == 8 || lanes == 16;
+}
+
 /// The number of lanes that is fastest on a CPU: 16 with AVX-512, 8 with AVX, else 4.
 int widest_lanes(const Target& target);
 

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/float_environment.h"
+
 namespace nacre {
 
 namespace {
@@ -145,6 +147,7 @@ class OcioConfig : public ColorConfig {
 
 std::shared_ptr<const ColorConfig> load_ocio_config(const std::filesystem::path& path,
                                                     Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   const auto fail = [&](const std::string& found) {
     diagnostics.error("bad-color-config", {path.string(), 0, 0, {}},
                       "the OpenColorIO configuration cannot be read", "a file config.ocio", found);

@@ -15,6 +15,7 @@
 #include "jit/shading/find_image.h"
 #include "pbs/shader_channels.h"
 #include "pbs/sides.h"
+#include "runtime/float_environment.h"
 #include "runtime/program/fix_inputs.h"
 #include "runtime/program/slice.h"
 
@@ -155,6 +156,7 @@ ShadingSystem::~ShadingSystem() = default;
 
 std::unique_ptr<ShadingSystem> ShadingSystem::create(const SystemOptions& options,
                                                      Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   std::unique_ptr<ShadingSystem> system(new ShadingSystem());
   system->library_ = load_library(options.libraries, diagnostics,
                                   {.read = {}, .standard_sources = options.standard_sources});
@@ -194,6 +196,7 @@ GraphOptions ShadingSystem::graph_options(const ShaderOptions& options) const {
 
 void ShadingSystem::check(const Document& document, const ShaderOptions& asked,
                           Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   const ShaderOptions options = from_now(asked);
   if (!check_document(document, *library_, graph_options(options), diagnostics)) return;
   Diagnostics known;
@@ -251,6 +254,7 @@ void ShadingSystem::check_sides(const Document& document, const std::string& mat
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(
     const Document& document, const std::vector<std::string>& outputs, const ShaderOptions& asked,
     Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   const ShaderOptions options = from_now(asked);
   const auto graph = build(document, {.outputs = outputs, .material = {}}, options, diagnostics);
   return graph ? compile_outputs(*graph, options, diagnostics) : nullptr;
@@ -259,6 +263,7 @@ std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(
 std::unique_ptr<OutputKernel> ShadingSystem::compile_outputs(const Graph& graph,
                                                              const ShaderOptions& asked,
                                                              Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   const ShaderOptions options = from_now(asked);
   Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics);
   const auto values = compilation.record(graph);
@@ -296,6 +301,7 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
                                                                  const std::string& material,
                                                                  const ShaderOptions& asked,
                                                                  Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   const ShaderOptions options = from_now(asked);
   const auto graph = build(document, {.outputs = {}, .material = material}, options, diagnostics);
   return graph ? compile_material(*graph, options, diagnostics) : nullptr;
@@ -304,6 +310,7 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
 std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& graph,
                                                                  const ShaderOptions& asked,
                                                                  Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
   const ShaderOptions options = from_now(asked);
   const std::size_t errors = diagnostics.error_count();
   const auto has = [&](Type type) {

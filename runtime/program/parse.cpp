@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/float_environment.h"
 #include "runtime/program/fold.h"
 
 namespace nacre {
@@ -284,6 +285,7 @@ class Parser {
 
 std::optional<Program> parse_program(std::string_view text, Diagnostics& diagnostics,
                                      std::string_view file) {
+  const ScopedDefaultFloatEnvironment environment;
   SourceLocation where{.file = std::string(file), .line = 0, .column = 0, .path = {}};
   try {
     Parser parser;
