@@ -13,18 +13,20 @@ namespace {
 using namespace nacre;
 
 const std::string key = "program 1\ntarget x86_64\n";
+const std::string secret(32, 's');
 
 void read(std::string_view file) {
-  const auto object = unpack(file, key);
-  if (object && pack(key, *object) != file) fuzz::fail("an entry is taken that nobody wrote");
+  const auto object = unpack(file, key, secret);
+  if (object && pack(key, *object, secret) != file)
+    fuzz::fail("an entry is taken that nobody wrote");
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   read(fuzz::as_text(data, size));
-  static const std::string sound =
-      pack(key, {"nacre_0_f_w8", {'\x7f', 'E', 'L', 'F', '\x02', '\x01', '\x01'}});
+  static const std::string sound = pack(
+      key, {"nacre_0_f_w8", "ff/f/f/0", {'\x7f', 'E', 'L', 'F', '\x02', '\x01', '\x01'}}, secret);
   std::string damaged = sound;
   for (std::size_t i = 0; i + 1 < size && i < 16; i += 2) {
     damaged[data[i] % damaged.size()] ^= static_cast<char>(data[i + 1]);

@@ -23,10 +23,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t points = 37;
 
-/// All outputs of a kernel where every channel sweeps from -1 to 2.
+/// All outputs of a kernel where every channel sweeps from -1 on, by steps that no rounding
+/// touches.
 std::vector<std::vector<std::uint32_t>> outputs_of(const BoundKernel& kernel) {
   std::vector<float> sweep;
-  for (std::size_t i = 0; i < points; ++i) sweep.push_back(static_cast<float>(i) / 12.0f - 1.0f);
+  for (std::size_t i = 0; i < points; ++i) sweep.push_back(static_cast<float>(i) / 16.0f - 1.0f);
   const std::vector<const void*> in(kernel.program().inputs.size(), sweep.data());
   std::vector<std::vector<std::uint32_t>> outputs(kernel.program().outputs.size(),
                                                   std::vector<std::uint32_t>(points));
