@@ -9,6 +9,7 @@ sanitizers. --folder: the files of a folder instead. WORDs choose among the name
 
 import argparse
 import pathlib
+import shutil
 import sys
 import tempfile
 
@@ -37,8 +38,7 @@ def render(out, *more):
 
 def with_image(path, out):
     yield render(out, "--environment", path)
-    document = out / "a.mtlx"
-    (out / path.name).symlink_to(path)
+    document = path.parent / "image.mtlx"
     document.write_text(TEXTURE % path.name)
     yield ["bake", "--quiet", document, "--size", "4", "--no-cache", "--out", out]
 
@@ -75,7 +75,7 @@ class Runner:
         self.arguments, self.faults, self.runs = arguments, 0, 0
 
     def give(self, name, build, commands):
-        with tempfile.TemporaryDirectory() as temporary:
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
             folder = pathlib.Path(temporary)
             (folder / "out").mkdir()
             for command in commands(build(folder), folder / "out"):
@@ -106,7 +106,9 @@ def main():
     runner = Runner(arguments)
     if arguments.folder:
         for file in sorted(arguments.folder.iterdir()):
-            runner.give(file.name, lambda _, file=file: file.resolve(), with_file)
+            # With all that is beside it: documents name texts.
+            runner.give(file.name, lambda folder, file=file: pathlib.Path(shutil.copytree(
+                arguments.folder, folder / "in")) / file.name, with_file)
     else:
         for name, builders in hostile_documents.CLASSES.items():
             runner.give_all(name, builders, with_document)

@@ -24,7 +24,10 @@ def run(command, seconds, address_space=None):
         if address_space:
             resource.setrlimit(resource.RLIMIT_AS, (address_space, address_space))
         signal.alarm(int(seconds))
-        os.execv(command[0], [str(word) for word in command])
+        try:
+            os.execv(command[0], [str(word) for word in command])
+        finally:
+            os._exit(127)
     os.close(writer)
     with os.fdopen(reader, "rb") as stream:
         said = stream.read().decode("utf-8", "replace")
