@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 
+#include "examples/bake/copy_levels.h"
 #include "examples/common/atomic_file.h"
 #include "examples/common/srgb.h"
 #include "jit/graph/colorspace.h"
@@ -216,11 +217,17 @@ std::string write_tx(const Job& job, const std::string& file) {
   config.attribute("tiff:half", 1);
   config.attribute("DateTime", "");
   config.attribute("wrapmodes", job.encoding.is_tile ? "clamp,clamp" : "periodic,periodic");
-  if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image, file, config)) {
-    return {};
+  const std::string levels = file + ".levels.tx";
+  std::string why;
+  if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image, levels, config)) {
+    why = copy_levels(levels, file);
+  } else {
+    why = OIIO::geterror();
+    if (why.empty()) why = "the texture could not be made";
   }
-  const std::string why = OIIO::geterror();
-  return why.empty() ? "the texture could not be made" : why;
+  std::error_code ignored;
+  std::filesystem::remove(levels, ignored);
+  return why;
 }
 
 /// What there is to say of numbers that were cut off; nothing if there are none.

@@ -139,7 +139,8 @@ int run(const BakeOptions& options) {
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
   const std::vector<UdimTile> tiles =
-      read_tiles(options.udim, *opened.document, options.common.search_paths, diagnostics);
+      read_tiles(options.udim, *opened.document, options.common.search_paths, diagnostics,
+                 options.common.allow_outside);
   if (diagnostics.has_errors()) return report(diagnostics);
   std::error_code status;
   fs::create_directories(options.out, status);

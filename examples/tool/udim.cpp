@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "jit/document/file_roots.h"
 #include "jit/document/nodedef.h"
 #include "runtime/texture/tile_set.h"
 
@@ -58,14 +59,16 @@ bool add_udim_sets(const Document& document, std::vector<UdimTile>& tiles,
 }
 
 void add_files(const Element& input, const std::vector<std::string>& search_paths,
-               std::vector<UdimTile>& tiles) {
+               const FileRoots& roots, std::vector<UdimTile>& tiles) {
   const std::string name =
       std::string(input.inherited_attribute("fileprefix")) + std::string(input.attribute("value"));
   std::vector<fs::path> folders{fs::path(input.document().file_of(input)).parent_path()};
   folders.insert(folders.end(), search_paths.begin(), search_paths.end());
   for (const fs::path& folder : folders) {
+    const fs::path place = (folder / name).lexically_normal();
+    if (!roots.empty() && !roots.hold(place)) continue;
     Diagnostics ignored;
-    const auto files = find_tiles((folder / name).string(), {}, ignored);
+    const auto files = find_tiles(place.string(), {}, ignored);
     if (!files) continue;
     for (const TileFile& file : *files) {
       const bool has_number = file.u >= 0 && file.u <= 9 && file.v >= 0 && file.v <= 899;
@@ -76,12 +79,12 @@ void add_files(const Element& input, const std::vector<std::string>& search_path
 }
 
 void add_all_files(const Element& element, const std::vector<std::string>& search_paths,
-                   std::vector<UdimTile>& tiles) {
+                   const FileRoots& roots, std::vector<UdimTile>& tiles) {
   for (const Element& child : element.children()) {
     if (child.attribute("type") == "filename" && has_tile_token(child.attribute("value"))) {
-      add_files(child, search_paths, tiles);
+      add_files(child, search_paths, roots, tiles);
     }
-    add_all_files(child, search_paths, tiles);
+    add_all_files(child, search_paths, roots, tiles);
   }
 }
 
@@ -91,8 +94,8 @@ std::string UdimTile::number() const { return std::to_string(1001 + u + 10 * v);
 
 std::vector<UdimTile> read_tiles(std::string_view text, const Document& document,
                                  const std::vector<std::string>& search_paths,
-                                 Diagnostics& diagnostics) {
-  if (text == "auto") return tiles_of(document, search_paths, diagnostics);
+                                 Diagnostics& diagnostics, bool anywhere) {
+  if (text == "auto") return tiles_of(document, search_paths, diagnostics, anywhere);
   std::vector<UdimTile> tiles;
   if (!add_list(text, {}, tiles, diagnostics)) return {};
   return tiles;
@@ -100,10 +103,15 @@ std::vector<UdimTile> read_tiles(std::string_view text, const Document& document
 
 std::vector<UdimTile> tiles_of(const Document& document,
                                const std::vector<std::string>& search_paths,
-                               Diagnostics& diagnostics) {
+                               Diagnostics& diagnostics, bool anywhere) {
   std::vector<UdimTile> tiles;
   if (!add_udim_sets(document, tiles, diagnostics)) return {};
-  if (tiles.empty()) add_all_files(document.root(), search_paths, tiles);
+  FileRoots roots;
+  if (!anywhere) {
+    roots.add(fs::path(document.files().front()).parent_path());
+    for (const std::string& path : search_paths) roots.add(path);
+  }
+  if (tiles.empty()) add_all_files(document.root(), search_paths, roots, tiles);
   if (tiles.empty()) {
     diagnostics.error("no-udim", {document.files().front(), 0, 0, {}},
                       "the document says nothing of tiles",

@@ -24,13 +24,14 @@ struct UdimTile {
 /// what cannot be understood.
 std::vector<UdimTile> read_tiles(std::string_view text, const Document& document,
                                  const std::vector<std::string>& search_paths,
-                                 Diagnostics& diagnostics);
+                                 Diagnostics& diagnostics, bool anywhere = false);
 
 /// The tiles that a document is made of: the udimset of its geometries (MaterialX 1.39
 /// Geometry Extensions, "Reserved GeomProp Names"), and without one the files that its
-/// names with <UDIM> or <UVTILE> stand for, beside it or on the search paths.
+/// names with <UDIM> or <UVTILE> stand for, beside it or on the search paths, and below
+/// those folders unless files may lie `anywhere`.
 std::vector<UdimTile> tiles_of(const Document& document,
                                const std::vector<std::string>& search_paths,
-                               Diagnostics& diagnostics);
+                               Diagnostics& diagnostics, bool anywhere = false);
 
 }  // namespace nacre::tool

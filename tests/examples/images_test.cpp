@@ -128,6 +128,14 @@ TEST_F(Images, ATileThatIsALinkOutsideIsMissing) {
   EXPECT_FLOAT_EQ(texel(file("out/NG.out.exr")), 64.0f / 255);
 }
 
+TEST_F(Images, TilesOutsideAreNotLookedFor) {
+  paint("t.1002.png", 1.0f);
+  EXPECT_EQ(bake("../t.&lt;UDIM&gt;.png", "--udim auto"), 1);
+  EXPECT_TRUE(says("[no-udim]")) << errors_;
+  EXPECT_EQ(bake("../t.&lt;UDIM&gt;.png", "--udim auto --allow-outside"), 0) << errors_;
+  EXPECT_TRUE(fs::exists(file("out/NG.out.1002.exr")));
+}
+
 TEST_F(Images, IncludesMayLieOutsideWhereThatIsAllowed) {
   write("part.mtlx", R"(<materialx version="1.39"><constant name="c" type="float"/></materialx>)");
   const std::string path =
@@ -217,14 +225,14 @@ TEST_F(Written, TexturesHaveTheBitsThatWereAskedForAndRepeat) {
 
 TEST_F(Written, EqualBakesAreEqualFiles) {
   for (const char* out : {"first", "second"}) {
-    for (const char* format : {"png", "exr"}) {
+    for (const char* format : {"png", "exr", "tx"}) {
       ASSERT_EQ(bake_ramp("color", "--format " + std::string(format), out), 0) << errors_;
     }
     ASSERT_EQ(render("-q", std::string(out) + "/r.exr"), 0) << errors_;
     ASSERT_EQ(render("-q", std::string(out) + "/r.png"), 0) << errors_;
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   }
-  for (const char* name : {"NG.color.png", "NG.color.exr", "r.exr", "r.png"}) {
+  for (const char* name : {"NG.color.png", "NG.color.exr", "NG.color.tx", "r.exr", "r.png"}) {
     const std::string first = text_of(file("first/" + std::string(name)));
     EXPECT_FALSE(first.empty()) << name;
     EXPECT_TRUE(first == text_of(file("second/" + std::string(name)))) << name;

@@ -1,10 +1,17 @@
 #include "examples/render/environment.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
+
+#include "tests/render/temporary_folder.h"
 
 namespace nacre::host {
 namespace {
@@ -132,6 +139,48 @@ TEST(Environment, MissingFileIsADiagnostic) {
   Diagnostics diagnostics;
   EXPECT_FALSE(Environment::load("/nonexistent/sky.hdr", 1.f, 0.f, {}, diagnostics));
   EXPECT_EQ(diagnostics.error_count(), 1u);
+}
+
+/// A file of every format that has some pixels, cut at many places: an environment, or one
+/// error that names it, and never a file that is cut inside its pixels.
+TEST(Environment, CutFilesAreErrors) {
+  const TemporaryFolder folder;
+  const std::vector<float> samples(16 * 8 * 3, 0.25f);
+  for (const char* name : {"a.exr", "a.png", "a.jpg", "a.tif", "a.hdr", "a.tga"}) {
+    const std::string path = folder.file(name);
+    const auto out = OIIO::ImageOutput::create(path);
+    OIIO::ImageSpec spec(16, 8, 3, OIIO::TypeDesc::UINT8);
+    if (name[2] == 'e' || name[2] == 'h') spec.format = OIIO::TypeDesc::FLOAT;
+    ASSERT_TRUE(out && out->open(path, spec) &&
+                out->write_image(OIIO::TypeDesc::FLOAT, samples.data()) && out->close());
+    std::ifstream stream(path, std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+    Diagnostics none;
+    ASSERT_TRUE(Environment::load(path, 1.f, 0.f, {}, none)) << none.to_string();
+    for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 40) {
+      Diagnostics diagnostics;
+      const std::string cut = folder.write("cut", whole.substr(0, size));
+      const auto environment = Environment::load(cut, 1.f, 0.f, {}, diagnostics);
+      EXPECT_EQ(environment.has_value(), !diagnostics.has_errors()) << name << ' ' << size;
+      EXPECT_LE(diagnostics.error_count(), 1u) << diagnostics.to_string();
+      if (size < whole.size() / 3) {
+        EXPECT_FALSE(environment.has_value()) << name << size;
+      }
+    }
+  }
+}
+
+TEST(Environment, WhatIsNoRadianceIsSaid) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.exr");
+  const auto out = OIIO::ImageOutput::create(path);
+  const std::vector<float> samples{1, 1, 1, -1, 1, 1, 1, NAN, 1, 1, 1, INFINITY};
+  ASSERT_TRUE(out && out->open(path, OIIO::ImageSpec(2, 2, 3, OIIO::TypeDesc::FLOAT)) &&
+              out->write_image(OIIO::TypeDesc::FLOAT, samples.data()) && out->close());
+  Diagnostics diagnostics;
+  EXPECT_TRUE(Environment::load(path, 1.f, 0.f, {}, diagnostics));
+  ASSERT_EQ(diagnostics.warning_count(), 1u);
+  EXPECT_EQ(diagnostics.all()[0].found, "3 such texels");
 }
 
 }  // namespace
