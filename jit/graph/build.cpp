@@ -22,17 +22,6 @@ SourceLocation at_root(const Document& document, std::string path) {
   return where;
 }
 
-// The element that a path names, from the root down; null if there is none.
-const Element* find_element(const Document& document, std::string_view path) {
-  const Element* at = &document.root();
-  while (at != nullptr && !path.empty()) {
-    const std::size_t slash = path.find('/');
-    at = at->child(path.substr(0, slash));
-    path = slash == std::string_view::npos ? std::string_view{} : path.substr(slash + 1);
-  }
-  return at;
-}
-
 class GraphBuild {
  public:
   GraphBuild(const Document& document, const Definitions& definitions, const GraphOptions& options,
@@ -65,12 +54,12 @@ class GraphBuild {
       if (const StructType* type = definitions_.struct_type(element->attribute("type"))) {
         for (std::uint32_t i = 0; i < type->leaves.size(); ++i) {
           add(name + type->leaves[i].path,
-              resolver_.resolve_port(*element, context_around(*element), i + 1));
+              resolver_.resolve_port(*element, context_around(*element), i + 1), *element);
         }
         return;
       }
       const Resolver::Result found = resolver_.resolve_port(*element, context_around(*element));
-      add(name, resolver_.in_output_space(found, name, *element));
+      add(name, resolver_.in_output_space(found, name, *element), *element);
     } else if (is_node(*element) && element->parent() == &document_.root()) {
       add_node(name, *element);
     } else {
@@ -155,8 +144,9 @@ class GraphBuild {
                        "the graph has several outputs and none is named", "GRAPH/NAME");
   }
 
-  void add(const std::string& name, const Resolver::Result& result) {
-    if (!result.failed) resolver_.graph().outputs.push_back({name, result.type, result.source});
+  void add(const std::string& name, const Resolver::Result& result, const Element& element) {
+    if (result.failed) return;
+    resolver_.graph().outputs.push_back({name, result.type, result.source, location(element)});
   }
 
   void add_node(const std::string& name, const Element& node) {
@@ -165,7 +155,8 @@ class GraphBuild {
     for (const NodeDefOutput& output : def->outputs) {
       const bool is_only = def->outputs.size() == 1;
       const std::string full = is_only ? name : name + '/' + std::string(output.name);
-      add(full, resolver_.in_output_space(resolver_.resolve_node(node, output.name), full, node));
+      add(full, resolver_.in_output_space(resolver_.resolve_node(node, output.name), full, node),
+          node);
     }
   }
 
@@ -187,7 +178,7 @@ class GraphBuild {
     const std::vector<GraphInput> inputs = graph.nodes[source.node].inputs;
     for (const GraphInput& input : inputs) {
       if (input.source.kind != Source::Kind::link) continue;
-      graph.outputs.push_back({input.name, input.type, input.source});
+      graph.outputs.push_back({input.name, input.type, input.source, location(element)});
     }
   }
 

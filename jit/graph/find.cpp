@@ -67,6 +67,23 @@ std::vector<FoundOutput> find_outputs(const Document& document) {
   return outputs;
 }
 
+const Element* find_element(const Document& document, std::string_view path) {
+  const Element* at = &document.root();
+  while (at != nullptr && !path.empty()) {
+    const std::size_t slash = path.find('/');
+    at = at->child(path.substr(0, slash));
+    path = slash == std::string_view::npos ? std::string_view{} : path.substr(slash + 1);
+  }
+  return at;
+}
+
+SourceLocation location_of(const Document& document, std::string_view path) {
+  const Element* element = find_element(document, path);
+  SourceLocation where = location(element != nullptr ? *element : document.root());
+  if (element == nullptr) where.path = path;
+  return where;
+}
+
 std::vector<FoundMaterial> find_materials(const Document& document) {
   std::vector<FoundMaterial> materials;
   for (const Element& child : document.root().children()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "jit/document/definitions.h"
@@ -33,6 +34,12 @@ struct FoundMaterial {
 
 /// Root nodes of type material, in document order.
 std::vector<FoundMaterial> find_materials(const Document& document);
+
+/// The element of that path, from the root down; null if there is none.
+const Element* find_element(const Document& document, std::string_view path);
+
+/// Its location; with nothing but the path if there is none.
+SourceLocation location_of(const Document& document, std::string_view path);
 
 /// Names of root nodes of a shader type that nothing at the root reads.
 std::vector<FoundOutput> find_loose_shaders(const Document& document,

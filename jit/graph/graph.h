@@ -84,6 +84,7 @@ struct GraphOutput {
   std::string name;  ///< "NG_marble/out", "out"; for a material "surfaceshader" and so on.
   Type type = Type::none;
   Source source;
+  SourceLocation where = {};  ///< Of what was asked for.
 };
 
 /// What implements a nodedef by text: MaterialX's <implementation> with `file`

@@ -82,9 +82,14 @@ struct OutputKernel {
   std::vector<StageReport> stages;
 };
 
+/// True for types that an output may have to be a kernel by itself: numbers, media,
+/// displacements and lights. Others, as BSDF or string, are parts of kernels, and
+/// compile_outputs refuses them ("not-numeric").
+bool has_kernel(Type type);
+
 /// The kernels of one material; see pbs/kernels.h for the channels of its surface and
 /// pbs/shader_channels.h for the rest. A kernel that has nothing to compute is absent; a
-/// volumematerial has `volume` alone.
+/// volumematerial has `volume` alone, a material without a surface shader `displacement`.
 struct MaterialKernels {
   bool has_surface = true;
   /// The back shows another shader: to be compiled with ShaderOptions::side and used
@@ -127,14 +132,15 @@ class ShadingSystem {
                                                 const ShaderOptions& options,
                                                 Diagnostics& diagnostics);
 
-  /// The surface of a material node, or of a surface shader node.
+  /// A material node, or an output that leads to one.
   std::unique_ptr<MaterialKernels> compile_material(const Document& document,
                                                     const std::string& material,
                                                     const ShaderOptions& options,
                                                     Diagnostics& diagnostics);
 
-  /// Builds and records everything in a document that can be asked for, every
-  /// output and every material, and compiles nothing: all its diagnostics.
+  /// All diagnostics of a document. What has none compiles without any: every output
+  /// that `has_kernel` and every material is recorded as for compiling, and goes through
+  /// every stage but the last, machine code.
   void check(const Document& document, const ShaderOptions& options, Diagnostics& diagnostics);
 
   // The same from a Graph that no document was needed for.
@@ -149,8 +155,17 @@ class ShadingSystem {
   std::optional<Graph> build(const Document& document, const GraphRequest& request,
                              const ShaderOptions& options, Diagnostics& diagnostics) const;
 
-  void check_sides(const Document& document, const std::string& material,
-                   const ShaderOptions& options, Diagnostics& diagnostics);
+  std::unique_ptr<MaterialKernels> make_material(const Graph& graph, const SourceLocation& where,
+                                                 const ShaderOptions& options,
+                                                 Diagnostics& diagnostics);
+  // Parts of `check`.
+  void check_sources(const Document& document, Diagnostics& diagnostics);
+  void check_outputs(const Document& document, const ShaderOptions& options,
+                     Diagnostics& diagnostics);
+  void try_outputs(const Document& document, const std::vector<std::string>& names,
+                   bool are_kernels, const ShaderOptions& options, Diagnostics& diagnostics);
+  void check_material(const Document& document, const std::string& material,
+                      const ShaderOptions& options, Diagnostics& diagnostics);
 
   std::shared_ptr<const Library> library_;
   std::unique_ptr<Bodies> bodies_;

@@ -65,7 +65,7 @@ class Shading {
     shaded_.clean = !diagnostics.has_errors();
     std::size_t count = 0;
     for (const FoundOutput& output : find_outputs(document_)) {
-      if (++count <= most_kernels) shade_output(output.name);
+      if (has_kernel(output.type) && ++count <= most_kernels) shade_output(output.name);
     }
     count = 0;
     for (const FoundMaterial& material : find_materials(document_)) {
