@@ -60,6 +60,9 @@ void CommonOptions::add_document(CLI::App& command) {
                   "OpenColorIO configuration whose colour spaces count before those built in; "
                   "env: the one that the environment variable OCIO names")
       ->type_name("FILE");
+  command.add_flag("--strict", strict,
+                   "Refuse what the standard has no meaning for; else what MaterialX makes code "
+                   "of is read as that code has it, with a warning");
   command.add_flag("-q,--quiet", quiet, "No progress on standard error");
   add_limits(command);
 }
@@ -147,6 +150,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.max_seconds = compile_limits.max_seconds;
   options.max_anisotropy = anisotropy;
   options.graph.prefer = graph_limits.prefer;
+  options.graph.lenient = !strict;
   options.graph.max_nodes = graph_limits.max_nodes;
   options.graph.max_inputs = graph_limits.max_inputs;
   options.graph.working_space = working_space;

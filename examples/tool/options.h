@@ -32,6 +32,7 @@ struct CommonOptions {
   int threads = 0;
   bool no_cache = false;
   std::string cache;
+  bool strict = false;
   bool quiet = false;
   /// What a document, its graphs and its images may cost.
   ReadLimits read_limits;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 namespace nacre {
 
@@ -66,6 +68,23 @@ const Element* first_misfit(const Element& instance, const NodeDef& def) {
   return nullptr;
 }
 
+// The inputs of the instance that the nodedef does not take, if none is beyond leniency.
+std::optional<std::vector<const Element*>> misfits(const Element& instance, const NodeDef& def,
+                                                   bool (*stands_for)(Type, Type)) {
+  std::vector<const Element*> list;
+  for (const Element& child : instance.children()) {
+    if (child.category() != "input" || child.name().empty()) continue;
+    const std::string_view type = def.input_type(child.name());
+    const std::string_view own = child.attribute("type");
+    if (type == own || (child.name() == "disable" && own == "boolean")) continue;
+    const auto from = parse_type(own);
+    const auto to = parse_type(type);
+    if (!type.empty() && (!from || !to || !stands_for(*from, *to))) return std::nullopt;
+    list.push_back(&child);
+  }
+  return list;
+}
+
 std::string list_of(const std::vector<std::string>& items) {
   std::string text;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -102,7 +121,7 @@ std::string meant_by(std::string_view category, const Definitions& definitions) 
 }
 
 void report_misfit(const Element& input, const std::vector<const NodeDef*>& candidates,
-                   Diagnostics& diagnostics) {
+                   Diagnostics& diagnostics, bool is_tolerated = false) {
   std::vector<std::string> names;
   std::vector<std::string> types;
   for (const NodeDef* def : candidates) {
@@ -112,12 +131,26 @@ void report_misfit(const Element& input, const std::vector<const NodeDef*>& cand
     }
   }
   if (types.empty()) {
-    diagnostics.error("unknown-input", location(input), "the node has no input of this name",
-                      list_of(names), fmt::format("'{}'", input.name()));
+    std::string found = fmt::format("'{}'", input.name());
+    if (is_tolerated) {
+      diagnostics.warning("unknown-input", location(input),
+                          "the node has no input of this name, so it is not used", list_of(names),
+                          std::move(found));
+    } else {
+      diagnostics.error("unknown-input", location(input), "the node has no input of this name",
+                        list_of(names), std::move(found));
+    }
     return;
   }
-  diagnostics.error("input-type", location(input), "the input has another type", list_of(types),
-                    std::string(input.attribute("type")));
+  std::string found(input.attribute("type"));
+  if (is_tolerated) {
+    diagnostics.warning("input-type", location(input),
+                        "the input has another type, so it is converted", list_of(types),
+                        std::move(found));
+  } else {
+    diagnostics.error("input-type", location(input), "the input has another type", list_of(types),
+                      std::move(found));
+  }
 }
 
 // Nothing fitted: says what came nearest to fitting.
@@ -164,8 +197,22 @@ void report_no_match(const Element& instance, const std::vector<const NodeDef*>&
   }
 }
 
+const NodeDef* find_nearest(const Element& instance, const std::vector<const NodeDef*>& candidates,
+                            bool (*stands_for)(Type, Type), Diagnostics& diagnostics) {
+  const NodeDef* nearest = nullptr;
+  std::vector<const Element*> least;
+  for (const NodeDef* def : candidates) {
+    auto inputs = misfits(instance, *def, stands_for);
+    if (!inputs || (nearest != nullptr && inputs->size() >= least.size())) continue;
+    nearest = def;
+    least = std::move(*inputs);
+  }
+  for (const Element* input : least) report_misfit(*input, {nearest}, diagnostics, true);
+  return nearest;
+}
+
 const NodeDef* find_explicit(const Element& instance, const Definitions& definitions,
-                             Diagnostics& diagnostics) {
+                             Diagnostics& diagnostics, bool (*stands_for)(Type, Type)) {
   const std::string_view name = instance.attribute("nodedef");
   const NodeDef* def = definitions.nodedef(qualified_name(instance, name));
   if (def == nullptr) def = definitions.nodedef(name);
@@ -182,6 +229,10 @@ const NodeDef* find_explicit(const Element& instance, const Definitions& definit
     return nullptr;
   }
   if (const Element* misfit = first_misfit(instance, *def)) {
+    if (stands_for != nullptr &&
+        find_nearest(instance, {def}, stands_for, diagnostics) != nullptr) {
+      return def;
+    }
     report_misfit(*misfit, {def}, diagnostics);
     return nullptr;
   }
@@ -191,8 +242,10 @@ const NodeDef* find_explicit(const Element& instance, const Definitions& definit
 }  // namespace
 
 const NodeDef* find_nodedef(const Element& instance, const Definitions& definitions,
-                            Diagnostics& diagnostics) {
-  if (instance.has_attribute("nodedef")) return find_explicit(instance, definitions, diagnostics);
+                            Diagnostics& diagnostics, bool (*stands_for)(Type from, Type to)) {
+  if (instance.has_attribute("nodedef")) {
+    return find_explicit(instance, definitions, diagnostics, stands_for);
+  }
   const std::string qualified = qualified_name(instance, instance.category());
   std::vector<const NodeDef*> candidates = definitions.of_category(qualified);
   if (qualified != instance.category()) {
@@ -208,11 +261,15 @@ const NodeDef* find_nodedef(const Element& instance, const Definitions& definiti
   }
   const std::string_view version = instance.attribute("version");
   const std::string_view type = instance.attribute("type");
+  std::vector<const NodeDef*> near;
   for (const NodeDef* def : candidates) {
-    if (version_agrees(*def, version) && def->instance_type() == type &&
-        first_misfit(instance, *def) == nullptr) {
-      return def;
-    }
+    if (!version_agrees(*def, version) || def->instance_type() != type) continue;
+    if (first_misfit(instance, *def) == nullptr) return def;
+    near.push_back(def);
+  }
+  if (stands_for != nullptr) {
+    const NodeDef* def = find_nearest(instance, near, stands_for, diagnostics);
+    if (def != nullptr) return def;
   }
   report_no_match(instance, candidates, diagnostics);
   return nullptr;

@@ -3,6 +3,7 @@
 #include "jit/document/definitions.h"
 #include "jit/document/element.h"
 #include "runtime/diagnostic.h"
+#include "runtime/type.h"
 
 namespace nacre {
 
@@ -13,8 +14,13 @@ namespace nacre {
 /// ours, whose version agrees, whose output type is the instance's type, and
 /// which has every input of the instance with the same type (Node::getNodeDef of
 /// the reference). Null if there is none: then `diagnostics` says why.
+///
+/// With `stands_for`, where there is none for an instance whose category, version and output
+/// type agree: the first that disagrees in the fewest inputs, each with a warning. It may
+/// lack inputs, and others may have a type for which stands_for(instance's, nodedef's) holds.
 const NodeDef* find_nodedef(const Element& instance, const Definitions& definitions,
-                            Diagnostics& diagnostics);
+                            Diagnostics& diagnostics,
+                            bool (*stands_for)(Type from, Type to) = nullptr);
 
 /// False for the structural elements of the format: "nodegraph", "input", "look", ...
 bool is_node_category(std::string_view category);

@@ -64,6 +64,15 @@ struct GraphOptions {
   /// an input of that name; its tokens replace all of that name (Specification,
   /// "Material Variants").
   std::vector<VariantChoice> variants;
+  /// Read what the standard refuses but MaterialX 1.39.5 makes code of, as that code has
+  /// it, with a warning for each: documents that other programs export rely on it. These
+  /// are: no output named of several, or a wrong one of one (the first); inputs that the
+  /// nodedef does not have (left out); a number for a vector, a vector for a colour and the
+  /// like (jit/graph/lenient.h); too many numbers or commas in a value, and a value for a
+  /// closure; an interface name that means nothing (the default); unconnected outputs (0);
+  /// "" for an enumeration; colour spaces without a transform (as they are); declarations
+  /// and elements that nothing can use.
+  bool lenient = false;
   /// A graph with more nodes is refused.
   std::size_t max_nodes = 1'000'000;
   /// A node with more inputs is refused.

@@ -13,6 +13,7 @@
 #include "jit/graph/check_parts.h"
 #include "jit/graph/connection.h"
 #include "jit/graph/find.h"
+#include "jit/graph/lenient.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {
@@ -22,15 +23,15 @@ namespace {
 class Checker : ElementCheck {
  public:
   Checker(const Document& document, const Definitions& definitions, const Definitions& library,
-          Diagnostics& diagnostics)
-      : ElementCheck(diagnostics),
+          bool lenient, Diagnostics& diagnostics)
+      : ElementCheck(diagnostics, lenient),
         document_(document),
         definitions_(definitions),
         library_(library) {}
 
   void check_all() {
-    check_structure(document_, definitions_, diagnostics_);
-    check_declarations(document_, definitions_, library_, diagnostics_);
+    check_structure(document_, definitions_, lenient_, diagnostics_);
+    check_declarations(document_, definitions_, library_, lenient_, diagnostics_);
     check_scope(document_.root());
     for (const Element& child : document_.root().children()) {
       if (child.category() == "nodegraph") check_graph(child);
@@ -90,7 +91,7 @@ class Checker : ElementCheck {
   // An input whose type is the name of none is reported as such, once.
   const NodeDef* nodedef_of(const Element& node) {
     Diagnostics found;
-    const NodeDef* def = find_nodedef(node, definitions_, found);
+    const NodeDef* def = find_nodedef(node, definitions_, found, lenient_ ? stands_for : nullptr);
     for (const Diagnostic& one : found.all()) {
       const auto has_bad_type = [&](const Element& child) {
         const std::string_view type = child.attribute("type");
@@ -135,15 +136,20 @@ class Checker : ElementCheck {
     for (const auto* list : {&input.enums, &values}) {
       if (std::find(list->begin(), list->end(), text) != list->end()) return;
     }
-    error("bad-enum", port, fmt::format("'{}' does not take this value", input.name),
-          fmt::format("{}", fmt::join(input.enums, ", ")), fmt::format("'{}'", text));
+    const std::string message = fmt::format("'{}' does not take this value", input.name);
+    const std::string expected = fmt::format("{}", fmt::join(input.enums, ", "));
+    if (text.empty() && input.has_default) {
+      tolerable("bad-enum", port, message, "the default is used", expected, "''");
+    } else {
+      error("bad-enum", port, message, expected, fmt::format("'{}'", text));
+    }
   }
 
   void check_port(const Element& port) {
     if (!check_type_name(port, definitions_, diagnostics_)) return;
     const auto type = parse_type(port.attribute("type"));
     if (!type) return;  // a type of the document's own
-    const Connection connection = find_connection(port, diagnostics_);
+    const Connection connection = find_connection(port, diagnostics_, lenient_);
     switch (connection.kind) {
       case Connection::Kind::value: check_value(port, *type); break;
       case Connection::Kind::interface: check_interface(port, connection.output, *type); break;
@@ -155,8 +161,12 @@ class Checker : ElementCheck {
       }
       case Connection::Kind::none:
         if (port.category() == "output") {
-          error("unconnected-output", port, "the output is not connected to anything",
-                "nodename or nodegraph");
+          const std::string message = "the output is not connected to anything";
+          if (is_numeric(*type)) {
+            tolerable("unconnected-output", port, message, "it is zero", "nodename or nodegraph");
+          } else {
+            error("unconnected-output", port, message, "nodename or nodegraph");
+          }
         }
         break;
       case Connection::Kind::invalid: break;
@@ -167,8 +177,17 @@ class Checker : ElementCheck {
     const std::string_view text = port.attribute("value");
     bool leftover = false;
     if (!parse_value(type, text, &leftover)) {
-      error("bad-value", port, fmt::format("the value does not fit the type {}", type_name(type)),
-            expected_text(type), in_quotes(text));
+      const bool is_connection = !is_numeric(type) && !is_text(type) && !is_array(type);
+      const auto guess = parse_lenient(type, text);
+      const std::string message =
+          fmt::format("the value does not fit the type {}", type_name(type));
+      if (is_connection || guess) {
+        tolerable("bad-value", port, message,
+                  is_connection ? "it is not used" : lenient_reading(*guess), expected_text(type),
+                  in_quotes(text));
+      } else {
+        error("bad-value", port, message, expected_text(type), in_quotes(text));
+      }
     } else if (leftover) {
       diagnostics_.warning("number-leftover", location(port),
                            "what follows a number in the value is not used", expected_text(type),
@@ -245,19 +264,29 @@ class Checker : ElementCheck {
       found = parse_type(input->attribute("type")).value_or(Type::none);
       if (input->category() == "input") return check_type(port, type, found);
     }
-    error("unknown-interface", port, "the graph around it has no such input",
-          "the name of an input of the graph", fmt::format("'{}'", name));
+    const std::string message = "the graph around it has no such input";
+    const std::string expected = "the name of an input of the graph";
+    if (port.category() == "input" && is_node(*port.parent())) {
+      tolerable("unknown-interface", port, message,
+                port.has_attribute("value") ? "its value is used" : "the default is used", expected,
+                fmt::format("'{}'", name));
+    } else {
+      error("unknown-interface", port, message, expected, fmt::format("'{}'", name));
+    }
   }
 
   void check_node_output(const Element& port, const Connection& connection, Type type) {
     Diagnostics elsewhere;  // the node's own check reports these
-    const NodeDef* def = find_nodedef(*connection.target, definitions_, elsewhere);
+    const NodeDef* def =
+        find_nodedef(*connection.target, definitions_, elsewhere, lenient_ ? stands_for : nullptr);
     if (def == nullptr) return;
     if (connection.output.empty() && def->outputs.size() != 1) {
-      error("output-required", port,
-            fmt::format("'{}' has several outputs and none is named", def->category),
-            "output=\"NAME\"");
-      return;
+      const bool takes_first = lenient_ && !def->outputs.empty();
+      tolerable("output-required", port,
+                fmt::format("'{}' has several outputs and none is named", def->category),
+                "the first is taken", "output=\"NAME\"",
+                takes_first ? fmt::format("taken: '{}'", def->outputs[0].name) : "");
+      if (!takes_first) return;
     }
     const NodeDefOutput* output =
         connection.output.empty() ? &def->outputs.front() : def->output(connection.output);
@@ -266,15 +295,27 @@ class Checker : ElementCheck {
     for (const NodeDefOutput& known : def->outputs) {
       names += (names.empty() ? "" : ", ") + std::string(known.name);
     }
-    error("unknown-output", port, fmt::format("'{}' has no such output", def->category), names,
-          fmt::format("'{}'", connection.output));
+    const std::string message = fmt::format("'{}' has no such output", def->category);
+    const std::string found = fmt::format("'{}'", connection.output);
+    if (def->outputs.size() == 1) {
+      tolerable("unknown-output", port, message, "its only one is taken", names, found);
+      if (lenient_) check_type(port, type, def->outputs[0].type);
+    } else {
+      error("unknown-output", port, message, names, found);
+    }
   }
 
   void check_type(const Element& port, Type wanted, Type found) {
     if (found == wanted || found == Type::none) return;
     if (wanted == Type::filename && found == Type::string) return;
-    error("type-mismatch", port, "what is connected here has another type",
-          std::string(type_name(wanted)), std::string(type_name(found)));
+    const std::string message = "what is connected here has another type";
+    if (stands_for(found, wanted)) {
+      tolerable("type-mismatch", port, message, "it is converted", std::string(type_name(wanted)),
+                std::string(type_name(found)));
+    } else {
+      error("type-mismatch", port, message, std::string(type_name(wanted)),
+            std::string(type_name(found)));
+    }
   }
 
   void check_graph(const Element& graph) {
@@ -286,8 +327,8 @@ class Checker : ElementCheck {
       check_inputs(graph, *def);
       check_extra_outputs(graph, *def);
     } else if (!name.empty()) {
-      error("unknown-nodedef", graph, "the nodedef to implement does not exist",
-            "the name of a nodedef", in_quotes(name));
+      tolerable("unknown-nodedef", graph, "the nodedef to implement does not exist",
+                "nothing can use it", "the name of a nodedef", in_quotes(name));
     }
   }
 
@@ -341,7 +382,7 @@ bool check_document(const Document& document, const Library& library, const Grap
   const ScopedDefaultFloatEnvironment environment;
   Diagnostics found;
   const Definitions definitions(document, &library.definitions(), found);
-  Checker(document, definitions, library.definitions(), found).check_all();
+  Checker(document, definitions, library.definitions(), options.lenient, found).check_all();
   // Building meets the same faults again wherever something depends on them;
   // what it alone can find is worth looking for only in a sound document.
   if (!found.has_errors()) try_all_graphs(document, definitions, options, found);

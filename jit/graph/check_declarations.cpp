@@ -19,8 +19,8 @@ namespace {
 class DeclarationCheck : ElementCheck {
  public:
   DeclarationCheck(const Document& document, const Definitions& definitions,
-                   const Definitions& library, Diagnostics& diagnostics)
-      : ElementCheck(diagnostics),
+                   const Definitions& library, bool lenient, Diagnostics& diagnostics)
+      : ElementCheck(diagnostics, lenient),
         document_(document),
         definitions_(definitions),
         library_(library) {}
@@ -45,8 +45,8 @@ class DeclarationCheck : ElementCheck {
 
   void check_nodedef(const Element& element) {
     if (element.attribute("node").empty()) {
-      error("missing-node", element, "the nodedef does not say which node it defines",
-            "node=\"CATEGORY\"");
+      tolerable("missing-node", element, "the nodedef does not say which node it defines",
+                "nothing can use it", "node=\"CATEGORY\"");
       return;
     }
     if (!is_valid_name(element.attribute("node"))) {
@@ -196,8 +196,8 @@ class DeclarationCheck : ElementCheck {
     }
     const NodeDef* def = named_nodedef(element);
     if (!name.empty() && def == nullptr) {
-      error("unknown-nodedef", element, "the nodedef to implement does not exist",
-            "the name of a nodedef", in_quotes(name));
+      tolerable("unknown-nodedef", element, "the nodedef to implement does not exist",
+                "nothing can use it", "the name of a nodedef", in_quotes(name));
     }
     if (def != nullptr) check_renamed_ports(element, *def);
     const std::string_view graph = element.attribute("nodegraph");
@@ -387,8 +387,8 @@ class DeclarationCheck : ElementCheck {
 }  // namespace
 
 void check_declarations(const Document& document, const Definitions& definitions,
-                        const Definitions& library, Diagnostics& diagnostics) {
-  DeclarationCheck(document, definitions, library, diagnostics).run();
+                        const Definitions& library, bool lenient, Diagnostics& diagnostics) {
+  DeclarationCheck(document, definitions, library, lenient, diagnostics).run();
 }
 
 bool is_declared_type(std::string_view name, const Element& user, const Definitions& definitions) {

@@ -16,7 +16,8 @@ namespace nacre {
 /// What the parts complain through.
 class ElementCheck {
  protected:
-  explicit ElementCheck(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit ElementCheck(Diagnostics& diagnostics, bool lenient = false)
+      : diagnostics_(diagnostics), lenient_(lenient) {}
 
   void error(std::string code, const Element& element, std::string message,
              std::string expected = {}, std::string found = {}) {
@@ -29,18 +30,31 @@ class ElementCheck {
                          std::move(expected), std::move(found));
   }
 
+  /// An error, or with GraphOptions::lenient a warning that ends in `so`, in the same words
+  /// as building the graph says it.
+  void tolerable(std::string code, const Element& element, std::string message, std::string_view so,
+                 std::string expected = {}, std::string found = {}) {
+    if (!lenient_) {
+      error(std::move(code), element, std::move(message), std::move(expected), std::move(found));
+      return;
+    }
+    message.append(", so ").append(so);
+    warning(std::move(code), element, std::move(message), std::move(expected), std::move(found));
+  }
+
   Diagnostics& diagnostics_;
+  bool lenient_;
 };
 
 /// Elements without a name, in places where they mean nothing, of versions gone by;
 /// attributes that are almost one of the standard's.
-void check_structure(const Document& document, const Definitions& definitions,
+void check_structure(const Document& document, const Definitions& definitions, bool lenient,
                      Diagnostics& diagnostics);
 
 /// What nodedefs, implementations, types, units and geometric properties declare;
 /// `library` is what the document's own definitions stand on.
 void check_declarations(const Document& document, const Definitions& definitions,
-                        const Definitions& library, Diagnostics& diagnostics);
+                        const Definitions& library, bool lenient, Diagnostics& diagnostics);
 
 /// Looks and what they assign: materials, collections, properties, variants.
 void check_looks(const Document& document, const Definitions& definitions,

@@ -127,8 +127,9 @@ std::string lower(std::string_view text) {
 
 class StructureCheck : ElementCheck {
  public:
-  StructureCheck(const Document& document, const Definitions& definitions, Diagnostics& diagnostics)
-      : ElementCheck(diagnostics), document_(document), definitions_(definitions) {}
+  StructureCheck(const Document& document, const Definitions& definitions, bool lenient,
+                 Diagnostics& diagnostics)
+      : ElementCheck(diagnostics, lenient), document_(document), definitions_(definitions) {}
 
   void run() {
     std::vector<const Element*> pending{&document_.root()};
@@ -151,8 +152,9 @@ class StructureCheck : ElementCheck {
     }
     for (const Successor& one : obsolete) {
       if (one.element != category) continue;
-      error("obsolete-element", element,
-            fmt::format("<{}> is of older versions of the format", category), std::string(one.now));
+      tolerable("obsolete-element", element,
+                fmt::format("<{}> is of older versions of the format", category),
+                "it is left out of account", std::string(one.now));
       return;
     }
     check_place(element);
@@ -182,9 +184,10 @@ class StructureCheck : ElementCheck {
       wanted = "materialx";
     }
     if (wanted.empty()) return;
-    error("misplaced-element", element, fmt::format("<{}> means nothing here", category),
-          is_port ? std::string(wanted) : fmt::format("a place in <{}>", wanted),
-          fmt::format("in <{}>", quoted_name(parent.category())));
+    tolerable("misplaced-element", element, fmt::format("<{}> means nothing here", category),
+              "it is left out of account",
+              is_port ? std::string(wanted) : fmt::format("a place in <{}>", wanted),
+              fmt::format("in <{}>", quoted_name(parent.category())));
   }
 
   // A custom element may have any name; one that differs in capitals is a slip.
@@ -272,9 +275,9 @@ class StructureCheck : ElementCheck {
 
 }  // namespace
 
-void check_structure(const Document& document, const Definitions& definitions,
+void check_structure(const Document& document, const Definitions& definitions, bool lenient,
                      Diagnostics& diagnostics) {
-  StructureCheck(document, definitions, diagnostics).run();
+  StructureCheck(document, definitions, lenient, diagnostics).run();
 }
 
 std::string in_quotes(std::string_view text) {

@@ -19,19 +19,28 @@ const Element* find_in(const Element& scope, std::string_view name, const Elemen
 
 Connection invalid() { return {Connection::Kind::invalid, nullptr, {}}; }
 
-Connection connect_to_graph(const Element& port, const Element& graph, Diagnostics& diagnostics) {
+Connection connect_to_graph(const Element& port, const Element& graph, Diagnostics& diagnostics,
+                            bool lenient) {
   const std::string_view wanted = port.attribute("output");
-  const Element* only = nullptr;
+  const Element* first = nullptr;
   int count = 0;
   for (const Element& child : graph.children()) {
     if (child.category() != "output") continue;
     if (!wanted.empty() && child.name() == wanted) {
       return {Connection::Kind::output, &child, {}};
     }
-    only = &child;
+    if (first == nullptr) first = &child;
     ++count;
   }
-  if (wanted.empty() && count == 1) return {Connection::Kind::output, only, {}};
+  if (wanted.empty() && count == 1) return {Connection::Kind::output, first, {}};
+  if (lenient && wanted.empty() && count > 1) {
+    diagnostics.warning(
+        "output-required", location(port),
+        fmt::format("'{}' has several outputs and none is named, so the first is taken",
+                    graph.name()),
+        "output=\"NAME\"", fmt::format("taken: '{}'", first->name()));
+    return {Connection::Kind::output, first, {}};
+  }
   if (count == 0) {
     diagnostics.error("unknown-output", location(port),
                       fmt::format("the node graph '{}' has no outputs", graph.name()),
@@ -48,11 +57,11 @@ Connection connect_to_graph(const Element& port, const Element& graph, Diagnosti
   return invalid();
 }
 
-Connection connect_to_node(const Element& port, Diagnostics& diagnostics) {
+Connection connect_to_node(const Element& port, Diagnostics& diagnostics, bool lenient) {
   const std::string_view name = port.attribute("nodename");
   const Element* target = find_in(scope_of(port), name, port);
   if (target != nullptr && target->category() == "nodegraph") {
-    return connect_to_graph(port, *target, diagnostics);
+    return connect_to_graph(port, *target, diagnostics, lenient);
   }
   if (target == nullptr || !is_node(*target)) {
     std::string found = fmt::format("'{}'", name);
@@ -64,7 +73,7 @@ Connection connect_to_node(const Element& port, Diagnostics& diagnostics) {
   return {Connection::Kind::node, target, port.attribute("output")};
 }
 
-Connection connect_to_nodegraph(const Element& port, Diagnostics& diagnostics) {
+Connection connect_to_nodegraph(const Element& port, Diagnostics& diagnostics, bool lenient) {
   const std::string_view name = port.attribute("nodegraph");
   const Element* target = find_in(scope_of(port), name, port);
   if (target == nullptr) target = find_in(port.document().root(), name, port);
@@ -73,7 +82,7 @@ Connection connect_to_nodegraph(const Element& port, Diagnostics& diagnostics) {
                       "the name of a node graph", fmt::format("'{}'", name));
     return invalid();
   }
-  return connect_to_graph(port, *target, diagnostics);
+  return connect_to_graph(port, *target, diagnostics, lenient);
 }
 
 Connection connect_to_document_output(const Element& port, Diagnostics& diagnostics) {
@@ -101,7 +110,7 @@ const Element& scope_of(const Element& port) {
   return *owner.parent();
 }
 
-Connection find_connection(const Element& port, Diagnostics& diagnostics) {
+Connection find_connection(const Element& port, Diagnostics& diagnostics, bool lenient) {
   constexpr std::array<std::string_view, 3> ways{"nodename", "nodegraph", "interfacename"};
   std::string_view way;
   for (std::string_view candidate : ways) {
@@ -119,8 +128,8 @@ Connection find_connection(const Element& port, Diagnostics& diagnostics) {
     diagnostics.warning("value-and-connection", location(port),
                         "the port is connected, so its value is not used");
   }
-  if (way == "nodename") return connect_to_node(port, diagnostics);
-  if (way == "nodegraph") return connect_to_nodegraph(port, diagnostics);
+  if (way == "nodename") return connect_to_node(port, diagnostics, lenient);
+  if (way == "nodegraph") return connect_to_nodegraph(port, diagnostics, lenient);
   if (way == "interfacename") {
     return {Connection::Kind::interface, nullptr, port.attribute("interfacename")};
   }

@@ -23,7 +23,8 @@ struct Connection {
 
 /// Looks up the names in a port: the nodes and graphs beside the node, graph or
 /// output that the port belongs to; graphs and outputs also at the root.
-Connection find_connection(const Element& port, Diagnostics& diagnostics);
+/// `lenient`: of several outputs of a graph the first, with a warning, where none is named.
+Connection find_connection(const Element& port, Diagnostics& diagnostics, bool lenient = false);
 
 /// The element whose children a port's `nodename` names.
 const Element& scope_of(const Element& port);

@@ -30,6 +30,14 @@ Resolver::Conversion Resolver::find_conversion(Type type, std::string_view from,
     if (const NodeDef* def = find_transform(known_from, known_to, type)) return {def, false};
     spaces = bridged_spaces(from, to);
     if (!spaces) {
+      const bool is_input = to == working_space_;
+      if (options_.lenient && is_input) {
+        tolerates("unknown-colorspace", user, "there is no transform from this colour space",
+                  "its numbers are taken as they are",
+                  fmt::format("a space with a transform to {}", canonical_colorspace(to)),
+                  fmt::format("'{}'", from));
+        return {};
+      }
       report_no_transform(from, to, user);
       return {nullptr, true};
     }

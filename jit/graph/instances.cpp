@@ -5,6 +5,7 @@
 
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
+#include "jit/graph/lenient.h"
 #include "jit/graph/node_source.h"
 #include "jit/graph/resolver.h"
 
@@ -94,7 +95,8 @@ const Element* Resolver::graph_of(const NodeDef& def) const {
 const NodeDef* Resolver::nodedef_of(const Element& node) {
   const auto known = nodedefs_.find(&node);
   if (known != nodedefs_.end()) return known->second;
-  const NodeDef* def = find_nodedef(node, definitions_of(node), diagnostics_);
+  const NodeDef* def = find_nodedef(node, definitions_of(node), diagnostics_,
+                                    options_.lenient ? stands_for : nullptr);
   if (def != nullptr && def->inputs.size() > options_.max_inputs) {
     error("too-many-inputs", node, "the node has too many inputs",
           fmt::format("at most {}", options_.max_inputs), fmt::format("{}", def->inputs.size()));
@@ -222,10 +224,13 @@ std::optional<std::uint32_t> Resolver::output_index(const NodeDef& def, std::str
     if (leaf != 0 && leaf <= def.outputs.size() && def.instance_type() != "multioutput") {
       return leaf - 1;
     }
-    error("output-required", user,
-          fmt::format("'{}' has several outputs and none is named", def.category),
-          "output=\"NAME\"");
-    return std::nullopt;
+    const std::string found =
+        options_.lenient ? fmt::format("taken: '{}'", def.outputs[0].name) : "";
+    const bool takes_first =
+        tolerates("output-required", user,
+                  fmt::format("'{}' has several outputs and none is named", def.category),
+                  "the first is taken", "output=\"NAME\"", found);
+    return takes_first ? std::optional<std::uint32_t>(0) : std::nullopt;
   }
   for (std::uint32_t i = 0; i < def.outputs.size(); ++i) {
     const PortMember& member = def.outputs[i].member;
@@ -235,8 +240,13 @@ std::optional<std::uint32_t> Resolver::output_index(const NodeDef& def, std::str
   for (const NodeDefOutput& output : def.outputs) {
     names += (names.empty() ? "" : ", ") + std::string(output.name);
   }
-  error("unknown-output", user, fmt::format("'{}' has no such output", def.category), names,
-        fmt::format("'{}'", name));
+  const std::string message = fmt::format("'{}' has no such output", def.category);
+  if (def.outputs.size() == 1 && leaf == 0) {
+    const bool takes_only = tolerates("unknown-output", user, message, "its only one is taken",
+                                      names, fmt::format("'{}'", name));
+    return takes_only ? std::optional<std::uint32_t>(0) : std::nullopt;
+  }
+  error("unknown-output", user, message, names, fmt::format("'{}'", name));
   return std::nullopt;
 }
 

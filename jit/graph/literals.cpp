@@ -7,6 +7,7 @@
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/filename.h"
+#include "jit/graph/lenient.h"
 #include "jit/graph/resolver.h"
 
 namespace nacre {
@@ -36,6 +37,10 @@ bool takes(const NodeDefInput& input, std::string_view text) {
   return false;
 }
 
+std::string default_text(const NodeDefInput& input) {
+  return input.default_value.texts.empty() ? "" : input.default_value.texts[0];
+}
+
 }  // namespace
 
 std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element& carrier, Type type,
@@ -52,10 +57,20 @@ std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element&
             expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
   }
   if (!value) {
-    error("bad-value", carrier, fmt::format("the value does not fit the type {}", type_name(type)),
-          expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
-    result.failed = true;
-    return std::nullopt;
+    const bool is_connection = !is_numeric(type) && !is_text(type) && !is_array(type);
+    const auto guess = parse_lenient(type, text);
+    const std::string message = fmt::format("the value does not fit the type {}", type_name(type));
+    const std::string found = fmt::format("'{}'", text.substr(0, 200));
+    if (!is_connection && !guess) {
+      error("bad-value", carrier, message, expected_text(type), found);
+      result.failed = true;
+      return std::nullopt;
+    }
+    result.failed = !tolerates("bad-value", carrier, message,
+                               is_connection ? "it is not used" : lenient_reading(*guess),
+                               expected_text(type), found);
+    if (result.failed || is_connection) return std::nullopt;
+    value = guess;
   }
   // "" on a closure or shader means that nothing is connected.
   if (!is_numeric(type) && !is_text(type) && !is_array(type)) return std::nullopt;
@@ -235,7 +250,7 @@ std::optional<std::string> Resolver::find_token(std::string_view name, const Ele
 
 // What an outer node may be given, its graph may hand on, whatever the inner node
 // lists: UsdUVTexture takes "black", and gives it to an image.
-bool Resolver::check_enum(const NodeDefInput& input, const Result& result) {
+bool Resolver::check_enum(const NodeDefInput& input, Result& result) {
   if (result.source.kind != Source::Kind::literal) return true;
   const std::string text = result.source.value.texts.empty() ? "" : result.source.value.texts[0];
   if (takes(input, text)) return true;
@@ -246,6 +261,13 @@ bool Resolver::check_enum(const NodeDefInput& input, const Result& result) {
     if (declared != nullptr && !declared->enums.empty() && takes(*declared, text)) return true;
   }
   const Element& where = carrier != nullptr ? *carrier : *input.element;
+  if (text.empty() && takes(input, default_text(input))) {
+    const bool takes_default =
+        tolerates("bad-enum", where, fmt::format("'{}' does not take this value", input.name),
+                  "the default is used", fmt::format("{}", fmt::join(input.enums, ", ")), "''");
+    if (takes_default) result.source.value = input.default_value;
+    return takes_default;
+  }
   error("bad-enum", where, fmt::format("'{}' does not take this value", input.name),
         fmt::format("{}", fmt::join(input.enums, ", ")), fmt::format("'{}'", text));
   return false;

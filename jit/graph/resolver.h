@@ -12,6 +12,7 @@
 
 #include "jit/document/definitions.h"
 #include "jit/graph/build.h"
+#include "jit/graph/connection.h"
 #include "jit/graph/graph.h"
 
 namespace nacre {
@@ -59,6 +60,7 @@ class Resolver {
     Source source;
     std::string_view unit;             ///< Still to be converted from; "" if not.
     const Element* carrier = nullptr;  ///< The element that wrote the literal.
+    bool is_absent = false;            ///< Says nothing after all: the default counts.
   };
 
   /// What an <output> or an unowned <input> in a context comes to.
@@ -120,12 +122,14 @@ class Resolver {
   std::optional<Key> finish_native_output(Frame& frame, const Instance& instance);
   std::optional<Key> step_input(Frame& frame);
   std::optional<Key> start_input(Frame& frame, const Instance& instance, const NodeDefInput& input);
+  std::optional<Key> default_input(Frame& frame, const Instance& instance,
+                                   const NodeDefInput& input);
   std::optional<Key> check_input(Frame& frame, const Instance& instance, const NodeDefInput& input);
   std::optional<Key> step_port(Frame& frame);
   std::optional<Key> follow_interface(Frame& frame, const Element& port, std::string_view name,
                                       const Context* context);
   std::optional<Key> port_without_source(Frame& frame, const Element& port);
-  void check_port_type(Frame& frame, const Element& port);
+  std::optional<Key> check_port_type(Frame& frame, const Element& port);
 
   // Instances and contexts (instances.cpp).
   const Instance* instance_of(const Element& element, const Context* context);
@@ -153,7 +157,7 @@ class Resolver {
   void choose_frame(GraphNode& node, const Element& user);
   std::optional<std::string> find_token(std::string_view name, const Element& user,
                                         const Context* context) const;
-  bool check_enum(const NodeDefInput& input, const Result& result);
+  bool check_enum(const NodeDefInput& input, Result& result);
   void make_uniform(Result& result, const NodeDefInput& input, const Element& user);
 
   // Conversions (conversions.cpp). The key of the converted value, or nothing
@@ -191,6 +195,17 @@ class Resolver {
                                     const Element& user);
   std::optional<Key> scale(const Source& source, Type type, double factor, const std::string& path,
                            const Element& user);
+
+  // Leniencies (tolerate.cpp).
+  /// True, with a warning that ends in `so`, where GraphOptions::lenient goes on; else an
+  /// error.
+  bool tolerates(std::string code, const Element& element, const std::string& message,
+                 std::string_view so, std::string expected = {}, std::string found = {});
+  Connection connection_of(const Element& port);
+  /// A result of another type that stands for one: what is to be waited for, or nothing
+  /// where the result has it now.
+  std::optional<Key> retype(Result& result, Type type, const std::string& path,
+                            const Element& user);
 
   void error(std::string code, const Element& element, std::string message,
              std::string expected = {}, std::string found = {});

@@ -2,9 +2,11 @@
 // what it has to wait for next or leaves its result in the frame.
 #include <fmt/format.h>
 
+#include "jit/document/select.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/colorspace.h"
 #include "jit/graph/connection.h"
+#include "jit/graph/lenient.h"
 #include "jit/graph/resolver.h"
 
 namespace nacre {
@@ -15,6 +17,7 @@ namespace {
 constexpr std::uint32_t start = 0;
 constexpr std::uint32_t received = 1;   // the source is known, still to be checked
 constexpr std::uint32_t converted = 2;  // what was waited for is the result
+constexpr std::uint32_t retyped = 4;    // the source has another type now
 constexpr std::uint32_t switched = 3;   // whether the node is disabled is known
 
 const Instance& instance_in(const void* subject) { return *static_cast<const Instance*>(subject); }
@@ -205,6 +208,14 @@ std::optional<Resolver::Key> Resolver::step_input(Frame& frame) {
     frame.result = waited(frame);
     return check_input(frame, instance, input);
   }
+  if (frame.stage == retyped) {
+    const std::string_view unit = frame.result.unit;
+    const Element* carrier = frame.result.carrier;
+    frame.result = waited(frame);
+    frame.result.unit = unit;
+    frame.result.carrier = carrier;
+    return check_input(frame, instance, input);
+  }
   frame.result = waited(frame);
   return std::nullopt;
 }
@@ -223,6 +234,15 @@ std::optional<Resolver::Key> Resolver::start_input(Frame& frame, const Instance&
     frame.stage = received;
     return Key{Kind::port, input.member.leaf, element, instance.context};
   }
+  return default_input(frame, instance, input);
+}
+
+std::optional<Resolver::Key> Resolver::default_input(Frame& frame, const Instance& instance,
+                                                     const NodeDefInput& input) {
+  Result& result = frame.result;
+  result = {};
+  result.type = input.type;
+  frame.stage = converted;
   if (!input.defaultgeomprop.empty()) {
     const Instance* geomprop = geomprop_instance(input.defaultgeomprop, *instance.origin);
     result.failed = geomprop == nullptr;
@@ -252,10 +272,18 @@ std::optional<Resolver::Key> Resolver::check_input(Frame& frame, const Instance&
                                                    const NodeDefInput& input) {
   Result& result = frame.result;
   if (result.failed) return std::nullopt;
+  if (result.is_absent) return default_input(frame, instance, input);
   const Element& element = *input_element(instance, input.member.port);
   if (may_be_string(input.type, result.type)) {
     result.type = input.type;
     result.source.value.type = input.type;
+  }
+  if (options_.lenient && stands_for(result.type, input.type)) {
+    // Finding the nodedef has said so.
+    frame.stage = retyped;
+    const auto key =
+        retype(result, input.type, instance.path + '/' + std::string(input.name), element);
+    if (key || result.failed) return key;
   }
   if (result.type != input.type) {
     error("type-mismatch", element, "what is connected here has another type",
@@ -276,8 +304,7 @@ std::optional<Resolver::Key> Resolver::step_port(Frame& frame) {
   const std::uint32_t leaf = frame.key.index;
   if (frame.stage == received) {
     frame.result = waited(frame);
-    if (leaf == 0) check_port_type(frame, port);
-    return std::nullopt;
+    return leaf == 0 ? check_port_type(frame, port) : std::nullopt;
   }
   if (frame.stage == converted) {
     const Element* carrier = frame.result.carrier;
@@ -286,7 +313,7 @@ std::optional<Resolver::Key> Resolver::step_port(Frame& frame) {
     return std::nullopt;
   }
   frame.stage = received;
-  const Connection connection = find_connection(port, diagnostics_);
+  const Connection connection = connection_of(port);
   switch (connection.kind) {
     case Connection::Kind::invalid: frame.result.failed = true; return std::nullopt;
     case Connection::Kind::none: return port_without_source(frame, port);
@@ -343,10 +370,25 @@ std::optional<Resolver::Key> Resolver::follow_interface(Frame& frame, const Elem
                  context == nullptr ? nullptr : context->parent};
     }
   }
-  error("unknown-interface", port, "the graph around it has no such input",
-        "the name of an input of the graph", fmt::format("'{}'", name));
-  frame.result.failed = true;
-  return std::nullopt;
+  const bool has_default = port.category() == "input" && is_node(*port.parent());
+  const std::string message = "the graph around it has no such input";
+  const std::string expected = "the name of an input of the graph";
+  const std::string found = fmt::format("'{}'", name);
+  if (!has_default) {
+    error("unknown-interface", port, message, expected, found);
+    frame.result.failed = true;
+    return std::nullopt;
+  }
+  const bool has_value = port.has_attribute("value") && frame.key.index == 0;
+  frame.result.failed =
+      !tolerates("unknown-interface", port, message,
+                 has_value ? "its value is used" : "the default is used", expected, found);
+  if (frame.result.failed) return std::nullopt;
+  const auto type = parse_type(port.attribute("type"));
+  frame.result.is_absent = !has_value || !type;
+  if (frame.result.is_absent) return std::nullopt;
+  frame.stage = converted;
+  return take_literal(frame, port, *type, context);
 }
 
 // Only graph interfaces and outputs come here: a node's input without a source
@@ -356,9 +398,16 @@ std::optional<Resolver::Key> Resolver::port_without_source(Frame& frame, const E
   frame.result.type = type.value_or(Type::none);
   frame.stage = converted;
   if (port.category() == "output") {
-    error("unconnected-output", port, "the output is not connected to anything",
-          "nodename or nodegraph");
-    frame.result.failed = true;
+    const std::string message = "the output is not connected to anything";
+    if (frame.key.index != 0 || !is_numeric(frame.result.type)) {
+      error("unconnected-output", port, message, "nodename or nodegraph");
+      frame.result.failed = true;
+      return std::nullopt;
+    }
+    frame.result.failed =
+        !tolerates("unconnected-output", port, message, "it is zero", "nodename or nodegraph");
+    frame.result.source.kind = Source::Kind::literal;
+    frame.result.source.value = zero_value(frame.result.type);
     return std::nullopt;
   }
   if (frame.key.index != 0) return take_leaf(frame, port);
@@ -375,18 +424,28 @@ std::optional<Resolver::Key> Resolver::port_without_source(Frame& frame, const E
   return std::nullopt;
 }
 
-void Resolver::check_port_type(Frame& frame, const Element& port) {
+std::optional<Resolver::Key> Resolver::check_port_type(Frame& frame, const Element& port) {
   Result& result = frame.result;
-  if (result.failed) return;
+  if (result.failed || result.is_absent) return std::nullopt;
   const Type type = parse_type(port.attribute("type")).value_or(Type::none);
   if (may_be_string(type, result.type)) {
     result.type = type;
     result.source.value.type = type;
   }
-  if (result.type == type) return;
-  error("type-mismatch", port, "what is connected here has another type",
-        std::string(port.attribute("type")), std::string(type_name(result.type)));
+  if (result.type == type) return std::nullopt;
+  const std::string message = "what is connected here has another type";
+  const std::string expected(port.attribute("type"));
+  const std::string found(type_name(result.type));
+  if (stands_for(result.type, type)) {
+    if (tolerates("type-mismatch", port, message, "it is converted", expected, found)) {
+      frame.stage = converted;
+      return retype(result, type, element_path(port), port);
+    }
+  } else {
+    error("type-mismatch", port, message, expected, found);
+  }
   result.failed = true;
+  return std::nullopt;
 }
 
 }  // namespace nacre

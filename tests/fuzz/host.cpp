@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <set>
+#include <tuple>
 #include <vector>
 
 #include "jit/graph/find.h"
@@ -60,9 +62,9 @@ class Shading {
       : document_(document), options_(options), agreeing_(agreeing) {}
 
   Shaded run_all() {
-    Diagnostics diagnostics;
-    host().check(document_, options_, diagnostics);
-    shaded_.clean = !diagnostics.has_errors();
+    host().check(document_, options_, checked_);
+    shaded_.clean = !checked_.has_errors();
+    for (const Diagnostic& one : checked_.all()) said_.insert(key_of(one));
     std::size_t count = 0;
     for (const FoundOutput& output : find_outputs(document_)) {
       if (has_kernel(output.type) && ++count <= most_kernels) shade_output(output.name);
@@ -77,9 +79,38 @@ class Shading {
  private:
   void judge(const std::string& what, bool made, const Diagnostics& diagnostics) const {
     if (!made && !diagnostics.has_errors()) fail(what + ": refused without a reason");
-    if (agreeing_ && shaded_.clean && (!made || diagnostics.has_errors())) {
-      fail(what + ": checking found nothing, compiling\n" + diagnostics.to_string());
+    if (!agreeing_) return;
+    if (shaded_.clean && !made) {
+      fail(what + ": checking found no error, compiling\n" + diagnostics.to_string());
     }
+    if (!shaded_.clean) return;
+    for (const Diagnostic& one : diagnostics.all()) {
+      if (said_.contains(key_of(one))) continue;
+      fail(what + ": checking did not say what compiling says\n" + one.to_string());
+    }
+  }
+
+  /// What compiles has no node in which checking finds an error.
+  void judge_errors(const GraphRequest& request) const {
+    if (!agreeing_ || shaded_.clean) return;
+    Diagnostics ignored;
+    const auto graph =
+        build_graph(document_, host().library(), request, host().graph_options(options_), ignored);
+    if (!graph) return;
+    std::set<std::string> paths;
+    for (const GraphNode& node : graph->nodes) paths.insert(node.where.path);
+    for (const Diagnostic& one : checked_.all()) {
+      if (one.severity != Severity::error || one.where.path.empty()) continue;
+      const std::string owner = one.where.path.substr(0, one.where.path.rfind('/'));
+      if (paths.contains(one.where.path) || paths.contains(owner)) {
+        fail("this compiles, but checking says\n" + one.to_string());
+      }
+    }
+  }
+
+  using Key = std::tuple<std::string, std::string, int, std::string>;
+  static Key key_of(const Diagnostic& one) {
+    return {one.code, one.where.file, one.where.line, one.where.path};
   }
 
   void shade(const BoundKernel& kernel, Channels& channels) {
@@ -91,6 +122,7 @@ class Shading {
     Diagnostics diagnostics;
     const auto shader = host().compile_outputs(document_, {name}, options_, diagnostics);
     judge(name, shader != nullptr, diagnostics);
+    if (shader != nullptr) judge_errors({.outputs = {name}, .material = {}});
     Channels channels;
     if (shader != nullptr) shade(shader->kernel, channels);
   }
@@ -100,6 +132,7 @@ class Shading {
     const auto kernels = host().compile_material(document_, name, options_, diagnostics);
     judge(name, kernels != nullptr, diagnostics);
     if (kernels == nullptr) return;
+    judge_errors({.outputs = {}, .material = name});
     Channels channels;  // begin's outputs are what the others read
     for (const auto* kernel :
          {&kernels->begin, &kernels->sample, &kernels->evaluate, &kernels->albedo,
@@ -112,6 +145,8 @@ class Shading {
   const ShaderOptions& options_;
   bool agreeing_;
   Shaded shaded_;
+  Diagnostics checked_;
+  std::set<Key> said_;
 };
 
 }  // namespace

@@ -82,6 +82,7 @@ fuzz::Result run(const std::string& text, const std::string& file, std::uint64_t
   }
   if (number % 5 == 4) options.parameters = ParameterMode::live;
   if (number % 7 == 6) options.graph.prefer = Preference::graph;
+  options.graph.lenient = number % 3 == 2;
   Diagnostics diagnostics;
   const auto document = read_document_text(text, file, fuzz::read_options(), diagnostics);
   if ((document == nullptr) != diagnostics.has_errors()) {
