@@ -91,7 +91,7 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened,
     if (!kernels->has_surface) {
       diagnostics.error(
           "no-surface", {},
-          "material '" + assignment.material + "' has only a volume, which is not rendered",
+          "material '" + assignment.material + "' has no surface, and nothing else is rendered",
           "a surface shader");
       return false;
     }

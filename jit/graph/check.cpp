@@ -76,6 +76,10 @@ class Checker : ElementCheck {
     for (const Element& child : node.children()) {
       if (child.category() == "token") check_token(child);
       if (child.category() != "input") continue;
+      // What is left out may say anything.
+      const bool is_left_out = lenient_ && def != nullptr && !child.name().empty() &&
+                               def->input_type(child.name()).empty() && child.name() != "disable";
+      if (is_left_out) continue;
       check_port(child);
       const NodeDefInput* input = def == nullptr ? nullptr : def->input(child.name());
       if (input != nullptr) check_enum(child, *input);

@@ -102,6 +102,14 @@ const NodeDef* Resolver::nodedef_of(const Element& node) {
           fmt::format("at most {}", options_.max_inputs), fmt::format("{}", def->inputs.size()));
     def = nullptr;
   }
+  const auto is_nameless = [](const Element& child) {
+    return child.category() == "input" && child.name().empty();
+  };
+  for (const Element& child : node.children()) {
+    if (def == nullptr || !is_nameless(child)) continue;
+    error("missing-name", child, "the input has no name", "name=\"NAME\"");
+    def = nullptr;
+  }
   if (def != nullptr && inherits_from_too_many(node)) {
     error("inherit-depth", node, "the node inherits over too many levels",
           fmt::format("at most {}", node.document().max_inheritance()));
