@@ -1,0 +1,143 @@
+// The bits that engines give on this CPU, as one SHA-256 for each engine: everywhere the same.
+//
+//   results LIBRARIES DOCUMENTS EXPECTED [RANDOM_PROGRAMS]
+//
+// Runs random Programs and outputs of documents by the interpreter and by compiled code of
+// every width. Exit status 0 if every digest is the one that EXPECTED holds.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "jit/document/read.h"
+#include "jit/llvm/codegen.h"
+#include "jit/llvm/session.h"
+#include "jit/shading/shading_system.h"
+#include "runtime/digest.h"
+#include "runtime/interpreter/interpreter.h"
+#include "tests/support/random.h"
+#include "tests/support/random_program.h"
+
+namespace {
+
+using namespace nacre;
+
+constexpr std::uint32_t points = 67;
+
+/// Its x * x + x rounds up to the least normal number, 0x80800000. Where results below that
+/// are flushed, x86 rounds first (Intel SDM vol. 1, 10.2.3.3) and QEMU 7.2 does not.
+constexpr std::uint64_t beyond_qemu = 2;
+
+struct Subject {
+  const char* file;
+  const char* output;
+};
+constexpr Subject subjects[]{{"examples/documents/marble.mtlx", "NG_marble/base_color"},
+                             {"examples/documents/cobbles.mtlx", "NG_cobbles/normal"},
+                             {"bench/documents/chain.mtlx", "NG_chain/out"}};
+
+using Outputs = std::vector<std::vector<std::uint32_t>>;
+
+void append(std::string& bytes, const Outputs& outputs) {
+  for (const auto& channel : outputs) {
+    bytes.append(reinterpret_cast<const char*>(channel.data()), 4 * channel.size());
+  }
+}
+
+/// Every channel has its own numbers between -2 and 2.
+Outputs run(const Kernel& kernel) {
+  const Program& program = kernel.program();
+  Random random(20240611);
+  std::vector<std::vector<float>> inputs(program.inputs.size(), std::vector<float>(points));
+  std::vector<const void*> in;
+  for (auto& channel : inputs) {
+    for (float& x : channel) x = static_cast<float>(random.below(4096)) / 1024.0f - 2.0f;
+    in.push_back(channel.data());
+  }
+  Outputs outputs(program.outputs.size(), std::vector<std::uint32_t>(points));
+  std::vector<void*> out;
+  for (auto& channel : outputs) out.push_back(channel.data());
+  std::vector<std::uint32_t> parameters;
+  for (const ParameterSlot& slot : program.parameters) parameters.push_back(slot.value);
+  kernel.run({.inputs = in.data(),
+              .outputs = out.data(),
+              .parameters = parameters.data(),
+              .textures = nullptr,
+              .texture_callback = nullptr,
+              .texture_user = nullptr,
+              .count = points});
+  return outputs;
+}
+
+/// The results of all Programs by the kernels that `make` makes; "" with a diagnostic if it
+/// can't make one.
+std::string results(const std::vector<Program>& programs, std::size_t random_programs,
+                    const std::function<std::shared_ptr<const Kernel>(const Program&)>& make) {
+  std::vector<std::uint32_t> order(points);
+  std::iota(order.begin(), order.end(), 0u);
+  std::string bytes;
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const auto kernel = make(programs[i]);
+    if (kernel == nullptr) return {};
+    append(bytes, i < random_programs ? RandomBatch(programs[i], i, order).run(*kernel, 0, points)
+                                      : run(*kernel));
+  }
+  return to_hex(sha256(bytes));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 4) return std::fputs("usage: results LIBRARIES SOURCE EXPECTED [COUNT]\n", stderr), 2;
+  const std::string source = argv[2];
+  std::string expected;
+  std::ifstream(argv[3]) >> expected;
+  const std::size_t count = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 8;
+
+  Diagnostics diagnostics;
+  const auto fail = [&] {
+    std::fputs(diagnostics.to_string().c_str(), stderr);
+    return 1;
+  };
+  std::vector<Program> programs;
+  for (std::uint64_t seed = 0; programs.size() < count; ++seed) {
+    if (seed != beyond_qemu) programs.push_back(random_program(seed));
+  }
+  const auto system = ShadingSystem::create({.libraries = {argv[1]}}, diagnostics);
+  if (system == nullptr) return fail();
+  ShaderOptions options;
+  options.compile.backend = Backend::interpreter;
+  for (const Subject& subject : subjects) {
+    const auto document = read_document(source + '/' + subject.file, {}, diagnostics);
+    if (document == nullptr) return fail();
+    const auto made = system->compile_outputs(*document, {subject.output}, options, diagnostics);
+    if (made == nullptr) return fail();
+    programs.push_back(made->kernel.program());
+  }
+
+  const auto session = JitSession::create({}, diagnostics);
+  if (session == nullptr) return fail();
+  bool same = true;
+  const auto report = [&](const std::string& engine, const std::string& found) {
+    std::printf("%s %s\n", engine.c_str(), found.c_str());
+    same = same && found == expected;
+  };
+  report("interpreter", results(programs, count, [](const Program& program) {
+           return std::shared_ptr<const Kernel>(make_interpreter(program));
+         }));
+  for (const int lanes : {1, 4, 8, 16}) {
+    CodegenOptions code{.lanes = lanes};
+    code.tier = Tier::quick;
+    const auto make = [&](const Program& program) -> std::shared_ptr<const Kernel> {
+      const auto object = compile_object(program, code, diagnostics);
+      const auto loaded = object ? session->load(*object, diagnostics) : nullptr;
+      return loaded == nullptr ? nullptr : make_jit_kernel(program, loaded, lanes);
+    };
+    report("W=" + std::to_string(lanes), results(programs, count, make));
+  }
+  std::printf("%s: expected %s\n", Target::host().cpu.c_str(), expected.c_str());
+  return same && !diagnostics.has_errors() ? 0 : fail();
+}
