@@ -18,6 +18,14 @@ void flatten_child(const BsdfPtr& child, const View& view, Color3 weight,
   if (child != nullptr && !is_zero(weight)) child->flatten(view, weight, lobes);
 }
 
+/// Interiors: what light loses and gains on its way between two points of the surface.
+void report_medium(const Vdf& medium, LeftOut& left_out) {
+  if (!is_zero(medium.absorption)) {
+    left_out.add("interior medium: absorption, so depth does not tint (transmission_depth)");
+  }
+  if (!is_zero(medium.scattering)) left_out.add("interior medium: scattering");
+}
+
 /// An unconnected BSDF is not there: everything passes.
 Color3 throughput_of(const BsdfPtr& child, const View& view) {
   return child == nullptr ? Color3(1.0f) : child->throughput(view);
@@ -28,6 +36,9 @@ Color3 throughput_of(const BsdfPtr& child, const View& view) {
 void LobeBsdf::flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const {
   const Color3 total = product(weight, Color3(weight_));
   if (is_zero(total)) return;
+  if (view.left_out != nullptr) {
+    for (const std::string& line : left_out_) view.left_out->add(line);
+  }
   lobe_->prepare(view, max_component(total) > 0.0f);
   lobes.push_back({lobe_, total});
 }
@@ -41,6 +52,9 @@ Color3 LobeBsdf::throughput(const View& view) const {
 
 void LayerBsdf::flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const {
   flatten_child(top_, view, weight, lobes);
+  if (medium_ != nullptr && view.left_out != nullptr && !view.thin_walled.is_constant(true)) {
+    report_medium(*medium_, *view.left_out);
+  }
   if (base_ == nullptr) return;
   flatten_child(base_, view, product(weight, throughput_of(top_, view)), lobes);
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "pbs/lobe.h"
+#include "pbs/vdf.h"
 #include "runtime/node/recorded.h"
 
 namespace nacre {
@@ -29,24 +31,30 @@ using BsdfPtr = std::shared_ptr<const Bsdf>;
 /// A leaf: a lobe times a scalar weight in [0, 1], or more where the graph says so.
 class LobeBsdf final : public Bsdf {
  public:
-  LobeBsdf(LobePtr lobe, Float weight) : lobe_(std::move(lobe)), weight_(weight) {}
+  /// `left_out` lists what the lobe does not model of its node; see View::left_out.
+  LobeBsdf(LobePtr lobe, Float weight, std::vector<std::string> left_out = {})
+      : lobe_(std::move(lobe)), weight_(weight), left_out_(std::move(left_out)) {}
   void flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const override;
   Color3 throughput(const View& view) const override;
 
  private:
   LobePtr lobe_;
   Float weight_;
+  std::vector<std::string> left_out_;
 };
 
-/// top over base: base is seen through what top lets pass.
+/// top over base: base is seen through what top lets pass. A medium behind top is the
+/// renderer's to trace, and left out.
 class LayerBsdf final : public Bsdf {
  public:
-  LayerBsdf(BsdfPtr top, BsdfPtr base) : top_(std::move(top)), base_(std::move(base)) {}
+  LayerBsdf(BsdfPtr top, BsdfPtr base, VdfPtr medium = nullptr)
+      : top_(std::move(top)), base_(std::move(base)), medium_(std::move(medium)) {}
   void flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const override;
   Color3 throughput(const View& view) const override;
 
  private:
   BsdfPtr top_, base_;
+  VdfPtr medium_;
 };
 
 /// fg in proportion mix, bg in proportion 1 - mix.

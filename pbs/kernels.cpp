@@ -28,11 +28,15 @@ class SurfaceRecorder {
     view_ = {.recorder = &recorder,
              .accuracy = accuracy,
              .wo = view_direction(recorder),
-             .thin_walled = surface.thin_walled};
+             .thin_walled = surface.thin_walled,
+             .left_out = &left_out_};
   }
 
   SurfaceKernels run() {
     terms_ = select_lobes(view_, true);
+    view_.left_out = nullptr;
+    kernels_.not_modelled = left_out_.lines();
+    kernels_.manifest = kernels_.not_modelled;
     for (const Term& term : terms_) kernels_.lobes.emplace_back(term.lobe->name());
     if (!terms_.empty()) {
       record_evaluate();
@@ -155,8 +159,8 @@ class SurfaceRecorder {
     const Float pdf =
         select(delta, chosen.delta_probability * probability, select(smooth, total.pdf, 0.0f));
     const Float3 wi = chosen.wi;
-    const Float3 n = channel3(recorder_, "N");
-    const Bool crosses = dot(n, wi) * dot(n, view_.wo) < 0.0f;
+    const Float3 ng = geometric_normal(recorder_);
+    const Bool crosses = (dot(ng, wi) < 0.0f) ^ (dot(ng, view_.wo) < 0.0f);
     const Int flags = select(valid, Int(sample_valid), Int(0)) |
                       select(delta, Int(sample_delta), Int(0)) |
                       select(valid & crosses, Int(sample_transmission), Int(0));
@@ -202,6 +206,7 @@ class SurfaceRecorder {
   Recorder& recorder_;
   const Surface& surface_;
   const KernelRequest& request_;
+  LeftOut left_out_;
   View view_;
   std::vector<Term> terms_;
   SurfaceKernels kernels_;

@@ -32,14 +32,19 @@ struct SurfaceKernels {
   std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity;
   /// One line for each thing that was left out, with the reason.
   std::vector<std::string> manifest;
+  /// Those lines of it that change the picture, such as a medium inside.
+  std::vector<std::string> not_modelled;
   /// Names of the lobes; `lobe` counts in this order.
   std::vector<std::string> lobes;
 };
 
 enum SampleFlag : std::int32_t {
-  sample_valid = 1,         ///< Else weight and pdfs are 0.
-  sample_delta = 2,         ///< pdf is a discrete probability; evaluate gives 0.
-  sample_transmission = 4,  ///< wi is on the other side of the surface.
+  sample_valid = 1,  ///< Else weight and pdfs are 0.
+  sample_delta = 2,  ///< pdf is a discrete probability; evaluate gives 0.
+  /// wi and wo are on different sides of the surface itself, by the geometric normal Ng:
+  /// what a ray along wi passes through, whatever normal it was shaded by (Veach 1997,
+  /// "Robust Monte Carlo Methods", section 5.3).
+  sample_transmission = 4,
 };
 
 /// Records the kernels of `surface`. Everything in `surface` must have been

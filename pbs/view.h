@@ -1,10 +1,27 @@
 #pragma once
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "runtime/program/program.h"
 #include "runtime/program/recorder.h"
 #include "runtime/value/vector.h"
 
 namespace nacre {
+
+/// What the kernels of a surface leave out though it would change the picture.
+class LeftOut {
+ public:
+  /// Each line once.
+  void add(const std::string& line) {
+    if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
+  }
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::vector<std::string> lines_;
+};
 
 /// From where a closure is looked at, while recording.
 struct View {
@@ -12,6 +29,8 @@ struct View {
   Accuracy accuracy = Accuracy::standard;
   Float3 wo;                 ///< Unit, world space, from the point to the viewer.
   Bool thin_walled = false;  ///< Light that enters leaves at the same point.
+  /// Where closures put down what of them the kernels leave out; null: nowhere.
+  LeftOut* left_out = nullptr;
 };
 
 /// A local frame: x and y tangents, z the normal; unit and orthogonal.

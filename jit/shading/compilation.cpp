@@ -186,6 +186,7 @@ std::optional<RecordedMaterial> record_material(Compilation& compilation, const 
   kernels.has_back = sides.back != nullptr;
   kernels.lobes = surface_kernels.lobes;
   kernels.manifest = surface_kernels.manifest;
+  kernels.not_modelled = surface_kernels.not_modelled;
   std::set<std::uint32_t> state;
   const auto add = [&](std::optional<BoundKernel> MaterialKernels::* place, Program program) {
     for (const std::uint32_t k : state_channels(program)) state.insert(k);

@@ -107,6 +107,8 @@ struct MaterialKernels {
   std::vector<std::uint32_t> state;
   std::vector<std::string> lobes;
   std::vector<std::string> manifest;  ///< What was left out, and why.
+  /// Those lines of it that a renderer would have to do itself, for the picture lacks them.
+  std::vector<std::string> not_modelled;
   std::vector<StageReport> stages;    ///< Of all kernels, one after another.
 };
 

@@ -8,13 +8,17 @@ namespace nacre {
 /// it came from: Lambert of the given albedo, which is what `color` means.
 /// MaterialX PBS 1.39, "subsurface_bsdf". `radius` and `anisotropy` say how far
 /// light spreads and have no part in that limit, so nothing is recorded for them.
-/// What is not modelled: light that leaves elsewhere.
+/// What is not modelled, and said in the manifest: light that leaves elsewhere.
 void record_closure_subsurface_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
   auto lobe = std::make_shared<LambertLobe>("subsurface_bsdf", CosineLobe::Side::viewer,
                                             prepare_normal(recorder, call.vector3("normal")),
                                             prepare_tint(recorder, call.vector3("color")));
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call)));
+  std::vector<std::string> left_out;
+  if (!is_zero(call.vector3("radius"))) {
+    left_out.emplace_back("subsurface_bsdf: radius and anisotropy; light leaves where it enters");
+  }
+  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call), std::move(left_out)));
 }
 
 }  // namespace nacre

@@ -44,7 +44,7 @@ void put(Columns& columns, const std::string& name, double degrees, double azimu
   columns[name + ".z"].push_back(static_cast<float>(std::cos(theta)));
 }
 
-Columns upright() { return {{"N.z", {1.0f}}, {"T.x", {1.0f}}}; }
+Columns upright() { return {{"N.z", {1.0f}}, {"Ng.z", {1.0f}}, {"T.x", {1.0f}}}; }
 
 Columns seen_from(double degrees, float u = 0.3f, float v = 0.6f, float w = 0.5f) {
   Columns in = upright();
@@ -56,6 +56,37 @@ Columns seen_from(double degrees, float u = 0.3f, float v = 0.6f, float w = 0.5f
 Ports ports(const char* mode, Float index, Float alpha) {
   return {
       {"ior", number(index)}, {"roughness", roughness(alpha, alpha)}, {"scatter_mode", text(mode)}};
+}
+
+// Smooth glass, shaded by a normal that leans away from the viewer: the mirrored ray is
+// above that normal's plane, and below the surface.
+TEST(MicrofacetLobe, TheGeometricNormalSaysWhatIsPassed) {
+  const Scattering glass(
+      [](Recorder& r) { return microfacet_bsdf(r, "dielectric_bsdf", ports("RT", 1.5f, 0.0f)); });
+  const double degree = std::numbers::pi / 180.0;
+  for (const auto& [lean, crosses] : {std::pair{0.0, false}, std::pair{15.0, true}}) {
+    Columns in{{"Ng.z", {1.0f}}, {"T.x", {1.0f}}};
+    put(in, "N", lean, 0.0);
+    put(in, "wo", 70.0, 180.0);
+    in["u.x"] = {0.3f}, in["u.y"] = {0.6f}, in["u.z"] = {0.0f};
+    const auto out = glass.sample(in);
+    const int flags = static_cast<int>(out.at("flags")[0]);
+    ASSERT_NE(flags & sample_valid, 0);
+    // Mirrored about the normal: 70 degrees on the other side, and twice the lean.
+    EXPECT_NEAR(out.at("wi.z")[0], std::cos((70.0 + 2.0 * lean) * degree), 1e-6);
+    EXPECT_EQ((flags & sample_transmission) != 0, crosses) << lean;
+  }
+  // And what passes with a normal so bent that the ray stays on its side does not cross.
+  const Columns passed = [&] {
+    Columns in{{"Ng.z", {1.0f}}, {"T.x", {1.0f}}};
+    put(in, "N", 80.0, 0.0);
+    put(in, "wo", 75.0, 80.0);
+    in["u.x"] = {0.3f}, in["u.y"] = {0.6f}, in["u.z"] = {0.999f};
+    return in;
+  }();
+  const auto out = glass.sample(passed);
+  const bool below = out.at("wi.z")[0] < 0.0;
+  EXPECT_EQ((static_cast<int>(out.at("flags")[0]) & sample_transmission) != 0, below);
 }
 
 TEST(MicrofacetLobe, SmoothGlassIsAMirrorAndALens) {
