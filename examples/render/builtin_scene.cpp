@@ -116,8 +116,10 @@ Scene make_builtin_scene() {
   const float height = 0.42f + std::sqrt(1.f - 0.55f * 0.55f);
   scene.meshes.push_back(make_sphere("ball", {0.f, height, 0.f}, 1.f, 96));
   scene.meshes.push_back(finished(turn("base", pedestal(), 192)));
+  scene.meshes.back().is_stage = true;
   scene.meshes.push_back(
       make_quad("ground", {-10.f, 0.f, 10.f}, {20.f, 0.f, 0.f}, {0.f, 0.f, -20.f}));
+  scene.meshes.back().is_stage = true;
   const Vec3 middle = {0.f, 1.1f, 0.f}, lamp = {-2.8f, 4.6f, 2.6f};
   const Vec3 towards = normalize(middle - lamp);
   const Vec3 edge_u = 1.6f * normalize(cross({0.f, 1.f, 0.f}, towards));
@@ -133,8 +135,10 @@ Mesh make_ground_below(const Scene& scene) {
   const Vec3 size = box.high - box.low;
   const float half = 5.f * std::max(size.x, std::max(size.y, size.z));
   const Vec3 centre = 0.5f * (box.low + box.high);
-  return make_quad("ground", {centre.x - half, box.low.y, centre.z + half}, {2.f * half, 0.f, 0.f},
-                   {0.f, 0.f, -2.f * half});
+  Mesh ground = make_quad("ground", {centre.x - half, box.low.y, centre.z + half},
+                          {2.f * half, 0.f, 0.f}, {0.f, 0.f, -2.f * half});
+  ground.is_stage = true;
+  return ground;
 }
 
 }  // namespace nacre::host

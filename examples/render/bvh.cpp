@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cstring>
 
+#include "examples/render/scene_limits.h"
+
 namespace nacre::host {
 
 namespace {
@@ -15,6 +17,11 @@ constexpr std::size_t stream_size = 128;
 
 RTCRay to_embree(const Ray& ray) {
   RTCRay r{};
+  if (!is_traceable(ray)) {  // An interval that is empty.
+    r.dir_z = 1.f;
+    r.tfar = -INFINITY;
+    return r;
+  }
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
   r.tnear = 0.f;
@@ -57,6 +64,11 @@ bool add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
 }
 
 }  // namespace
+
+bool is_traceable(const Ray& ray) {
+  const float squared = dot(ray.direction, ray.direction);
+  return is_within_reach(ray.origin) && squared > 0.9f && squared < 1.1f && ray.far >= 0.f;
+}
 
 struct Bvh::Embree {
   RTCDevice device = nullptr;
@@ -137,7 +149,9 @@ void Bvh::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked) c
     for (std::size_t i = 0; i < count; ++i) stream[i] = to_embree(rays[first + i]);
     rtcOccluded1M(embree_->scene, &context, stream, static_cast<unsigned>(count), sizeof(RTCRay));
     // Embree sets tfar to minus infinity where it found something.
-    for (std::size_t i = 0; i < count; ++i) blocked[first + i] = stream[i].tfar < 0.f ? 1 : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      blocked[first + i] = stream[i].tfar < 0.f && is_traceable(rays[first + i]) ? 1 : 0;
+    }
   }
 }
 

@@ -26,7 +26,12 @@ struct Hit {
   bool missed() const { return mesh == none; }
 };
 
-/// Embree's ray tracing over the triangles of a scene, robust (watertight) mode.
+/// Whether a ray has an origin within largest_coordinate, a direction of about unit length and
+/// an end that is a number: others make Embree's traversal run off its tree.
+bool is_traceable(const Ray& ray);
+
+/// Embree's ray tracing over the triangles of a scene, robust (watertight) mode. A ray
+/// that is not traceable meets nothing.
 class Bvh {
  public:
   /// Copies what it needs. `ok` is false, with an error, when memory ran out.

@@ -1,6 +1,10 @@
 #include "examples/render/camera.h"
 
+#include <fmt/format.h>
+
 #include <numbers>
+
+#include "examples/render/scene_limits.h"
 
 namespace nacre::host {
 
@@ -19,6 +23,31 @@ Vec2 to_disk(Uniform2 u) {
 }
 
 }  // namespace
+
+bool check_camera(const Camera& camera, Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.error_count();
+  const auto check = [&](const char* what, bool ok, std::string expected, std::string found) {
+    if (ok) return;
+    diagnostics.error("bad-camera", {}, fmt::format("the camera's {} cannot be used", what),
+                      std::move(expected), std::move(found));
+  };
+  const auto show = [](Vec3 v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); };
+  const auto is_unit = [](Vec3 v) { return std::abs(dot(v, v) - 1.f) < 1e-3f; };
+  const std::string within = fmt::format("at most {:g}", largest_coordinate);
+  check("position", is_within_reach(camera.position), "coordinates of " + within,
+        show(camera.position));
+  for (const Vec3& axis : {camera.forward, camera.right, camera.up}) {
+    check("direction", is_unit(axis), "unit vectors", show(axis));
+  }
+  const float fov = camera.vertical_fov, lens = camera.lens_radius, focus = camera.focus_distance;
+  check("field of view", fov >= smallest_fov && fov <= largest_fov,
+        fmt::format("{:g} to {:g} radians", smallest_fov, largest_fov), fmt::format("{:g}", fov));
+  check("lens radius", lens >= 0.f && lens <= largest_coordinate, "0, or " + within,
+        fmt::format("{:g}", lens));
+  check("focus distance", !(lens > 0.f) || (focus > 0.f && focus <= largest_coordinate),
+        "more than 0, " + within, fmt::format("{:g}", focus));
+  return diagnostics.error_count() == errors;
+}
 
 Camera look_at(Vec3 position, Vec3 target, float vertical_fov) {
   Camera camera;

@@ -2,8 +2,17 @@
 
 #include "examples/render/sampler.h"
 #include "examples/render/scene.h"
+#include "runtime/diagnostic.h"
 
 namespace nacre::host {
+
+/// Of a vertical field of view, radians: what a float can still tell from 0 and pi.
+inline constexpr float smallest_fov = 1e-5f, largest_fov = 3.14f;
+
+/// Whether rays can be made of a camera: finite directions, a field of view within these
+/// bounds, and lengths of at most largest_coordinate (the focus more than 0). An error
+/// for each that is not so.
+bool check_camera(const Camera& camera, Diagnostics& diagnostics);
 
 /// A camera at `position` that sees `target` in the middle, +y up, with a
 /// vertical field of view in radians. In focus at the target.

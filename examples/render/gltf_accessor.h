@@ -1,45 +1,45 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
-#include "runtime/diagnostic.h"
-
-namespace tinygltf {
-class Model;
-}
+#include "examples/render/gltf_buffers.h"
+#include "examples/render/gltf_value.h"
 
 namespace nacre::host {
 
-/// Reads glTF accessors with every offset checked against its buffer: tinygltf
-/// parses but does not check. Errors name the file and the accessor.
+/// An accessor whose elements are all within its buffer.
+struct GltfAccessor {
+  const char* data = nullptr;
+  std::size_t count = 0, stride = 0;  ///< Elements, and bytes from one to the next.
+  int component_type = 0;             ///< glTF 2.0, 3.6.2.2.
+  int components = 0;                 ///< 1 to 16.
+  bool normalized = false;
+};
+
+/// Reads glTF accessors. Errors name the accessor.
 class GltfAccessors {
  public:
-  GltfAccessors(const tinygltf::Model& model, std::string file, Diagnostics& diagnostics)
-      : model_(model), file_(std::move(file)), diagnostics_(diagnostics) {}
+  GltfAccessors(const GltfValue& root, GltfBuffers& buffers) : root_(root), buffers_(buffers) {}
 
-  /// `count * components` floats; normalised integers become [0, 1] or [-1, 1]
-  /// (glTF 2.0, 3.6.2.3). Empty, with an error, when the accessor is not of
-  /// `min_components` to 4 components or is not within its buffer.
-  std::vector<float> floats(int accessor, int min_components, int& components);
+  /// The accessor that `index` names, of `least` to 4 components of a type that
+  /// attributes have; nothing after an error.
+  std::optional<GltfAccessor> attribute(const GltfValue& index, int least);
+  /// Likewise, unsigned numbers of 8, 16 or 32 bits.
+  std::optional<GltfAccessor> indices(const GltfValue& index);
 
-  /// Unsigned indices of 8, 16 or 32 bits. `ok` false after an error.
-  std::vector<std::uint32_t> indices(int accessor, bool& ok);
+  /// Its `count * components` values; normalised integers become [0, 1] or [-1, 1]
+  /// (glTF 2.0, 3.6.2.3).
+  static std::vector<float> floats(const GltfAccessor& accessor);
+  static std::vector<std::uint32_t> integers(const GltfAccessor& accessor);
 
  private:
-  struct View {
-    const unsigned char* data = nullptr;  ///< Null after an error.
-    std::size_t count = 0, stride = 0;
-    int component_type = 0, components = 0;
-    bool normalized = false;
-  };
-  View view(int accessor);
-  void error(int accessor, const char* message, std::string expected, std::string found);
+  std::optional<GltfAccessor> open(const GltfValue& index);
 
-  const tinygltf::Model& model_;
-  std::string file_;
-  Diagnostics& diagnostics_;
+  GltfValue root_;
+  GltfBuffers& buffers_;
 };
 
 }  // namespace nacre::host

@@ -75,15 +75,18 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
 
 }  // namespace
 
+bool is_image_name(const std::string& path, Diagnostics& diagnostics) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".exr" || extension == ".png") return true;
+  diagnostics.error("unknown-image-format", {path, 0, 0, {}}, "cannot write this kind of image",
+                    "a name ending in .exr or .png", "\"" + extension + "\"");
+  return false;
+}
+
 bool write_image(const Film& film, const std::string& path, const WriteOptions& options,
                  Diagnostics& diagnostics) {
-  namespace fs = std::filesystem;
-  const std::string extension = fs::path(path).extension().string();
-  if (extension != ".exr" && extension != ".png") {
-    diagnostics.error("unknown-image-format", {path, 0, 0, {}}, "cannot write this kind of image",
-                      "a name ending in .exr or .png", "\"" + extension + "\"");
-    return false;
-  }
+  if (!is_image_name(path, diagnostics)) return false;
+  const std::string extension = std::filesystem::path(path).extension().string();
   return write_atomically(
       path,
       [&](const std::string& file) { return write_file(film, file, extension == ".exr", options); },

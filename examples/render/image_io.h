@@ -16,6 +16,9 @@ struct WriteOptions {
   float white = 4.f;
 };
 
+/// Whether write_image() can write a file of that name; an error if not.
+bool is_image_name(const std::string& path, Diagnostics& diagnostics);
+
 /// Writes .exr (linear Rec. 709 radiance) or .png (8 bits, tone curve, sRGB
 /// transfer). A file appears complete or not at all: it is written beside its
 /// place and renamed. The bytes depend on nothing but the image and options.

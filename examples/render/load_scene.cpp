@@ -6,12 +6,12 @@
 
 namespace nacre::host {
 
-Scene load_scene(const std::string& path, Diagnostics& diagnostics) {
+Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".glb" || extension == ".gltf") return load_gltf(path, diagnostics);
-  if (extension == ".obj") return load_obj(path, diagnostics);
+  if (extension == ".glb" || extension == ".gltf") return load_gltf(path, limits, diagnostics);
+  if (extension == ".obj") return load_obj(path, limits, diagnostics);
   diagnostics.error("unknown-scene-format", {path, 0, 0, {}}, "cannot tell the format of the scene",
                     "a name ending in .glb, .gltf or .obj", "\"" + extension + "\"");
   return {};

@@ -3,23 +3,26 @@
 #include <string>
 
 #include "examples/render/scene.h"
+#include "examples/render/scene_limits.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::host {
 
 /// Reads .glb, .gltf or .obj, told by the extension. Errors leave the scene
-/// without meshes; warnings do not. Every mesh has gone through finish_mesh().
-Scene load_scene(const std::string& path, Diagnostics& diagnostics);
+/// without meshes; warnings do not. Every mesh has gone through finish_mesh(). What the
+/// file has and the host does not render is a warning.
+Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics);
 
 /// glTF 2.0: the nodes of the default scene (or of the first), triangles,
-/// strips and fans, any component type; no sparse accessors, skins, morphs or
-/// images. glTF puts uv (0,0) at the upper left, so v becomes 1 - v. Buffers are
-/// only read from the folder of the file and below.
-Scene load_gltf(const std::string& path, Diagnostics& diagnostics);
+/// strips and fans, any component type; no sparse accessors, skins, morphs, lights or
+/// materials but for their names. glTF puts uv (0,0) at the upper left, so v becomes 1 - v.
+/// Without normals faces are flat. Buffers are only read from the folder of the file and
+/// below.
+Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics);
 
 /// Wavefront OBJ: v, vt, vn, f (any polygon, cut into a fan, negative indices),
-/// o, g, usemtl; everything else is skipped. One mesh per object, group and
-/// material.
-Scene load_obj(const std::string& path, Diagnostics& diagnostics);
+/// o, g, usemtl; what else would change the picture is a warning. One mesh per object,
+/// group and material.
+Scene load_obj(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics);
 
 }  // namespace nacre::host

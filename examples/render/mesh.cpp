@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
+
+#include "examples/render/scene_limits.h"
 
 namespace nacre::host {
 
@@ -16,19 +19,25 @@ Vec3 face_cross(const Mesh& mesh, const Triangle& t) {
 
 bool is_usable(const Mesh& mesh, const Triangle& t) {
   for (const std::uint32_t v : t.v) {
-    if (v >= mesh.position.size() || !is_finite(mesh.position[v])) return false;
+    if (v >= mesh.position.size() || !is_within_reach(mesh.position[v])) return false;
   }
   const Vec3 c = face_cross(mesh, t);
   return is_finite(c) && (c.x != 0.f || c.y != 0.f || c.z != 0.f);
 }
 
-void drop_unusable(Mesh& mesh, const std::string& file, Diagnostics& diagnostics) {
+std::string called(const Mesh& mesh) {
+  return mesh.object_name.empty() ? "a mesh" : '\'' + mesh.object_name + '\'';
+}
+
+void drop_unusable(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnostics) {
   const std::size_t dropped =
       std::erase_if(mesh.triangles, [&](const Triangle& t) { return !is_usable(mesh, t); });
   if (dropped == 0) return;
-  diagnostics.warning("bad-triangles", {file, 0, 0, mesh.object_name},
-                      fmt::format("{} triangles cannot be traced and were left out", dropped),
-                      "corners in range, finite and not in a line");
+  diagnostics.warning(
+      "bad-triangles", where,
+      fmt::format("{} triangles of {} cannot be traced and were left out", dropped, called(mesh)),
+      fmt::format("corners that are there, at most {:g} from 0 and not in a line",
+                  largest_coordinate));
 }
 
 float corner_angle(const Mesh& mesh, const Triangle& t, int corner) {
@@ -44,6 +53,60 @@ void make_normals(Mesh& mesh) {
     const Vec3 n = normalize(face_cross(mesh, t));
     for (int c = 0; c < 3; ++c) mesh.normal[t.v[c]] += corner_angle(mesh, t, c) * n;
   }
+}
+
+template <class T>
+std::vector<T> at_corners(const std::vector<T>& values, const std::vector<Triangle>& triangles,
+                          std::size_t components = 1) {
+  std::vector<T> result;
+  if (values.empty()) return result;
+  result.reserve(3 * triangles.size() * components);
+  for (const Triangle& t : triangles) {
+    for (const std::uint32_t v : t.v) {
+      for (std::size_t c = 0; c < components; ++c) result.push_back(values[v * components + c]);
+    }
+  }
+  return result;
+}
+
+/// Gives each triangle vertices of its own, and them its normal.
+void make_flat(Mesh& mesh) {
+  mesh.position = at_corners(mesh.position, mesh.triangles);
+  mesh.position_object = at_corners(mesh.position_object, mesh.triangles);
+  mesh.uv = at_corners(mesh.uv, mesh.triangles);
+  mesh.tangent = at_corners(mesh.tangent, mesh.triangles);
+  for (Primvar& primvar : mesh.primvars) {
+    primvar.values =
+        at_corners(primvar.values, mesh.triangles, static_cast<std::size_t>(primvar.components));
+  }
+  mesh.normal.clear();
+  mesh.normal.reserve(mesh.position.size());
+  std::uint32_t next = 0;
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t.v) v = next++;
+    mesh.normal.insert(mesh.normal.end(), 3, normalize(face_cross(mesh, t)));
+  }
+}
+
+bool has_direction(Vec3 v) {
+  const Vec3 unit = normalize_or(v, {});
+  return is_finite(v) && dot(unit, unit) > 0.f;
+}
+
+/// Counts what the file gives and has no direction, of vertices that a triangle uses.
+template <class Direction>
+void report_directions(const Mesh& mesh, const char* code, const char* what,
+                       const SourceLocation& where, Diagnostics& diagnostics, Direction direction) {
+  std::vector<bool> bad(mesh.position.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t.v) bad[v] = !has_direction(direction(v));
+  }
+  const auto count = std::count(bad.begin(), bad.end(), true);
+  if (count == 0) return;
+  diagnostics.warning(
+      code, where,
+      fmt::format("{} {} of {} have no direction and were replaced", count, what, called(mesh)),
+      "finite vectors other than 0");
 }
 
 /// Unit normals; a vertex without one takes that of a triangle it belongs to.
@@ -102,18 +165,31 @@ void repair_tangents(Mesh& mesh) {
 
 }  // namespace
 
-bool finish_mesh(Mesh& mesh, const std::string& file, Diagnostics& diagnostics) {
-  drop_unusable(mesh, file, diagnostics);
+bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnostics,
+                 MissingNormals missing) {
+  drop_unusable(mesh, where, diagnostics);
   if (mesh.triangles.empty()) {
-    diagnostics.error("empty-mesh", {file, 0, 0, mesh.object_name}, "the mesh has no triangle",
+    diagnostics.error("empty-mesh", where, called(mesh) + " has no triangle",
                       "at least one triangle with an area");
     return false;
   }
   const bool has_normals = mesh.normal.size() == mesh.position.size();
-  if (!has_normals) make_normals(mesh);
+  if (has_normals) {
+    report_directions(mesh, "bad-normals", "normals", where, diagnostics,
+                      [&](std::uint32_t v) { return mesh.normal[v]; });
+  } else if (missing == MissingNormals::flat) {
+    make_flat(mesh);
+  } else {
+    make_normals(mesh);
+  }
   repair_normals(mesh);
   if (has_normals) agree_winding(mesh);
-  if (mesh.tangent.size() != mesh.position.size()) make_tangents(mesh);
+  if (mesh.tangent.size() == mesh.position.size()) {
+    report_directions(mesh, "bad-tangents", "tangents", where, diagnostics,
+                      [&](std::uint32_t v) { return mesh.tangent[v].direction; });
+  } else {
+    make_tangents(mesh);
+  }
   repair_tangents(mesh);
   return true;
 }

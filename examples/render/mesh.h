@@ -8,18 +8,26 @@
 
 namespace nacre::host {
 
+/// What a mesh without normals looks like.
+enum class MissingNormals {
+  smooth,  ///< Vertex normals are made from the triangles around.
+  flat,    ///< Each triangle has its own, and so vertices of its own.
+};
+
 /// Makes a mesh fit to trace and shade, in this order:
-/// - drops triangles with an index out of range, a non-finite corner or no
-///   area, with one warning that counts them;
-/// - makes normals from the triangles, weighted by corner angle (Thürmer and
-///   Wüthrich 1998), when there are none;
+/// - drops triangles with an index out of range, a corner that is not finite or beyond
+///   largest_coordinate, or no area, with one warning that counts them;
+/// - makes normals when there are none: flat, or from the triangles around weighted by
+///   corner angle (Thürmer and Wüthrich 1998);
+/// - gives normals and tangents without a direction another, with a warning;
 /// - turns each triangle so that its winding and its normals agree;
 /// - makes tangents from uv, accumulated per vertex, when there are none.
 ///
 /// On entry positions and normals (if any) are world space, and every vertex
-/// array is empty or as long as `position`.
+/// array is empty or as long as `position`. Diagnostics stand at `where`.
 /// Returns false, with an error, when no triangle is left.
-bool finish_mesh(Mesh& mesh, const std::string& file, Diagnostics& diagnostics);
+bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnostics,
+                 MissingNormals missing = MissingNormals::smooth);
 
 /// Moves a mesh whose vertices are mesh-local to world space: keeps the local
 /// positions and records the map. The winding turns when the map mirrors.

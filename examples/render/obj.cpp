@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
+#include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "examples/render/load_scene.h"
 #include "examples/render/mesh.h"
+#include "examples/render/scene_budget.h"
+#include "examples/render/scene_file.h"
 
 namespace nacre::host {
 
@@ -27,6 +31,7 @@ class Words {
     rest_.remove_prefix(word.size());
     return word;
   }
+  bool at_end() const { return rest_.find_first_not_of(" \t\r") == rest_.npos; }
   std::string_view remainder() {
     const std::size_t first = rest_.find_first_not_of(" \t");
     if (first == rest_.npos) return {};
@@ -61,19 +66,23 @@ struct CornerHash {
   }
 };
 
+/// Of the table of corners, for each vertex while a mesh is read.
+constexpr std::size_t corner_bytes = 64;
+
 class ObjReader {
  public:
-  ObjReader(const std::string& file, Diagnostics& diagnostics)
-      : file_(file), diagnostics_(diagnostics) {}
+  ObjReader(const std::string& file, const SceneLimits& limits, Diagnostics& diagnostics)
+      : file_(file), diagnostics_(diagnostics), budget_(limits, diagnostics) {}
 
-  Scene read(std::istream& stream) {
+  Scene read(std::string_view text) {
     const std::size_t errors = diagnostics_.error_count();
-    std::string line;
-    while (std::getline(stream, line) && diagnostics_.error_count() == errors) {
+    while (!text.empty() && diagnostics_.error_count() == errors) {
+      const std::string_view line = text.substr(0, text.find('\n'));
+      text.remove_prefix(std::min(text.size(), line.size() + 1));
       ++line_;
       read_line(line);
     }
-    flush();
+    if (diagnostics_.error_count() == errors) flush();
     if (diagnostics_.error_count() == errors && scene_.meshes.empty()) {
       error("the file has nothing to draw", "faces", "none");
     }
@@ -87,18 +96,23 @@ class ObjReader {
                        std::string(found));
   }
 
+  /// A warning at the first line that has such a thing.
+  void say(const char* code, const char* message, std::string_view found = {}) {
+    constexpr std::size_t most = 32;  // Kinds; beyond that it is no OBJ.
+    if (said_.size() == most || !said_.insert(code + std::string(found)).second) return;
+    diagnostics_.warning(code, {file_, line_, 0, {}}, message, {}, std::string(found));
+  }
+
   void read_line(std::string_view line) {
     Words words(line);
     const std::string_view key = words.next();
     if (key == "v") {
-      float f[3];
-      if (floats(words, f, 3)) position_.push_back({f[0], f[1], f[2]});
+      read_position(words);
     } else if (key == "vn") {
       float f[3];
-      if (floats(words, f, 3)) normal_.push_back({f[0], f[1], f[2]});
+      if (floats(words, f, 3) && is_end(words)) normal_.push_back({f[0], f[1], f[2]});
     } else if (key == "vt") {
-      float f[2];
-      if (floats(words, f, 2)) uv_.push_back({f[0], f[1]});
+      read_uv(words);
     } else if (key == "f") {
       face(words);
     } else if (key == "o" || key == "g") {
@@ -107,15 +121,55 @@ class ObjReader {
     } else if (key == "usemtl") {
       flush();
       material_ = words.remainder();
+    } else if (key == "s") {
+      smoothing_ = smoothing_ == 0 ? line_ : smoothing_;
+    } else if (key == "mtllib") {
+      say("scene-materials-not-rendered",
+          "the scene's own materials are not rendered; only their names count");
+    } else if (key == "l" || key == "p") {
+      say("not-triangles", "points and lines are left out");
+    } else if (!key.empty() && !key.starts_with('#')) {
+      say("not-rendered", "this kind of line is not supported and left out", key);
     }
+  }
+
+  /// v x y z, then a weight, a colour, or both.
+  void read_position(Words& words) {
+    float f[3];
+    if (!floats(words, f, 3)) return;
+    position_.push_back({f[0], f[1], f[2]});
+    int more = 0;
+    for (float ignored; !words.at_end(); ++more) {
+      if (!floats(words, &ignored, 1)) return;
+    }
+    if (more == 3 || more == 4) say("not-rendered", "colours of vertices are left out");
+    if (more == 1) say("not-rendered", "weights of vertices are left out");
+    if (more == 2 || more > 4)
+      error("a vertex with too many numbers", "3, 4, 6 or 7", fmt::format("{}", 3 + more));
+  }
+
+  /// vt u [v [w]]
+  void read_uv(Words& words) {
+    float f[3] = {};
+    int count = 0;
+    for (; count < 3 && (count == 0 || !words.at_end()); ++count) {
+      if (!floats(words, f + count, 1)) return;
+    }
+    if (is_end(words)) uv_.push_back({f[0], f[1]});
+  }
+
+  bool is_end(Words& words) {
+    if (words.at_end()) return true;
+    error("a line that is too long", "its end", words.remainder());
+    return false;
   }
 
   bool floats(Words& words, float* out, int count) {
     for (int i = 0; i < count; ++i) {
       const std::string_view word = words.next();
       const std::optional<float> value = number<float>(word);
-      if (!value) {
-        error("not a number", fmt::format("{} numbers", count), word);
+      if (!value || !std::isfinite(*value)) {
+        error("not a number", count == 1 ? "a number" : fmt::format("{} numbers", count), word);
         return false;
       }
       out[i] = *value;
@@ -161,6 +215,9 @@ class ObjReader {
     for (std::size_t i = 2; i < polygon.size(); ++i) {
       mesh_.triangles.push_back({{polygon[0], polygon[i - 1], polygon[i]}});
     }
+    const std::size_t vertices = mesh_.position.size(), triangles = mesh_.triangles.size();
+    if (budget_.fits(vertices, triangles, corner_bytes * vertices)) return;
+    budget_.take({file_, line_, 0, {}}, vertices, triangles, corner_bytes * vertices);
   }
 
   std::uint32_t vertex(const Corner& c) {
@@ -182,15 +239,27 @@ class ObjReader {
     if (!std::exchange(has_uv_, false)) mesh.uv.clear();
     if (std::exchange(lacks_normal_, false)) mesh.normal.clear();
     if (mesh.triangles.empty()) return;
+    const SourceLocation where{file_, line_, 0, {}};
+    if (!budget_.take(where, mesh.position.size(), mesh.triangles.size(),
+                      object_.size() + group_.size() + material_.size())) {
+      return;
+    }
+    if (mesh.normal.empty() && smoothing_ != 0) {
+      say("smoothing-not-rendered",
+          "smoothing groups do not count: all faces without normals are smooth");
+    }
     mesh.object_name = !object_.empty() ? object_ : group_;
     mesh.mesh_name = !group_.empty() ? group_ : mesh.object_name;
     mesh.material_name = material_;
-    if (finish_mesh(mesh, file_, diagnostics_)) scene_.meshes.push_back(std::move(mesh));
+    if (finish_mesh(mesh, where, diagnostics_)) scene_.meshes.push_back(std::move(mesh));
   }
 
   const std::string& file_;
   Diagnostics& diagnostics_;
+  SceneBudget budget_;
+  std::set<std::string> said_;
   int line_ = 0;
+  int smoothing_ = 0;  ///< The first line with a smoothing group; 0: none yet.
   std::vector<Vec3> position_, normal_;
   std::vector<Vec2> uv_;
   std::string object_, group_, material_;
@@ -202,13 +271,10 @@ class ObjReader {
 
 }  // namespace
 
-Scene load_obj(const std::string& path, Diagnostics& diagnostics) {
-  std::ifstream stream(path);
-  if (!stream) {
-    diagnostics.error("cannot-read", {path, 0, 0, {}}, "cannot open the scene");
-    return {};
-  }
-  return ObjReader(path, diagnostics).read(stream);
+Scene load_obj(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics) {
+  std::size_t file_bytes = limits.file_bytes;
+  const auto text = read_scene_file(path, {path, 0, 0, {}}, file_bytes, diagnostics);
+  return text ? ObjReader(path, limits, diagnostics).read(*text) : Scene{};
 }
 
 }  // namespace nacre::host

@@ -7,6 +7,7 @@
 #include <new>
 #include <thread>
 
+#include "examples/render/camera.h"
 #include "examples/render/render_context.h"
 #include "examples/render/wavefront.h"
 #include "runtime/float_environment.h"
@@ -42,7 +43,9 @@ float tent(float u) {
 Path camera_path(const RenderContext& context, int x, int y, int sample) {
   const RenderSettings& s = context.settings;
   Path path;
-  path.key = {s.seed, static_cast<std::uint32_t>(y * s.width + x),
+  path.key = {s.seed,
+              static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(s.width) +
+                  static_cast<std::uint32_t>(x),
               static_cast<std::uint32_t>(sample), 0};
   const Uniform2 u = uniform2(s.sampler, path.key, Draw::pixel);
   const bool box = s.filter == PixelFilter::box;
@@ -131,6 +134,7 @@ void work(const RenderContext& context, const std::vector<Tile>& tiles,
 std::optional<Film> render(const RenderInput& input, const RenderSettings& settings,
                            Diagnostics& diagnostics, const RenderControl& control,
                            RenderStatistics* statistics) try {
+  if (!check_camera(input.camera, diagnostics)) return {};
   const RenderContext context(input, settings, diagnostics);
   if (!context.bvh.ok()) return {};
   const std::vector<Tile> tiles = make_tiles(settings);

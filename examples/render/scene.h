@@ -40,6 +40,9 @@ struct Mesh {
   std::string material_name;  ///< As the file calls it; may be empty.
   std::string path;           ///< "/parent/object"; empty: the object stands at the top.
 
+  /// Part of the stage that the built-in scene and a floor are: of no material unless one
+  /// is called as the mesh's is.
+  bool is_stage = false;
   std::uint32_t visible_to = ray_any;  ///< RayKind bits of the rays that meet it.
   bool two_sided = true;               ///< False: camera rays pass through its back.
   /// Held out: where the camera sees it the image is black with alpha 0. Other rays

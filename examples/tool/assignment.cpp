@@ -32,6 +32,7 @@ class Assigner {
   Assigner(const Document& document, const host::Scene& scene, const AssignmentOptions& options,
            Diagnostics& diagnostics)
       : document_(document),
+        scene_(scene),
         options_(options),
         diagnostics_(diagnostics),
         rules_(document, diagnostics) {
@@ -44,6 +45,31 @@ class Assigner {
     read_assigns();
     read_look();
     if (!options.material.empty()) check_known(options.material);
+  }
+
+  /// Says which assignments are on nothing, and what nothing is assigned to.
+  void report_unmatched() const {
+    for (const auto& [name, material] : assigns_) {
+      if (std::none_of(scene_.meshes.begin(), scene_.meshes.end(),
+                       [&](const Mesh& mesh) { return is_called(mesh, name); })) {
+        diagnostics_.error("unmatched-assign", {}, "--assign names nothing of the scene",
+                           "one of " + names_of_scene(), '"' + name + '"');
+      }
+    }
+    if (look_) report_look();
+    if (!options_.material.empty() || (known_.size() < 2 && !look_)) return;
+    std::size_t count = 0;
+    const Mesh* example = nullptr;
+    for (const Mesh& mesh : scene_.meshes) {
+      if (mesh.light_radiance || mesh.is_stage || !is_left_over(mesh)) continue;
+      if (count++ == 0) example = &mesh;
+    }
+    if (count == 0 || first_.empty()) return;
+    diagnostics_.warning("first-material", {document_.files().front(), 0, 0, first_},
+                         "nothing says what material " +
+                             (count == 1 ? "a mesh has" : std::to_string(count) + " meshes have") +
+                             ": the document's first, '" + first_ + "', is taken",
+                         "--material, --assign or a look", '\'' + example->object_name + '\'');
   }
 
   MeshAssignment assignment_of(const Mesh& mesh) const {
@@ -87,6 +113,47 @@ class Assigner {
     return names;
   }
 
+  static bool is_called(const Mesh& mesh, const std::string& name) {
+    return mesh.object_name == name || mesh.mesh_name == name || mesh.material_name == name;
+  }
+
+  /// Objects and their materials.
+  std::string names_of_scene() const {
+    std::set<std::string> names;
+    for (const Mesh& mesh : scene_.meshes) {
+      for (const std::string* name : {&mesh.object_name, &mesh.mesh_name, &mesh.material_name}) {
+        if (!name->empty() && !mesh.light_radiance) names.insert(*name);
+      }
+      if (names.size() > 20) break;
+    }
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+  }
+
+  void report_look() const {
+    for (const Assignment& assignment : look_->assignments) {
+      const auto reaches = [&](const Mesh& mesh) {
+        const auto names = names_of(mesh);
+        return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+          return rules_.reach(assignment, name).has_value();
+        });
+      };
+      if (std::any_of(scene_.meshes.begin(), scene_.meshes.end(), reaches)) continue;
+      diagnostics_.warning(
+          "unmatched-assignment", {document_.files().front(), 0, 0, look_->name},
+          "material '" + assignment.material + "' is assigned to nothing of the scene",
+          "one of " + names_of_scene(),
+          assignment.geom.empty() ? "collection " + assignment.collection : assignment.geom);
+    }
+  }
+
+  /// Whether only the document's first material is left for a mesh.
+  bool is_left_over(const Mesh& mesh) const {
+    return named_material(mesh).empty() && (!look_ || from_look(mesh) == nullptr) &&
+           !known_.contains(mesh.material_name);
+  }
+
   std::string named_material(const Mesh& mesh) const {
     for (const std::string& name : {mesh.object_name, mesh.mesh_name, mesh.material_name}) {
       if (const auto found = assigns_.find(name); found != assigns_.end()) return found->second;
@@ -96,8 +163,7 @@ class Assigner {
 
   std::string other_material(const Mesh& mesh) const {
     if (options_.material.empty() && known_.contains(mesh.material_name)) return mesh.material_name;
-    // The stage of the built-in scenes stays neutral.
-    if (mesh.material_name == "ground" || mesh.material_name == "base") return {};
+    if (mesh.is_stage) return {};
     if (!options_.material.empty()) return options_.material;
     return first_;
   }
@@ -201,6 +267,7 @@ class Assigner {
   }
 
   const Document& document_;
+  const host::Scene& scene_;
   const AssignmentOptions& options_;
   Diagnostics& diagnostics_;
   GeometryRules rules_;
@@ -238,6 +305,7 @@ std::vector<MeshAssignment> assign_materials(const Document& document, const hos
   const Assigner assigner(document, scene, options, diagnostics);
   std::vector<MeshAssignment> assignments;
   for (const Mesh& mesh : scene.meshes) assignments.push_back(assigner.assignment_of(mesh));
+  assigner.report_unmatched();
   return assignments;
 }
 

@@ -46,7 +46,9 @@ struct MeshAssignment {
 /// the mesh's material; --material, or the document's first material, for what is left. With
 /// --material alone, and neither look nor matching names, it goes on everything but
 /// the built-in scene's ground and base. The look is the one named, the default of a
-/// look group of that name, or the first group's default, or the first look.
+/// look group of that name, or the first group's default, or the first look. An --assign
+/// that names nothing is an error; an assignment of the look that is on nothing, and a mesh
+/// for which only the first of several materials is left, are warnings.
 std::vector<MeshAssignment> assign_materials(const Document& document, const host::Scene& scene,
                                              const AssignmentOptions& options,
                                              Diagnostics& diagnostics);

@@ -126,6 +126,7 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
       continue;
     }
     const auto [group, i] = split(channel.name);
+    reads_uv_ = reads_uv_ || group == "uv0";
     bound.from_batch.back() = standard_channel(group, i, capabilities_.attributes);
     if (bound.from_batch.back() || i < 0) continue;
     const int primvar = find_primvar(primvar_name(group), i + 1);

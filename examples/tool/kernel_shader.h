@@ -18,6 +18,8 @@ class KernelShader final : public host::Shader {
   explicit KernelShader(std::unique_ptr<MaterialKernels> kernels);
 
   host::Capabilities capabilities() const override { return capabilities_; }
+  /// Whether any kernel reads the first uv set.
+  bool reads_uv() const { return reads_uv_; }
   std::size_t state_bytes(std::uint32_t capacity) const override;
   void begin(const host::ShadingBatch& batch, void* state) const override;
   void sample(const host::ShadingBatch& batch, const void* state, host::Lanes3 u,
@@ -49,6 +51,7 @@ class KernelShader final : public host::Shader {
 
   std::unique_ptr<MaterialKernels> kernels_;
   host::Capabilities capabilities_;
+  bool reads_uv_ = false;
   Bound begin_, sample_, evaluate_, emission_, opacity_;
 };
 

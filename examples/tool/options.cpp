@@ -9,6 +9,7 @@
 #include <string>
 
 #include "examples/common/materialx_libraries.h"
+#include "examples/tool/number_range.h"
 #include "jit/document/read.h"
 
 namespace nacre::tool {
@@ -77,7 +78,7 @@ void CommonOptions::add_limits(CLI::App& command) {
     add(flag, value, what)->transform(CLI::AsSizeValue(false))->type_name("SIZE");
   };
   const auto add_count = [&](const char* flag, auto& value, const char* what) {
-    add(flag, value, what)->check(CLI::NonNegativeNumber)->type_name("N");
+    add(flag, value, what)->check(number_within(0))->type_name("N");
   };
   add_size("--max-file-size", read_limits.file_bytes, "Bytes of one document file");
   add_size("--max-total-size", read_limits.total_bytes, "Bytes of a document with its includes");
@@ -92,7 +93,7 @@ void CommonOptions::add_limits(CLI::App& command) {
   add_count("--max-instructions", compile_limits.max_instructions, "Instructions of a kernel");
   add("--max-compile-time", compile_limits.max_seconds,
       "Seconds to compile for; then a kernel is interpreted")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_within(0))
       ->type_name("S");
   add_count("--max-image-side", texture_limits.limits.max_size, "Pixels of an image on a side");
   add_size("--max-image-size", texture_limits.limits.max_bytes, "Bytes of an image, decoded");
@@ -120,7 +121,7 @@ void CommonOptions::add_compile(CLI::App& command) {
                   "How much longer than wide a pixel may be on an image without blur; 1: no care")
       ->check(CLI::Range(1, largest_anisotropy))
       ->capture_default_str();
-  command.add_option("--threads", threads, "Threads (default: all)")->check(CLI::NonNegativeNumber);
+  command.add_option("--threads", threads, "Threads (default: all)")->check(number_within(0));
   command.add_option("--cache", cache, "Folder of compiled kernels (default: in the user's cache)")
       ->type_name("DIR");
   command

@@ -3,16 +3,20 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 
+#include "examples/common/output_file.h"
 #include "examples/render/builtin_scene.h"
 #include "examples/render/camera.h"
 #include "examples/render/image_io.h"
 #include "examples/render/load_scene.h"
 #include "examples/tool/assignment.h"
 #include "examples/tool/kernel_shader.h"
+#include "examples/tool/missing_attributes.h"
+#include "examples/tool/missing_material.h"
 #include "examples/tool/neutral.h"
+#include "examples/tool/not_rendered.h"
+#include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
@@ -30,6 +34,7 @@ struct RenderOptions {
   std::string environment;
   float environment_scale = 1.0f;
   float environment_rotation = 0.0f;  ///< Degrees.
+  host::SceneLimits scene_limits;
   host::RenderSettings settings;
   host::WriteOptions write;
   float lens_radius = 0.0f;
@@ -50,7 +55,7 @@ std::optional<host::Environment> environment(const RenderOptions& options,
 /// The scene with a camera that sees it, whatever floor is put below.
 host::Scene scene(const RenderOptions& options, Diagnostics& diagnostics) {
   if (options.scene.empty()) return host::make_builtin_scene();
-  host::Scene loaded = host::load_scene(options.scene, diagnostics);
+  host::Scene loaded = host::load_scene(options.scene, options.scene_limits, diagnostics);
   if (loaded.meshes.empty()) return loaded;
   if (!loaded.camera) {
     const float aspect =
@@ -79,6 +84,8 @@ using Shaders = std::map<std::string, TwoShaders>;
 bool compile_shaders(const RenderOptions& options, const Opened& opened,
                      const std::vector<MeshAssignment>& assignments, Shaders& shaders,
                      Diagnostics& diagnostics) {
+  NotRendered not_rendered(opened, diagnostics);
+  not_rendered.look_at_document();
   for (const MeshAssignment& assignment : assignments) {
     if (assignment.material.empty() || shaders.contains(assignment.key())) continue;
     ShaderOptions shader = options.common.shader_options();
@@ -95,6 +102,7 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened,
           "a surface shader");
       return false;
     }
+    not_rendered.look_at_material(assignment.material, *kernels);
     TwoShaders& place = shaders[assignment.key()];
     const bool has_back = kernels->has_back;
     place.front = std::make_unique<KernelShader>(std::move(kernels));
@@ -108,12 +116,34 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened,
   return true;
 }
 
-void print_summary(const RenderOptions& options, const host::RenderStatistics& statistics) {
-  if (options.common.quiet) return;
-  if (statistics.invalid_results != 0) {
-    fmt::print(stderr, "{} results were not finite and were dropped\n", statistics.invalid_results);
+/// What shades each mesh, and warnings of what those lack.
+void bind_shaders(const std::vector<MeshAssignment>& assignments, const Shaders& shaders,
+                  const KernelShader& neutral, const std::string& scene_file, host::Scene& world,
+                  host::RenderInput& input, Diagnostics& diagnostics) {
+  std::vector<ShadedMesh> shaded;
+  for (std::size_t i = 0; i < assignments.size(); ++i) {
+    const MeshAssignment& each = assignments[i];
+    host::Mesh& mesh = world.meshes[i];
+    mesh.visible_to = each.visible_to;
+    mesh.two_sided = each.two_sided;
+    mesh.matte = each.matte;
+    mesh.illuminated = each.illuminated;
+    const TwoShaders* both = each.material.empty() ? nullptr : &shaders.at(each.key());
+    input.shaders.push_back(both == nullptr ? &neutral : both->front.get());
+    input.back_shaders.push_back(both == nullptr ? nullptr : both->back.get());
+    if (both == nullptr) continue;
+    for (const KernelShader* shader : {both->front.get(), both->back.get()}) {
+      if (shader != nullptr) shaded.push_back({&mesh, shader, each.material});
+    }
   }
-  fmt::print("{}\n", options.out);
+  report_missing_attributes(shaded, scene_file, diagnostics);
+}
+
+void report_invalid_results(const host::RenderStatistics& statistics, Diagnostics& diagnostics) {
+  if (statistics.invalid_results == 0) return;
+  diagnostics.warning("invalid-results", {},
+                      "some results of kernels were not finite and were left out", "finite numbers",
+                      fmt::format("{} that were not", statistics.invalid_results));
 }
 
 int run(RenderOptions& options) {
@@ -125,35 +155,34 @@ int run(RenderOptions& options) {
   options.settings.threads = options.common.threads;
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
+  if (!host::is_image_name(options.out, diagnostics) ||
+      !host::prepare_output_file(options.out, diagnostics)) {
+    return report(diagnostics);
+  }
   host::Scene world = scene(options, diagnostics);
   const auto sky = environment(options, diagnostics);
   if (diagnostics.has_errors() || !sky) return report(diagnostics);
+  host::RenderInput input;
+  input.scene = &world;
+  input.environment = &*sky;
+  input.camera = camera(options, world);
+  if (!host::check_camera(input.camera, diagnostics)) return report(diagnostics);
 
   const std::vector<MeshAssignment> assignments =
       assign_materials(*opened.document, world, options.assignment, diagnostics);
+  if (!options.assignment.material.empty() && diagnostics.has_errors()) {
+    explain_missing_material(opened, options.assignment.material, options.common.shader_options(),
+                             diagnostics);
+  }
   Shaders shaders;
   if (diagnostics.has_errors() ||
       !compile_shaders(options, opened, assignments, shaders, diagnostics)) {
     return report(diagnostics);
   }
-  host::RenderInput input;
-  input.scene = &world;
-  input.environment = &*sky;
-  input.camera = camera(options, world);
   auto grey = neutral_material(*opened.system, options.common.shader_options(), diagnostics);
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey));
-  for (std::size_t i = 0; i < assignments.size(); ++i) {
-    const MeshAssignment& each = assignments[i];
-    host::Mesh& mesh = world.meshes[i];
-    mesh.visible_to = each.visible_to;
-    mesh.two_sided = each.two_sided;
-    mesh.matte = each.matte;
-    mesh.illuminated = each.illuminated;
-    const TwoShaders* both = each.material.empty() ? nullptr : &shaders.at(each.key());
-    input.shaders.push_back(both == nullptr ? &neutral : both->front.get());
-    input.back_shaders.push_back(both == nullptr ? nullptr : both->back.get());
-  }
+  bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
 
   const StopOnSignal stop;
   ProgressLine line("render", options.common.quiet);
@@ -161,12 +190,42 @@ int run(RenderOptions& options) {
                                     .progress = [&](double share) { line.update(share); }};
   host::RenderStatistics statistics;
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
-  if (film && host::write_image(*film, options.out, options.write, diagnostics)) {
-    print_summary(options, statistics);
+  report_invalid_results(statistics, diagnostics);
+  if (film && host::write_image(*film, options.out, options.write, diagnostics) &&
+      !options.common.quiet) {
+    fmt::print("{}\n", options.out);
   }
   report_texels(*opened.system, diagnostics);
   const int status = report(diagnostics);
   return film ? status : status_problems;
+}
+
+}  // namespace
+
+namespace {
+
+void add_scene_limits(CLI::App& command, host::SceneLimits& limits) {
+  const auto add = [&](const char* flag, auto& value, const char* what) {
+    return command.add_option(flag, value, what)
+        ->capture_default_str()
+        ->group("Limits, beyond which a scene is refused (sizes: 64MB, 2GB)");
+  };
+  const auto size = CLI::AsSizeValue(false);
+  add("--max-scene-file-size", limits.file_bytes, "Bytes of the scene's files together")
+      ->transform(size)
+      ->type_name("SIZE");
+  add("--max-scene-size", limits.bytes, "Bytes of its geometry in memory, with all instances")
+      ->transform(size)
+      ->type_name("SIZE");
+  add("--max-meshes", limits.meshes, "Meshes with all instances")
+      ->check(number_within(0, 1e9))
+      ->type_name("N");
+  add("--max-scene-values", limits.values, "Values of the JSON of a glTF file")
+      ->check(number_within(0, 1e9))
+      ->type_name("N");
+  add("--max-node-depth", limits.node_depth, "Nodes within nodes")
+      ->check(number_within(1, 10'000))
+      ->type_name("N");
 }
 
 }  // namespace
@@ -182,35 +241,47 @@ void add_render(CLI::App& app, int& status) {
       ->type_name("FILE");
   command.add_flag("--ground", options->ground, "Put a neutral floor below the scene");
   command.add_option("--spp", settings.samples, "Samples a pixel")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1, 1e9))
       ->capture_default_str();
   command.add_option("--size", options->size, "Pixels: N or WxH")->capture_default_str();
   command.add_option("--out", options->out, "Image to write: .exr or .png")
       ->required()
       ->type_name("FILE");
   command.add_option("--max-depth", settings.max_depth, "Scattering events on a path")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_within(0, 1e9))
       ->capture_default_str();
   command.add_option("--seed", settings.seed, "Of the random numbers")->capture_default_str();
-  command.add_option("--frame", settings.frame, "Frame number")->capture_default_str();
-  command.add_option("--time", settings.time, "Seconds")->capture_default_str();
+  command.add_option("--frame", settings.frame, "Frame number")
+      ->check(number_within(-1e9, 1e9))
+      ->capture_default_str();
+  command.add_option("--time", settings.time, "Seconds")
+      ->check(number_within(-1e9, 1e9))
+      ->capture_default_str();
   command
       .add_option("--environment", options->environment,
                   "Latitude-longitude image (default: a built-in studio)")
       ->type_name("FILE");
-  command.add_option("--environment-scale", options->environment_scale)->capture_default_str();
+  command.add_option("--environment-scale", options->environment_scale)
+      ->check(number_within(0, 1e9))
+      ->capture_default_str();
   command.add_option("--environment-rotation", options->environment_rotation, "Degrees about +y")
+      ->check(number_within(-1e6, 1e6))
       ->capture_default_str();
   command.add_option("--exposure", options->write.exposure, "Stops; png only")
+      ->check(number_within(-100, 100))
       ->capture_default_str();
   command
       .add_option("--white", options->write.white, "Luminance shown as white; 0: clip; png only")
+      ->check(number_within(0, 1e9))
       ->capture_default_str();
   command.add_flag("--half", options->write.half, "16-bit floats in .exr");
   command.add_option("--lens-radius", options->lens_radius, "Scene units; 0: all in focus")
+      ->check(number_within(0, host::largest_coordinate))
       ->capture_default_str();
-  command.add_option("--focus-distance", options->focus_distance,
-                     "Scene units (default: the middle)");
+  command
+      .add_option("--focus-distance", options->focus_distance, "Scene units (default: the middle)")
+      ->check(number_within(0, host::largest_coordinate));
+  add_scene_limits(command, options->scene_limits);
   options->common.add_compile(command);
   command.callback([options, &status] { status = run(*options); });
 }

@@ -47,7 +47,8 @@ TEST_F(AssignMaterials, ByTheDefaultLooksCollectionsAndNames) {
   EXPECT_EQ(assign("/car/wreck/door_left", "").material, "M1");
   EXPECT_EQ(assign("/bus/window", "Glass").material, "M3");
   EXPECT_EQ(assign("/bus/window", "Glass").variants.at(0).variant, "dark");
-  EXPECT_TRUE(diagnostics_.all().empty()) << diagnostics_.to_string();
+  // Each scene has one mesh, so that of three assignments one or two are on nothing.
+  for (const Diagnostic& each : diagnostics_.all()) EXPECT_EQ(each.code, "unmatched-assignment");
 }
 
 TEST_F(AssignMaterials, OptionsAreStrongerThanLooks) {
@@ -57,6 +58,7 @@ TEST_F(AssignMaterials, OptionsAreStrongerThanLooks) {
   options.look = "looks";
   options.assigns = {"door_left=M3"};
   EXPECT_EQ(assign("/car/front/door_left", "", options).material, "M3");
+  options.assigns.clear();
   options.look = "third";
   assign("/car", "", options);
   EXPECT_EQ(diagnostics_.error_count(), 1u);

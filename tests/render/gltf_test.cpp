@@ -5,27 +5,11 @@
 #include <filesystem>
 
 #include "examples/render/load_scene.h"
+#include "tests/render/scene_samples.h"
 #include "tests/render/temporary_folder.h"
 
 namespace nacre::host {
 namespace {
-
-/// A .glb: a 12-byte header and two chunks (glTF 2.0, chapter 4).
-std::string glb(std::string json, std::string data) {
-  while (json.size() % 4 != 0) json += ' ';
-  while (data.size() % 4 != 0) data += '\0';
-  const auto word = [](std::size_t v) {
-    const auto u = static_cast<std::uint32_t>(v);
-    return std::string(reinterpret_cast<const char*>(&u), 4);
-  };
-  return "glTF" + word(2) + word(28 + json.size() + data.size()) + word(json.size()) + "JSON" +
-         json + word(data.size()) + std::string("BIN\0", 4) + data;
-}
-
-template <class T>
-void append(std::string& data, std::initializer_list<T> values) {
-  for (const T v : values) data.append(reinterpret_cast<const char*>(&v), sizeof v);
-}
 
 /// Bytes 0-47: four corners; 48-79: uv; 80-91: six 16-bit indices.
 std::string quad_data() {
@@ -60,7 +44,7 @@ TEST(Gltf, ReadsMeshNamesAndFlipsV) {
   const TemporaryFolder folder;
   Diagnostics diagnostics;
   const Scene scene =
-      load_scene(folder.write("a.glb", glb(quad_json(plain_node), quad_data())), diagnostics);
+      load_scene(folder.write("a.glb", glb(quad_json(plain_node), quad_data())), {}, diagnostics);
   ASSERT_EQ(scene.meshes.size(), 1u) << diagnostics.to_string();
   const Mesh& mesh = scene.meshes[0];
   EXPECT_EQ(mesh.object_name, "sign");
@@ -86,13 +70,14 @@ TEST(Gltf, TransformsMultiplyDownTheTree) {
     {"name":"mirrored","mesh":0,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]},
     {"camera":0,"translation":[0,0,3]})";
   const Scene scene =
-      load_scene(folder.write("a.glb", glb(quad_json(nodes), quad_data())), diagnostics);
+      load_scene(folder.write("a.glb", glb(quad_json(nodes), quad_data())), {}, diagnostics);
   ASSERT_EQ(scene.meshes.size(), 1u) << diagnostics.to_string();
   const Mesh& mesh = scene.meshes[0];
   // Local (1, 1, 0) -> mirrored (-1, 1, 0) -> scaled (-2, 2, 0) -> turned (-2, -2, 0) -> moved.
-  EXPECT_NEAR(mesh.position[2].x, 8.f, 1e-5f);
-  EXPECT_NEAR(mesh.position[2].y, -2.f, 1e-5f);
-  EXPECT_EQ(mesh.position_object[2].x, 1.f);
+  // The mirror turns the first triangle, whose second corner that is now.
+  EXPECT_NEAR(mesh.position[1].x, 8.f, 1e-5f);
+  EXPECT_NEAR(mesh.position[1].y, -2.f, 1e-5f);
+  EXPECT_EQ(mesh.position_object[1].x, 1.f);
   // A mirror keeps the front where it was: the normal map of a plane in z stays +z.
   EXPECT_NEAR(mesh.normal[0].z, 1.f, 1e-6f);
   // u ran along +x: mirrored and turned, along -y; v along +y: turned, along -x.
@@ -117,7 +102,7 @@ TEST(Gltf, ReadsTextFileWithEmbeddedBuffer) {
     "bufferViews":[{"buffer":0,"byteLength":36}],
     "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
       "min":[0,0,0],"max":[1,1,0]}]})";
-  const Scene scene = load_scene(folder.write("a.gltf", json), diagnostics);
+  const Scene scene = load_scene(folder.write("a.gltf", json), {}, diagnostics);
   ASSERT_EQ(scene.meshes.size(), 1u) << diagnostics.to_string();
   EXPECT_EQ(scene.meshes[0].position[1].x, 1.f);
   EXPECT_EQ(scene.meshes[0].object_name, "mesh0");
@@ -165,7 +150,7 @@ TEST(Gltf, WrongFilesGiveDiagnosticsAndNoScene) {
     const TemporaryFolder folder;
     Diagnostics diagnostics;
     const std::string path = folder.write(bad.file, bad.content);
-    const Scene scene = load_scene(path, diagnostics);
+    const Scene scene = load_scene(path, {}, diagnostics);
     EXPECT_TRUE(diagnostics.has_errors()) << bad.what;
     EXPECT_TRUE(scene.meshes.empty()) << bad.what;
     if (diagnostics.has_errors()) {
@@ -173,7 +158,7 @@ TEST(Gltf, WrongFilesGiveDiagnosticsAndNoScene) {
     }
   }
   Diagnostics diagnostics;
-  load_scene("/nonexistent.glb", diagnostics);
+  load_scene("/nonexistent.glb", {}, diagnostics);
   EXPECT_TRUE(diagnostics.has_errors());
 }
 
@@ -190,7 +175,7 @@ TEST(Gltf, BuffersAreReadFromTheFolderOfTheFileOnly) {
     json.replace(json.find(R"("byteLength":92)"), 15,
                  std::string(R"("byteLength":92,"uri":")") + uri + '"');
     Diagnostics diagnostics;
-    const Scene scene = load_scene(folder.write("scene/a.gltf", json), diagnostics);
+    const Scene scene = load_scene(folder.write("scene/a.gltf", json), {}, diagnostics);
     EXPECT_EQ(scene.meshes.size(), allowed ? 1u : 0u) << uri << '\n' << diagnostics.to_string();
     EXPECT_EQ(diagnostics.has_errors(), !allowed) << uri;
   }
@@ -204,7 +189,7 @@ TEST(Gltf, ReadsTheShaderBall) {
   const std::filesystem::path file = shared / "materialx/Geometry/shaderball.glb";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   Diagnostics diagnostics;
-  const Scene scene = load_scene(file.string(), diagnostics);
+  const Scene scene = load_scene(file.string(), {}, diagnostics);
   ASSERT_EQ(scene.meshes.size(), 2u) << diagnostics.to_string();
   EXPECT_EQ(scene.meshes[0].object_name, "Preview_Mesh");
   EXPECT_EQ(scene.meshes[1].object_name, "Calibration_Mesh");

@@ -27,7 +27,7 @@ v 2 0 0
 vn 0 0 1
 f -1//1 3//1 2//-1
 )"),
-                                 diagnostics);
+                                 {}, diagnostics);
   ASSERT_EQ(scene.meshes.size(), 2u) << diagnostics.to_string();
   EXPECT_EQ(scene.meshes[0].object_name, "thing");
   EXPECT_EQ(scene.meshes[0].mesh_name, "left");
@@ -55,7 +55,7 @@ TEST(Obj, ErrorsNameTheLine) {
   for (const auto& [text, line] : cases) {
     const TemporaryFolder folder;
     Diagnostics diagnostics;
-    EXPECT_TRUE(load_scene(folder.write("a.obj", text), diagnostics).meshes.empty());
+    EXPECT_TRUE(load_scene(folder.write("a.obj", text), {}, diagnostics).meshes.empty());
     ASSERT_TRUE(diagnostics.has_errors()) << text;
     EXPECT_EQ(diagnostics.all()[0].where.line, line) << text;
   }
@@ -64,9 +64,9 @@ TEST(Obj, ErrorsNameTheLine) {
 TEST(Obj, EmptyAndMissingFilesAreErrors) {
   const TemporaryFolder folder;
   Diagnostics diagnostics;
-  EXPECT_TRUE(load_scene(folder.write("a.obj", "# nothing\n"), diagnostics).meshes.empty());
+  EXPECT_TRUE(load_scene(folder.write("a.obj", "# nothing\n"), {}, diagnostics).meshes.empty());
   EXPECT_EQ(diagnostics.error_count(), 1u);
-  load_scene(folder.file("none.obj"), diagnostics);
+  load_scene(folder.file("none.obj"), {}, diagnostics);
   EXPECT_EQ(diagnostics.error_count(), 2u);
 }
 

@@ -167,11 +167,11 @@ TEST(Mesh, BadTrianglesAreLeftOutWithAWarning) {
   mesh.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nan, 0, 0}, {2, 0, 0}};
   mesh.triangles = {{{0, 1, 2}}, {{0, 1, 3}}, {{0, 1, 4}}, {{0, 1, 77}}};
   Diagnostics diagnostics;
-  EXPECT_TRUE(finish_mesh(mesh, "f", diagnostics));
+  EXPECT_TRUE(finish_mesh(mesh, {"f", 0, 0, {}}, diagnostics));
   EXPECT_EQ(mesh.triangles.size(), 1u);
   EXPECT_EQ(diagnostics.warning_count(), 1u);
   mesh.triangles.clear();
-  EXPECT_FALSE(finish_mesh(mesh, "f", diagnostics));
+  EXPECT_FALSE(finish_mesh(mesh, {"f", 0, 0, {}}, diagnostics));
   EXPECT_TRUE(diagnostics.has_errors());
 }
 

@@ -31,8 +31,8 @@ QUARANTINE = {
     "gmock/": ("tests",),
     "llvm-c/": ("jit/llvm",),
     "llvm/": ("jit/llvm",),
+    "nlohmann/": ("bench", "examples", "tests"),
     "pugixml": ("jit/document",),
-    "tiny_gltf": ("examples",),
 }
 
 

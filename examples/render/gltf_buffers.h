@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "examples/render/gltf_value.h"
+
+namespace nacre::host {
+
+/// The buffers of a glTF file, read when somebody asks: the BIN chunk, data URIs in
+/// base64, and files of the scene's own folder or below.
+class GltfBuffers {
+ public:
+  /// `binary` is the BIN chunk, if any; `file_bytes` what files may still be read.
+  GltfBuffers(const GltfValue& root, std::optional<std::string> binary, std::size_t file_bytes);
+
+  /// The bytes of buffers[index], which must be there; nothing after an error, which is
+  /// given once.
+  std::optional<std::string_view> bytes(std::size_t index);
+
+ private:
+  struct Buffer {
+    bool is_read = false;
+    std::optional<std::string> bytes;
+  };
+
+  std::optional<std::string> read(std::size_t index, const GltfValue& buffer);
+  std::optional<std::string> read_file(const GltfValue& uri, const std::string& name);
+
+  GltfValue root_;
+  std::optional<std::string> binary_;
+  std::size_t file_bytes_;
+  std::filesystem::path folder_;
+  std::vector<Buffer> buffers_;
+};
+
+}  // namespace nacre::host

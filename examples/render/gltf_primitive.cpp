@@ -1,0 +1,174 @@
+#include "examples/render/gltf_primitive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+#include <utility>
+
+namespace nacre::host {
+
+namespace {
+
+/// glTF 2.0, 5.24.4.
+enum Mode : std::size_t { mode_triangles = 4, mode_strip = 5, mode_fan = 6 };
+
+/// Strips and fans as triangles: glTF 2.0, 3.7.2.1.
+std::vector<Triangle> assemble(const std::vector<std::uint32_t>& i, std::size_t mode) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(mode == mode_triangles ? i.size() / 3 : i.size());
+  if (mode == mode_triangles) {
+    for (std::size_t k = 0; k + 2 < i.size(); k += 3)
+      triangles.push_back({{i[k], i[k + 1], i[k + 2]}});
+    return triangles;
+  }
+  for (std::size_t k = 0; k + 2 < i.size(); ++k) {
+    if (mode == mode_fan) {
+      triangles.push_back({{i[0], i[k + 1], i[k + 2]}});
+    } else {
+      triangles.push_back({{i[k], i[k + 1 + k % 2], i[k + 2 - k % 2]}});
+    }
+  }
+  return triangles;
+}
+
+/// "TEXCOORD_1" -> "texcoord1", "COLOR_0" -> "color0", "_TEMP" -> "TEMP".
+std::string primvar_name(const std::string& semantic) {
+  if (semantic.starts_with("_")) return semantic.substr(1);
+  std::string name;
+  for (const char c : semantic) {
+    if (c != '_') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+/// Components that an attribute has at least.
+int least_components(const std::string& semantic) {
+  if (semantic == "TANGENT") return 4;
+  if (semantic == "POSITION" || semantic == "NORMAL" || semantic.starts_with("COLOR_")) return 3;
+  return semantic.starts_with("TEXCOORD_") ? 2 : 1;
+}
+
+}  // namespace
+
+bool GltfPrimitives::read(const GltfValue& primitive, Mesh& mesh) {
+  const std::size_t errors = primitive.report().diagnostics.error_count();
+  const auto ok = [&] { return primitive.report().diagnostics.error_count() == errors; };
+  const std::size_t mode = primitive["mode"].count().value_or(mode_triangles);
+  if (mode < mode_triangles && ok()) {
+    primitive.report().warning("not-triangles", primitive.path(), "points and lines are left out");
+    return false;
+  }
+  if (mode > mode_fan)
+    primitive["mode"].error("there is no such mode", "0 to 6", std::to_string(mode));
+  dropped_.look_at_primitive(primitive);
+  if (const auto material = primitive["material"].index_of(root_["materials"])) {
+    mesh.material_name = root_["materials"][*material].name();
+  }
+  const GltfValue attributes = primitive["attributes"];
+  const GltfValue position = attributes["POSITION"];
+  std::optional<GltfAccessor> indices;
+  if (primitive["indices"]) indices = accessors_.indices(primitive["indices"]);
+  std::vector<Attribute> list;
+  if (!position.need("the index of an accessor") || !open_attributes(attributes, list) || !ok()) {
+    return false;
+  }
+  const std::size_t vertices = list.front().accessor.count;
+  if (!read_triangles(primitive, mode, vertices, indices, mesh)) return false;
+  for (const Attribute& attribute : list) read_attribute(attribute, mesh);
+  return ok();
+}
+
+/// POSITION first. False after an error.
+bool GltfPrimitives::open_attributes(const GltfValue& attributes, std::vector<Attribute>& list) {
+  std::vector<std::string> names = attributes.names();
+  std::erase_if(names, [](const std::string& name) {  // Of skins, which are not rendered.
+    return name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
+  });
+  std::stable_partition(names.begin(), names.end(),
+                        [](const std::string& name) { return name == "POSITION"; });
+  for (std::string& name : names) {
+    const GltfValue index = attributes[name.c_str()];
+    const auto accessor = accessors_.attribute(index, least_components(name));
+    if (!accessor) return false;
+    list.push_back({std::move(name), index, *accessor});
+    if (accessor->count == list.front().accessor.count) continue;
+    index.error("an attribute has another length than POSITION",
+                fmt::format("{} elements", list.front().accessor.count),
+                fmt::format("{}", accessor->count));
+    return false;
+  }
+  return true;
+}
+
+bool GltfPrimitives::read_triangles(const GltfValue& primitive, std::size_t mode,
+                                    std::size_t vertices, std::optional<GltfAccessor> indices,
+                                    Mesh& mesh) {
+  const std::size_t corners = indices ? indices->count : vertices;
+  if (corners < 3 || (mode == mode_triangles && corners % 3 != 0)) {
+    primitive[indices ? "indices" : "attributes"].error(
+        "the corners make no triangles", mode == mode_triangles ? "a multiple of 3" : "3 or more",
+        fmt::format("{}", corners));
+    return false;
+  }
+  const std::size_t triangles = mode == mode_triangles ? corners / 3 : corners - 2;
+  // Without normals each corner is a vertex of its own.
+  const GltfValue attributes = primitive["attributes"];
+  const std::size_t kept = attributes["NORMAL"] ? vertices : vertices + 3 * triangles;
+  std::size_t other = mesh.path.size() + mesh.object_name.size() + mesh.mesh_name.size() +
+                      mesh.material_name.size();
+  // A primitive variable has up to four floats a vertex.
+  for (const std::string& name : attributes.names()) other += name.size() + 16 * kept;
+  if (!budget_.take({primitive.report().file, 0, 0, primitive.path()}, kept, triangles, other)) {
+    return false;
+  }
+  std::vector<std::uint32_t> numbers;
+  if (indices) {
+    numbers = GltfAccessors::integers(*indices);
+  } else {
+    numbers.resize(vertices);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+  }
+  mesh.triangles = assemble(numbers, mode);
+  return true;
+}
+
+void GltfPrimitives::read_attribute(const Attribute& attribute, Mesh& mesh) {
+  const std::string& semantic = attribute.semantic;
+  const int n = attribute.accessor.components;
+  const std::size_t count = attribute.accessor.count;
+  std::vector<float> f = GltfAccessors::floats(attribute.accessor);
+  const auto at = [&f, n](std::size_t i, int c) {
+    return f[i * static_cast<std::size_t>(n) + static_cast<std::size_t>(c)];
+  };
+  const auto bad = std::count_if(f.begin(), f.end(), [](float x) { return !std::isfinite(x); });
+  // Of the others finish_mesh() tells what became of them.
+  if (bad != 0 && semantic != "POSITION" && semantic != "NORMAL" && semantic != "TANGENT") {
+    attribute.index.report().warning("bad-attribute", attribute.index.path(),
+                                     "some values of an attribute are not finite", "finite numbers",
+                                     fmt::format("{} that are not", bad));
+  }
+  for (std::size_t i = 0; i < count && semantic.starts_with("TEXCOORD_"); ++i) {
+    f[i * static_cast<std::size_t>(n) + 1] = 1.f - at(i, 1);  // upper left to lower left
+  }
+  if (semantic == "POSITION") {
+    mesh.position.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) mesh.position.push_back({at(i, 0), at(i, 1), at(i, 2)});
+  } else if (semantic == "NORMAL") {
+    mesh.normal.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) mesh.normal.push_back({at(i, 0), at(i, 1), at(i, 2)});
+  } else if (semantic == "TANGENT") {
+    mesh.tangent.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      mesh.tangent.push_back({{at(i, 0), at(i, 1), at(i, 2)}, at(i, 3)});
+    }
+  } else if (semantic == "TEXCOORD_0") {
+    mesh.uv.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) mesh.uv.push_back({at(i, 0), at(i, 1)});
+  } else {
+    mesh.primvars.push_back({primvar_name(semantic), n, std::move(f)});
+  }
+}
+
+}  // namespace nacre::host

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "examples/render/gltf_accessor.h"
+#include "examples/render/gltf_dropped.h"
+#include "examples/render/mesh.h"
+#include "examples/render/scene_budget.h"
+
+namespace nacre::host {
+
+/// Reads the triangles of mesh primitives (glTF 2.0, 3.7.2.1).
+class GltfPrimitives {
+ public:
+  GltfPrimitives(const GltfValue& root, GltfAccessors& accessors, SceneBudget& budget,
+                 GltfDropped& dropped)
+      : root_(root), accessors_(accessors), budget_(budget), dropped_(dropped) {}
+
+  /// Triangles and vertex arrays in the mesh's own space, and the material's name. False
+  /// where there is nothing to draw, after an error or a warning.
+  bool read(const GltfValue& primitive, Mesh& mesh);
+
+ private:
+  struct Attribute {
+    std::string semantic;
+    GltfValue index;
+    GltfAccessor accessor;
+  };
+
+  bool open_attributes(const GltfValue& attributes, std::vector<Attribute>& list);
+  bool read_triangles(const GltfValue& primitive, std::size_t mode, std::size_t vertices,
+                      std::optional<GltfAccessor> indices, Mesh& mesh);
+  void read_attribute(const Attribute& attribute, Mesh& mesh);
+
+  GltfValue root_;
+  GltfAccessors& accessors_;
+  SceneBudget& budget_;
+  GltfDropped& dropped_;
+};
+
+}  // namespace nacre::host

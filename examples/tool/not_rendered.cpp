@@ -1,0 +1,110 @@
+#include "examples/tool/not_rendered.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
+#include "jit/document/select.h"
+#include "jit/graph/find.h"
+
+namespace nacre::tool {
+
+namespace {
+
+/// Whether two texts write the same numbers, or are the same.
+bool same_value(std::string_view a, std::string_view b) {
+  if (a == b) return true;
+  const std::string first(a), second(b);
+  const char *x = first.c_str(), *y = second.c_str();
+  while (*x != '\0' && *y != '\0') {
+    char *x_end = nullptr, *y_end = nullptr;
+    if (std::strtod(x, &x_end) != std::strtod(y, &y_end) || x_end == x || y_end == y) return false;
+    const auto skip = [](const char* p) { return p + std::string_view(p).find_first_not_of(", "); };
+    x = *x_end == '\0' ? x_end : skip(x_end);
+    y = *y_end == '\0' ? y_end : skip(y_end);
+  }
+  return *x == *y;
+}
+
+/// Inputs of its nodedef that a graph reads.
+std::set<std::string_view> read_inputs(const Element& graph) {
+  std::set<std::string_view> names;
+  for (const Element& node : graph.children()) {
+    names.insert(node.attribute("interfacename"));
+    for (const Element& input : node.children()) names.insert(input.attribute("interfacename"));
+  }
+  return names;
+}
+
+}  // namespace
+
+NotRendered::NotRendered(const Opened& opened, Diagnostics& diagnostics)
+    : opened_(opened), diagnostics_(diagnostics), definitions_([&]() -> Definitions {
+        Diagnostics known;  // The compiler reports them.
+        return Definitions(*opened.document, &opened.system->library().definitions(), known);
+      }()) {}
+
+void NotRendered::look_at_document() {
+  for (const Element& element : opened_.document->root().children()) {
+    if (!is_node(element) || element.attribute("type") != "lightshader") continue;
+    diagnostics_.warning(
+        "lights-not-rendered", location(element),
+        "light shaders are not rendered; surfaces that emit and the environment are", {},
+        std::string(element.category()));
+    return;
+  }
+}
+
+void NotRendered::look_at_material(const std::string& name, const MaterialKernels& kernels) {
+  if (!said_.insert(name).second) return;
+  const Element* element = opened_.document->root().child(name);
+  const SourceLocation where = element == nullptr
+                                   ? SourceLocation{opened_.document->files().front(), 0, 0, name}
+                                   : location(*element);
+  for (const std::string& line : kernels.not_modelled) {
+    diagnostics_.warning("not-modelled", where, "a part of the material is not rendered", {}, line);
+  }
+  if (kernels.displacement) {
+    diagnostics_.warning("displacement-not-rendered", where,
+                         "displacement is not rendered: the surface stays where it is");
+  }
+  if (kernels.volume) {
+    diagnostics_.warning("volume-not-rendered", where, "volumes are not rendered");
+  }
+  for (const FoundMaterial& found : find_materials(*opened_.document)) {
+    if (found.name != name) continue;
+    look_at_shader(found.surfaceshader);
+    look_at_shader(found.backsurfaceshader);
+  }
+}
+
+/// A node, or the shaders within a graph.
+void NotRendered::look_at_shader(const std::string& name) {
+  const Element* element = name.empty() ? nullptr : opened_.document->root().child(name);
+  if (element == nullptr || !said_.insert('/' + name).second) return;
+  if (is_node(*element)) return look_at_inputs(*element);
+  for (const Element& child : element->children()) {
+    if (is_node(child) && child.attribute("type") == "surfaceshader") look_at_inputs(child);
+  }
+}
+
+void NotRendered::look_at_inputs(const Element& shader) {
+  Diagnostics known;
+  const NodeDef* def = find_nodedef(shader, definitions_, known);
+  const Element* graph = def == nullptr ? nullptr : definitions_.graph_of(*def);
+  if (graph == nullptr) return;
+  const std::set<std::string_view> read = read_inputs(*graph);
+  for (const Element& input : shader.children()) {
+    const NodeDefInput* port = def->input(input.name());
+    if (input.category() != "input" || port == nullptr || read.contains(input.name())) continue;
+    if (input.has_attribute("value") && port->element != nullptr &&
+        same_value(input.attribute("value"), port->element->attribute("value"))) {
+      continue;
+    }
+    diagnostics_.warning("input-not-rendered", location(input),
+                         "the input is not rendered: nothing in the graph of the node reads it", {},
+                         std::string(graph->name()));
+  }
+}
+
+}  // namespace nacre::tool

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "examples/tool/options.h"
+
+namespace nacre::tool {
+
+/// Says what a document has and `render` leaves out, each thing once.
+class NotRendered {
+ public:
+  NotRendered(const Opened& opened, Diagnostics& diagnostics);
+
+  /// Light shaders, which belong to no material.
+  void look_at_document();
+  /// What the kernels of a material leave out, and inputs of its shader nodes that are set
+  /// and that the shading model's own graph does not read.
+  void look_at_material(const std::string& name, const MaterialKernels& kernels);
+
+ private:
+  void look_at_shader(const std::string& name);
+  void look_at_inputs(const Element& shader);
+
+  const Opened& opened_;
+  Diagnostics& diagnostics_;
+  Definitions definitions_;
+  std::set<std::string> said_;
+};
+
+}  // namespace nacre::tool
