@@ -70,6 +70,7 @@ class Render : public Tool {
     write_document(walls, look);
     write("a.obj", squares);
     EXPECT_EQ(run("render " + file("a.mtlx") + " --scene " + file("a.obj") +
+                  (look.empty() ? " --material M" : "") +
                   " --size 48x32 --spp 1 --max-depth 0 --out " + file("a.exr")),
               0)
         << errors_;
