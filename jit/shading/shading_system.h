@@ -109,7 +109,7 @@ struct MaterialKernels {
   std::vector<std::string> manifest;  ///< What was left out, and why.
   /// Those lines of it that a renderer would have to do itself, for the picture lacks them.
   std::vector<std::string> not_modelled;
-  std::vector<StageReport> stages;    ///< Of all kernels, one after another.
+  std::vector<StageReport> stages;  ///< Of all kernels, one after another.
 };
 
 /// Everything that documents share: the data library, native bodies, textures
