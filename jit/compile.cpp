@@ -60,13 +60,27 @@ bool is_too_large(const Program& program, const CompileOptions& options) {
   return instruction_count(program) > options.max_instructions;
 }
 
-/// Reports and drops the Programs that are too large; which of them are left.
-std::vector<bool> refuse_too_large(std::vector<Program>& programs, const CompileOptions& options,
-                                   Diagnostics& diagnostics) {
+/// Whether a pass takes too long even if every loop runs one round.
+bool is_too_slow(const Program& program, const CompileOptions& options, Diagnostics& diagnostics) {
+  const double steps = function_costs(program).front().once;
+  if (steps <= static_cast<double>(options.max_steps)) return false;
+  diagnostics.error("too-many-steps", {},
+                    fmt::format("the kernel '{}' takes too long for each point", program.name),
+                    fmt::format("at most {} steps", options.max_steps),
+                    fmt::format("{:.3g}", steps));
+  return true;
+}
+
+/// Reports and drops the Programs that are too large or too slow; which of them are left.
+std::vector<bool> refuse_excess(std::vector<Program>& programs, const CompileOptions& options,
+                                Diagnostics& diagnostics) {
   std::vector<bool> fits;
   for (const Program& program : programs) {
     fits.push_back(!is_too_large(program, options));
-    if (fits.back()) continue;
+    if (fits.back()) {
+      fits.back() = !is_too_slow(program, options, diagnostics);
+      continue;
+    }
     diagnostics.error("program-too-large", {},
                       fmt::format("the kernel '{}' is too large", program.name),
                       fmt::format("at most {} instructions", options.max_instructions),
@@ -154,15 +168,16 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(
     if (options.dump_ir) dump("llvm", dump_ir);
     if (options.dump_assembly) dump("assembly", dump_assembly);
   }
-  const std::vector<bool> fits = refuse_too_large(programs, options, diagnostics);
+  const std::vector<bool> fits = refuse_excess(programs, options, diagnostics);
   if (options.backend == Backend::jit) {
     assert(service != nullptr);
     return in_their_places(service->compile(std::move(programs), options, diagnostics), fits);
   }
   std::vector<std::shared_ptr<const Kernel>> kernels;
   for (Program& program : programs) {
-    kernels.push_back(options.backend == Backend::reference ? make_reference(std::move(program))
-                                                            : make_interpreter(std::move(program)));
+    kernels.push_back(options.backend == Backend::reference
+                          ? make_reference(std::move(program), options.max_steps)
+                          : make_interpreter(std::move(program), options.max_steps));
   }
   return in_their_places(std::move(kernels), fits);
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
+#include "runtime/program/cost.h"
 #include "runtime/stop.h"
 
 namespace nacre {
@@ -38,6 +40,9 @@ struct CompileOptions {
   bool asynchronous = false;
   /// A Program with more instructions, before or after any stage, is refused.
   std::size_t max_instructions = 2'000'000;
+  /// Steps that a pass of points may take. A Program that takes more whatever its loops do
+  /// is refused; a run that does ends as RunStatus::too_many_steps. See runtime/program/cost.h.
+  std::uint64_t max_steps = default_max_steps;
   /// Seconds from a call that compiles to its return, for everything it does. Spent
   /// before there is a Program for each kernel, which has a second at least, that is an
   /// error; spent waiting for the JIT, the kernel is interpreted, with a warning, and the
@@ -54,7 +59,8 @@ struct CompileOptions {
 Stop stop_from_now(const CompileOptions& options);
 
 /// From a sliced recording to a kernel: every pass in order, then an engine.
-/// Null, with a diagnostic, if the Program is too large or the JIT refuses. `stages` may be null;
+/// Null, with a diagnostic, if the Program is too large or takes too many steps, or the
+/// JIT refuses. `stages` may be null;
 /// `service` may be null for the other backends.
 std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,
                                       CompileService* service, Diagnostics& diagnostics,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -42,6 +43,18 @@ struct KernelArguments {
   TextureCallback texture_callback = nullptr;
   void* texture_user = nullptr;
   std::uint64_t count = 0;  ///< Points.
+  /// Not 0: end soon. Looked at between passes, and after each round of loops that are
+  /// counted, so within a few milliseconds. Must not go back to 0 during a run. Null: never.
+  const std::atomic<std::uint32_t>* stop = nullptr;
+};
+
+/// How a run ended. After all but `done` the outputs hold anything.
+enum class RunStatus : std::uint8_t {
+  done,
+  stopped,  ///< KernelArguments::stop was not 0.
+  /// A pass took more steps than the kernel may (runtime/program/cost.h), or a loop that
+  /// must end by itself did not within its rounds.
+  too_many_steps,
 };
 
 /// Compiled or interpreted code for one Program. Immutable and re-entrant: any
@@ -50,8 +63,10 @@ class Kernel {
  public:
   virtual ~Kernel() = default;
   /// Computes every output for points 0 ... count - 1. Touches no floating-point
-  /// state of the caller's; never throws, never blocks.
-  virtual void run(const KernelArguments& arguments) const = 0;
+  /// state of the caller's; never throws, never blocks, ends whatever the Program says.
+  /// What counts against the limit of steps is a pass of lanes() points as a whole: its
+  /// loops go on until the last point is done.
+  virtual RunStatus run(const KernelArguments& arguments) const = 0;
   /// What to bind: its channel, slot and texture lists. Their order is that of
   /// the arrays in KernelArguments.
   virtual const Program& program() const = 0;

@@ -25,7 +25,7 @@ class KernelRun {
                      std::shared_ptr<const void> kept = {});
 
   /// Computes the batch.
-  void operator()() { kernel_.run(inputs_, outputs_, batch_points); }
+  void operator()() { (void)kernel_.run(inputs_, outputs_, batch_points); }
 
   const Kernel& kernel() const { return kernel_.kernel(); }
   const Program& program() const { return kernel_.program(); }

@@ -52,7 +52,7 @@ void OurTexture::look_up(const Lookups& points, std::size_t first, std::size_t c
   }
   const std::array<void*, 4> outputs{rgba[0].data(), rgba[1].data(), rgba[2].data(),
                                      rgba[3].data()};
-  kernel_.run({inputs.data(), channels.size()}, outputs, count);
+  (void)kernel_.run({inputs.data(), channels.size()}, outputs, count);
 }
 
 }  // namespace nacre::bench

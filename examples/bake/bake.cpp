@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -35,7 +36,8 @@ class Baker {
     return channels * sizeof(float) * static_cast<std::size_t>(plane_.width());
   }
 
-  void strip(int first, int rows, float* texels) const {
+  RunStatus strip(int first, int rows, float* texels,
+                  const std::atomic<std::uint32_t>& stop) const {
     const Program& program = kernel_.kernel.program();
     const auto points = static_cast<std::size_t>(rows) * static_cast<std::size_t>(plane_.width());
     std::vector<std::vector<float>> inputs(program.inputs.size());
@@ -50,7 +52,8 @@ class Baker {
       channel.resize(points);
       out.push_back(channel.data());
     }
-    kernel_.kernel.run(in, out, points, parameters_);
+    const RunStatus status = kernel_.kernel.run(in, out, points, parameters_, &stop);
+    if (status != RunStatus::done) return status;
     const auto count = static_cast<std::size_t>(components());
     for (std::size_t c = 0; c < count; ++c) {
       const std::size_t channel = output_.first_channel + c;
@@ -61,6 +64,7 @@ class Baker {
                                          : static_cast<float>(static_cast<std::int32_t>(bits));
       }
     }
+    return RunStatus::done;
   }
 
  private:
@@ -78,8 +82,8 @@ class Baker {
 
 }  // namespace
 
-bool bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
-          const std::function<bool(const BakedRows&)>& sink, const BakeControl& control) {
+BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
+                const std::function<bool(const BakedRows&)>& sink, const BakeControl& control) {
   const Baker baker(kernel, output, settings);
   tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
   const auto row_texels =
@@ -89,9 +93,13 @@ bool bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& se
   const auto band_rows = static_cast<int>(std::clamp<std::size_t>(
       settings.memory / std::max<std::size_t>(1, baker.row_bytes()),
       static_cast<std::size_t>(strip_rows), static_cast<std::size_t>(settings.height)));
+  // Ends all strips that are being computed: asked for, or because one of them failed.
+  std::atomic<std::uint32_t> ends = 0;
+  std::atomic<bool> too_many_steps = false;
+  const std::stop_callback asked(control.stop, [&] { ends = 1; });
   BakedRows band;
   for (int first = 0; first < settings.height; first += band_rows) {
-    if (control.stop.stop_requested()) return false;
+    if (control.stop.stop_requested()) return BakeResult::stopped;
     band.first = first;
     band.rows = std::min(band_rows, settings.height - first);
     band.texels.resize(static_cast<std::size_t>(band.rows) * row_texels);
@@ -99,25 +107,39 @@ bool bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& se
     arena.execute([&] {
       tbb::parallel_for(0, strips, [&](int strip) {
         const int begin = strip * strip_rows;
-        baker.strip(first + begin, std::min(strip_rows, band.rows - begin),
-                    band.texels.data() + static_cast<std::size_t>(begin) * row_texels);
+        if (ends != 0) return;
+        const RunStatus status =
+            baker.strip(first + begin, std::min(strip_rows, band.rows - begin),
+                        band.texels.data() + static_cast<std::size_t>(begin) * row_texels, ends);
+        if (status != RunStatus::too_many_steps) return;
+        too_many_steps = true;
+        ends = 1;
       });
     });
-    if (!sink(band)) return false;
+    if (too_many_steps) return BakeResult::too_many_steps;
+    if (ends != 0) return BakeResult::stopped;
+    if (!sink(band)) return BakeResult::refused;
     if (control.progress) {
       control.progress(static_cast<double>(first + band.rows) / settings.height);
     }
   }
-  return true;
+  return BakeResult::done;
+}
+
+void report_too_many_steps(const OutputKernel::Output& output, Diagnostics& diagnostics) {
+  diagnostics.error("too-many-steps", output.where,
+                    "output '" + output.name +
+                        "' takes too many steps for a point, or a loop of it does not end");
 }
 
 std::vector<float> bake_image(const OutputKernel& kernel, std::size_t output,
                               const BakeSettings& settings) {
   std::vector<float> image;
-  bake(kernel, output, settings, [&](const BakedRows& rows) {
+  const BakeResult result = bake(kernel, output, settings, [&](const BakedRows& rows) {
     image.insert(image.end(), rows.texels.begin(), rows.texels.end());
     return true;
   });
+  if (result != BakeResult::done) image.clear();
   return image;
 }
 

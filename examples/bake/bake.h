@@ -32,13 +32,23 @@ struct BakeControl {
   std::function<void(double)> progress;
 };
 
-/// Shades the plane with one output of a kernel and hands over the rows from top
-/// to bottom. The texels do not depend on threads or memory. False if stopped, or
-/// if the sink returned false.
-bool bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
-          const std::function<bool(const BakedRows&)>& sink, const BakeControl& control = {});
+/// How a bake ended.
+enum class BakeResult {
+  done,
+  stopped,         ///< By BakeControl::stop.
+  refused,         ///< The sink returned false.
+  too_many_steps,  ///< The kernel did: RunStatus.
+};
 
-/// A whole output in memory.
+/// Shades the plane with one output of a kernel and hands over the rows from top
+/// to bottom. The texels do not depend on threads or memory.
+BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
+                const std::function<bool(const BakedRows&)>& sink, const BakeControl& control = {});
+
+/// The error that BakeResult::too_many_steps is.
+void report_too_many_steps(const OutputKernel::Output& output, Diagnostics& diagnostics);
+
+/// A whole output in memory; empty if the kernel takes too many steps.
 std::vector<float> bake_image(const OutputKernel& kernel, std::size_t output,
                               const BakeSettings& settings);
 

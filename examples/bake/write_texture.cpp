@@ -94,6 +94,7 @@ struct Job {
   const BakeControl& control;
   TexelRange* range;
   Cut* cut;
+  bool& too_many_steps;  ///< Set if the kernel took too many.
 
   const OutputKernel::Output& output() const { return kernel.outputs[index]; }
   int components() const { return component_count(output().type); }
@@ -163,7 +164,7 @@ BakedRows chosen_channels(const Job& job, const BakedRows& rows) {
 }
 
 /// Bakes, and hands rows to `sink` as the numbers that the file is to hold.
-bool bake_encoded(const Job& job, const std::function<bool(const BakedRows&)>& sink) {
+BakeResult bake_encoded(const Job& job, const std::function<bool(const BakedRows&)>& sink) {
   const auto channels = static_cast<std::size_t>(job.channels());
   const bool srgb = job.is_srgb();
   const bool direction = job.is_direction();
@@ -185,7 +186,20 @@ bool bake_encoded(const Job& job, const std::function<bool(const BakedRows&)>& s
     }
     return sink(encoded);
   };
-  return bake(job.kernel, job.index, job.settings, encode, job.control);
+  const BakeResult result = bake(job.kernel, job.index, job.settings, encode, job.control);
+  job.too_many_steps = result == BakeResult::too_many_steps;
+  return result;
+}
+
+/// Why a bake that ended so has written nothing; `unwritten` where the file is the cause.
+std::string reason(BakeResult result, const std::string& unwritten) {
+  switch (result) {
+    case BakeResult::done: return {};
+    case BakeResult::stopped: return "stopped";
+    case BakeResult::too_many_steps: return "there is no result";
+    case BakeResult::refused: break;
+  }
+  return unwritten;
 }
 
 /// Rows to an open file, in the file's own format.
@@ -193,22 +207,22 @@ std::string write_rows(const Job& job, const std::string& file) {
   const auto out = OIIO::ImageOutput::create(job.format.plugin);
   if (out == nullptr) return OIIO::geterror();
   if (!out->open(file, spec_of(job))) return out->geterror();
-  const bool finished = bake_encoded(job, [&](const BakedRows& rows) {
+  const BakeResult result = bake_encoded(job, [&](const BakedRows& rows) {
     return out->write_scanlines(rows.first, rows.first + rows.rows, 0, OIIO::TypeDesc::FLOAT,
                                 rows.texels.data());
   });
-  if (!finished) return job.control.stop.stop_requested() ? "stopped" : out->geterror();
+  if (result != BakeResult::done) return reason(result, out->geterror());
   return out->close() ? std::string() : out->geterror();
 }
 
 std::string write_tx(const Job& job, const std::string& file) {
   OIIO::ImageBuf image(spec_of(job));
-  const bool finished = bake_encoded(job, [&](const BakedRows& rows) {
+  const BakeResult result = bake_encoded(job, [&](const BakedRows& rows) {
     const OIIO::ROI roi(0, job.settings.width, rows.first, rows.first + rows.rows, 0, 1, 0,
                         image.nchannels());
     return image.set_pixels(roi, OIIO::TypeDesc::FLOAT, rows.texels.data());
   });
-  if (!finished) return job.control.stop.stop_requested() ? "stopped" : image.geterror();
+  if (result != BakeResult::done) return reason(result, image.geterror());
   // Else tiles lie in the order they are ready. The smaller levels have no attribute of
   // their own for it, only the process has.
   OIIO::attribute("tiff:multithread", 0);
@@ -296,12 +310,14 @@ bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSett
   const Format* format = format_of(std::filesystem::path(path).extension().string());
   Cut cut;
   std::optional<Diagnostic> complaint;
+  bool too_many_steps = false;
   Diagnostics writing;
   const bool done = write_atomically(
       path,
       [&](const std::string& file) -> std::string {
         if (format == nullptr) return "unknown extension; .exr, .png and .tx can be written";
-        const Job job{kernel, output, settings, encoding, *format, control, range, &cut};
+        const Job job{kernel,  output, settings, encoding,      *format,
+                      control, range,  &cut,     too_many_steps};
         const std::string fault = fault_of(job);
         if (!fault.empty()) return fault;
         const std::string problem =
@@ -311,6 +327,10 @@ bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSett
         return complaint && complaint->severity == Severity::error ? complaint->message : problem;
       },
       writing);
+  if (too_many_steps) {
+    report_too_many_steps(kernel.outputs[output], diagnostics);
+    return false;
+  }
   const bool is_refused = complaint && complaint->severity == Severity::error;
   if (complaint) diagnostics.add(*complaint);
   if (!is_refused) {

@@ -43,7 +43,10 @@ int main(int argc, char** argv) {
   for (auto& channel : outputs) out.push_back(channel.data());
 
   // 4. Shade. Any number of threads may do this with the same kernel.
-  shader->kernel.run(in, out, points);
+  if (shader->kernel.run(in, out, points) != nacre::RunStatus::done) {
+    std::fprintf(stderr, "a loop of the shader does not end\n");
+    return 1;
+  }
   for (std::size_t i = 0; i < points; ++i) {
     for (const auto& channel : outputs) std::printf("%9.5f", double(channel[i]));
     std::printf("\n");

@@ -72,7 +72,9 @@ class MaterialBaker {
     // What asks for nothing of a point is the same at all of them.
     if (kernel->kernel.program().inputs.empty()) {
       settings.width = settings.height = 1;
-      return set_value(job, host::bake_image(*kernel, 0, settings), shader.graph.output_space);
+      const std::vector<float> texel = host::bake_image(*kernel, 0, settings);
+      if (texel.empty()) return host::report_too_many_steps(kernel->outputs[0], diagnostics_);
+      return set_value(job, texel, shader.graph.output_space);
     }
     bake_texture(job, *kernel, settings, texture);
   }

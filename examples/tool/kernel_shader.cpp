@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <charconv>
+#include <cstring>
 
 namespace nacre::tool {
 
@@ -82,8 +83,8 @@ std::string primvar_name(std::string_view group) {
 
 }  // namespace
 
-KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels)
-    : kernels_(std::move(kernels)) {
+KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop)
+    : kernels_(std::move(kernels)), stop_(stop) {
   capabilities_.scatters = kernels_->sample.has_value() && kernels_->evaluate.has_value();
   capabilities_.emits = kernels_->emission.has_value();
   capabilities_.has_opacity = kernels_->opacity.has_value();
@@ -179,7 +180,14 @@ void KernelShader::run(const Bound& bound, const ShadingBatch& batch, const void
     if (lanes == nullptr && zeros.empty()) zeros.resize(batch.count, 0.0f);
     inputs[k] = lanes != nullptr ? lanes : zeros.data();
   }
-  bound.kernel->run({inputs.data(), count}, outputs, batch.count, parameters(bound, batch));
+  const RunStatus status = bound.kernel->run({inputs.data(), count}, outputs, batch.count,
+                                             parameters(bound, batch), &stop_.flag());
+  if (status == RunStatus::done) return;
+  // The image will not be: what the render goes on with until it ends only has to be sound.
+  for (void* output : outputs) std::memset(output, 0, batch.count * sizeof(float));
+  if (status == RunStatus::stopped) return;
+  failed_ = true;
+  stop_.request();
 }
 
 void KernelShader::begin(const ShadingBatch& batch, void* state) const {

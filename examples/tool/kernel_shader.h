@@ -1,8 +1,11 @@
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
@@ -11,11 +14,43 @@
 
 namespace nacre::tool {
 
+/// Ends a render from outside and from within its kernels: one that takes too many steps
+/// has no result, and then the image has none.
+class RenderStop {
+ public:
+  RenderStop() = default;
+  RenderStop(const RenderStop&) = delete;
+  RenderStop& operator=(const RenderStop&) = delete;
+
+  /// Also when a stop is requested of the token's source.
+  void follow(std::stop_token asked) {
+    asked_.emplace(std::move(asked), [this] { request(); });
+  }
+
+  void request() {
+    flag_ = 1;
+    source_.request_stop();
+  }
+  /// For the render,
+  std::stop_token token() const { return source_.get_token(); }
+  /// and for kernels: KernelArguments::stop.
+  const std::atomic<std::uint32_t>& flag() const { return flag_; }
+
+ private:
+  std::stop_source source_;
+  std::atomic<std::uint32_t> flag_ = 0;
+  std::optional<std::stop_callback<std::function<void()>>> asked_;
+};
+
 /// The kernels of a material behind the render host's interface: binds the
 /// host's lanes to the kernels' channels by name, once.
 class KernelShader final : public host::Shader {
  public:
-  explicit KernelShader(std::unique_ptr<MaterialKernels> kernels);
+  /// `stop` is asked for when a kernel fails, and ends kernels; it lives as long.
+  KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop);
+
+  /// Whether a kernel took too many steps.
+  bool has_failed() const { return failed_; }
 
   host::Capabilities capabilities() const override { return capabilities_; }
   /// Whether any kernel reads the first uv set.
@@ -50,6 +85,8 @@ class KernelShader final : public host::Shader {
   static std::uint32_t stride(std::uint32_t count);
 
   std::unique_ptr<MaterialKernels> kernels_;
+  RenderStop& stop_;
+  mutable std::atomic<bool> failed_ = false;
   host::Capabilities capabilities_;
   bool reads_uv_ = false;
   Bound begin_, sample_, evaluate_, emission_, opacity_;

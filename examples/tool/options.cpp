@@ -91,6 +91,8 @@ void CommonOptions::add_limits(CLI::App& command) {
   add_count("--max-nodes", graph_limits.max_nodes, "Nodes of a graph, all graphs inlined");
   add_count("--max-inputs", graph_limits.max_inputs, "Inputs of one node");
   add_count("--max-instructions", compile_limits.max_instructions, "Instructions of a kernel");
+  add_count("--max-steps", compile_limits.max_steps,
+            "Steps (roughly instructions) that a kernel takes for each pass of points");
   add("--max-compile-time", compile_limits.max_seconds,
       "Seconds to compile for; then a kernel is interpreted")
       ->check(number_within(0))
@@ -148,6 +150,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.backend = parsed_backend();
   options.compile.lanes = lanes;
   options.compile.max_instructions = compile_limits.max_instructions;
+  options.compile.max_steps = compile_limits.max_steps;
   options.compile.max_seconds = compile_limits.max_seconds;
   options.max_anisotropy = anisotropy;
   options.graph.prefer = graph_limits.prefer;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "examples/common/output_file.h"
 #include "examples/render/builtin_scene.h"
@@ -82,8 +83,8 @@ struct TwoShaders {
 using Shaders = std::map<std::string, TwoShaders>;
 
 bool compile_shaders(const RenderOptions& options, const Opened& opened,
-                     const std::vector<MeshAssignment>& assignments, Shaders& shaders,
-                     Diagnostics& diagnostics) {
+                     const std::vector<MeshAssignment>& assignments, RenderStop& stop,
+                     Shaders& shaders, Diagnostics& diagnostics) {
   NotRendered not_rendered(opened, diagnostics);
   not_rendered.look_at_document();
   for (const MeshAssignment& assignment : assignments) {
@@ -105,15 +106,32 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened,
     not_rendered.look_at_material(assignment.material, *kernels);
     TwoShaders& place = shaders[assignment.key()];
     const bool has_back = kernels->has_back;
-    place.front = std::make_unique<KernelShader>(std::move(kernels));
+    place.front = std::make_unique<KernelShader>(std::move(kernels), stop);
     if (!has_back) continue;
     shader.side = Side::back;
     kernels =
         opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
-    place.back = std::make_unique<KernelShader>(std::move(kernels));
+    place.back = std::make_unique<KernelShader>(std::move(kernels), stop);
   }
   return true;
+}
+
+/// Says of which materials a kernel took too many steps.
+void report_failed(const Opened& opened, const std::vector<MeshAssignment>& assignments,
+                   const Shaders& shaders, Diagnostics& diagnostics) {
+  std::set<std::string> said;
+  for (const MeshAssignment& assignment : assignments) {
+    const auto found = shaders.find(assignment.key());
+    if (found == shaders.end() || !said.insert(assignment.material).second) continue;
+    const auto& [front, back] = found->second;
+    if (!front->has_failed() && (back == nullptr || !back->has_failed())) continue;
+    const Element* material = opened.document->root().child(assignment.material);
+    diagnostics.error("too-many-steps",
+                      material != nullptr ? location(*material) : SourceLocation{},
+                      "material '" + assignment.material +
+                          "' takes too many steps for a point, or a loop of it does not end");
+  }
 }
 
 /// What shades each mesh, and warnings of what those lack.
@@ -174,23 +192,26 @@ int run(RenderOptions& options) {
     explain_missing_material(opened, options.assignment.material, options.common.shader_options(),
                              diagnostics);
   }
+  RenderStop stop;
   Shaders shaders;
   if (diagnostics.has_errors() ||
-      !compile_shaders(options, opened, assignments, shaders, diagnostics)) {
+      !compile_shaders(options, opened, assignments, stop, shaders, diagnostics)) {
     return report(diagnostics);
   }
   auto grey = neutral_material(*opened.system, options.common.shader_options(), diagnostics);
   if (grey == nullptr) return report(diagnostics);
-  const KernelShader neutral(std::move(grey));
+  const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
 
-  const StopOnSignal stop;
+  const StopOnSignal signals;
+  stop.follow(signals.token());
   ProgressLine line("render", options.common.quiet);
   const host::RenderControl control{.stop = stop.token(),
                                     .progress = [&](double share) { line.update(share); }};
   host::RenderStatistics statistics;
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
   report_invalid_results(statistics, diagnostics);
+  report_failed(opened, assignments, shaders, diagnostics);
   if (film && host::write_image(*film, options.out, options.write, diagnostics) &&
       !options.common.quiet) {
     fmt::print("{}\n", options.out);

@@ -88,8 +88,10 @@ std::string llvm_version() {
 
 std::string code_key(const Program& program, const CodegenOptions& options) {
   // The name last: it may be any text.
-  return fmt::format("nacre kernel {} build {} llvm {}\n{}\n{}\n{}", code_version, build_id(),
-                     llvm_version(), to_hex(code_digest(program)), options.key(), program.name);
+  const bool is_counted = StepLimit(program, options.max_steps).is_counted();
+  return fmt::format("nacre kernel {} build {} llvm {}\n{}\n{}{}\n{}", code_version, build_id(),
+                     llvm_version(), to_hex(code_digest(program)), options.key(),
+                     is_counted ? " counted" : "", program.name);
 }
 
 }  // namespace nacre

@@ -5,6 +5,7 @@
 
 #include "jit/llvm/function_emitter.h"
 #include "jit/llvm/hoist.h"
+#include "jit/llvm/run_state.h"
 
 namespace nacre::codegen {
 
@@ -42,10 +43,23 @@ void emit_entry(ModuleEmitter& module, llvm::Function& into) {
   llvm::PHINode* point = b.CreatePHI(b.getInt64Ty(), 2, "point");
   point->addIncoming(b.getInt64(0), before);
   e.first_point = point;
+  // A loop that takes too many steps ends, and so do those around it; so this is reached.
+  const StepLimit& limit = module.limit();
+  if (limit.is_counted()) {
+    // Each pass has its own; what the hoisted part took too many of is not forgotten.
+    Value* most = field(offsetof(RunState, max_steps), b.getInt64Ty(), "max_steps");
+    Value* left = e.load_steps_left();
+    e.store_steps_left(b.CreateSelect(b.CreateICmpSLT(left, b.getInt64(0)), left, most));
+  }
   emit_part(e, hoisted, false);
   Value* following = b.CreateAdd(point, b.getInt64(static_cast<std::uint64_t>(module.lanes())));
   point->addIncoming(following, b.GetInsertBlock());
-  b.CreateCondBr(b.CreateICmpULT(following, count), batch, leave);
+  Value* goes_on = b.CreateICmpULT(following, count);
+  if (limit.can_fail()) {
+    goes_on = b.CreateAnd(goes_on, b.CreateICmpSGE(e.load_steps_left(), b.getInt64(0)));
+  }
+  if (limit.is_counted()) goes_on = b.CreateAnd(goes_on, b.CreateNot(e.load_stop()));
+  b.CreateCondBr(goes_on, batch, leave);
   b.SetInsertPoint(leave);
   b.CreateRetVoid();
 }

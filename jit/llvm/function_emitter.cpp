@@ -1,7 +1,9 @@
 #include "jit/llvm/function_emitter.h"
 
 #include <cassert>
+#include <cstddef>
 
+#include "jit/llvm/run_state.h"
 #include "runtime/program/fold.h"
 
 namespace nacre::codegen {
@@ -99,6 +101,25 @@ llvm::LoadInst* FunctionEmitter::load_invariant(llvm::Type* type, llvm::Value* f
 llvm::Value* FunctionEmitter::byte_offset(llvm::Value* base, std::size_t bytes) {
   if (bytes == 0) return base;
   return builder_.CreateConstInBoundsGEP1_64(builder_.getInt8Ty(), base, bytes);
+}
+
+llvm::Value* FunctionEmitter::load_steps_left() {
+  llvm::Value* from = byte_offset(kernel_arguments, offsetof(RunState, steps_left));
+  return builder_.CreateAlignedLoad(builder_.getInt64Ty(), from, llvm::Align(8), "steps");
+}
+
+void FunctionEmitter::store_steps_left(llvm::Value* value) {
+  llvm::Value* to = byte_offset(kernel_arguments, offsetof(RunState, steps_left));
+  builder_.CreateAlignedStore(value, to, llvm::Align(8));
+}
+
+llvm::Value* FunctionEmitter::load_stop() {
+  llvm::Value* flag = load_invariant(
+      builder_.getPtrTy(), byte_offset(kernel_arguments, offsetof(KernelArguments, stop)), "stop");
+  llvm::LoadInst* load =
+      builder_.CreateAlignedLoad(builder_.getInt32Ty(), flag, llvm::Align(4), "stop.value");
+  load->setAtomic(llvm::AtomicOrdering::Monotonic);
+  return builder_.CreateICmpNE(load, i32(0));
 }
 
 llvm::Value* FunctionEmitter::flush(llvm::Value* x) {

@@ -58,6 +58,11 @@ class FunctionEmitter {
   /// A load of memory that does not change while the kernel runs.
   llvm::LoadInst* load_invariant(llvm::Type* type, llvm::Value* from, const char* name = "");
   llvm::Value* byte_offset(llvm::Value* base, std::size_t bytes);
+  /// RunState::steps_left, which loops change.
+  llvm::Value* load_steps_left();
+  void store_steps_left(llvm::Value* value);
+  /// Whether KernelArguments::stop asks to end, as b1.
+  llvm::Value* load_stop();
 
   /// x with denormals as zero, for f32 of unknown origin. Multiplying by one in
   /// a denormals-are-zero environment does that in one instruction that also
@@ -66,7 +71,7 @@ class FunctionEmitter {
   /// The bits of x with every NaN as 0x7fc00000.
   llvm::Value* canonical_bits(llvm::Value* x);
 
-  llvm::Value* kernel_arguments = nullptr;  ///< const KernelArguments*.
+  llvm::Value* kernel_arguments = nullptr;  ///< RunState*, which begins with them.
   llvm::Value* input_pointers = nullptr;    ///< In the entry: arrays by channel,
   llvm::Value* output_pointers = nullptr;
   llvm::Value* first_point = nullptr;  ///< and the batch's first index in them.

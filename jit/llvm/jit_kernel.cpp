@@ -8,11 +8,15 @@ namespace {
 
 class JitKernel final : public Kernel {
  public:
-  JitKernel(Program program, std::shared_ptr<const LoadedCode> code, int lanes)
-      : program_(std::move(program)), code_(std::move(code)), lanes_(lanes) {}
+  JitKernel(Program program, std::shared_ptr<const LoadedCode> code, int lanes,
+            std::uint64_t max_steps)
+      : program_(std::move(program)),
+        code_(std::move(code)),
+        lanes_(lanes),
+        limit_(program_, max_steps) {}
 
-  void run(const KernelArguments& arguments) const override {
-    run_code(code_->entry(), program_, lanes_, arguments);
+  RunStatus run(const KernelArguments& arguments) const override {
+    return run_code(code_->entry(), program_, lanes_, limit_, arguments);
   }
   const Program& program() const override { return program_; }
   int lanes() const override { return lanes_; }
@@ -22,13 +26,15 @@ class JitKernel final : public Kernel {
   Program program_;
   std::shared_ptr<const LoadedCode> code_;
   int lanes_;
+  StepLimit limit_;
 };
 
 }  // namespace
 
 std::shared_ptr<const Kernel> make_jit_kernel(Program program,
-                                              std::shared_ptr<const LoadedCode> code, int lanes) {
-  return std::make_shared<JitKernel>(std::move(program), std::move(code), lanes);
+                                              std::shared_ptr<const LoadedCode> code, int lanes,
+                                              std::uint64_t max_steps) {
+  return std::make_shared<JitKernel>(std::move(program), std::move(code), lanes, max_steps);
 }
 
 }  // namespace nacre

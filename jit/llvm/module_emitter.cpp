@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 
@@ -18,7 +19,16 @@ ModuleEmitter::ModuleEmitter(const Program& program, const CodegenOptions& optio
       options_(options),
       features_(features),
       module_(module),
-      tables_(program.tables.size(), nullptr) {}
+      limit_(program, options.max_steps),
+      tables_(program.tables.size(), nullptr) {
+  if (limit_.is_counted()) costs_ = function_costs(program);
+}
+
+std::int64_t ModuleEmitter::steps_of_round(const Function& function, ValueId open) const {
+  const auto index = static_cast<std::size_t>(&function - program_.functions.data());
+  // More than every limit, and a long way from where the counter would wrap.
+  return static_cast<std::int64_t>(std::min(costs_[index].rounds.at(open), 1e15));
+}
 
 void ModuleEmitter::emit(const std::string& symbol) {
   auto* type = llvm::FunctionType::get(llvm::Type::getVoidTy(context()),

@@ -10,6 +10,7 @@
 #include "jit/llvm/features.h"
 #include "jit/llvm/llvm.h"
 #include "jit/llvm/options.h"
+#include "runtime/program/cost.h"
 #include "runtime/program/program.h"
 
 namespace nacre::codegen {
@@ -24,7 +25,7 @@ class ModuleEmitter {
   ModuleEmitter(const Program& program, const CodegenOptions& options, const Features& features,
                 llvm::Module& module);
 
-  /// Emits the entry, `void symbol(const KernelArguments*)`, and all it calls.
+  /// Emits the entry, `void symbol(RunState*)`, and all it calls.
   void emit(const std::string& symbol);
 
   const Program& program() const { return program_; }
@@ -32,6 +33,10 @@ class ModuleEmitter {
   llvm::Module& module() { return module_; }
   llvm::LLVMContext& context() { return module_.getContext(); }
   int lanes() const { return options_.lanes; }
+  const StepLimit& limit() const { return limit_; }
+  /// Steps of a round of the loop that instruction `open` of a function opens; only where
+  /// they are counted.
+  std::int64_t steps_of_round(const Function& function, ValueId open) const;
   bool is_fast() const { return options_.accuracy == Accuracy::fast; }
 
   llvm::Type* scalar_type(Scalar scalar);
@@ -65,6 +70,8 @@ class ModuleEmitter {
   const CodegenOptions& options_;
   const Features& features_;
   llvm::Module& module_;
+  StepLimit limit_;
+  std::vector<FunctionCost> costs_;  ///< Where they are counted.
   std::map<std::pair<std::uint32_t, int>, llvm::Function*> instances_;
   std::vector<llvm::GlobalVariable*> tables_;
   llvm::GlobalVariable* one_ = nullptr;

@@ -137,13 +137,39 @@ Value* again(FunctionEmitter& e, ValueId id) {
   return nullptr;
 }
 
+/// Takes a round's steps off what is left; whether there were enough, and nobody asks to
+/// stop. Once there were not, the loops around end at their next round too.
+Value* count_round(FunctionEmitter& e, ValueId open) {
+  Builder& b = e.builder();
+  const auto steps = static_cast<std::uint64_t>(e.module().steps_of_round(e.function(), open));
+  Value* left = b.CreateSub(e.load_steps_left(), b.getInt64(steps));
+  e.store_steps_left(left);
+  return b.CreateAnd(b.CreateICmpSGE(left, b.getInt64(0)), b.CreateNot(e.load_stop()));
+}
+
+/// The end of a latch from which a loop is left into a block that fails the run if
+/// `exceeds` says so. The builder stands in that block afterwards.
+void leave_by_fault(FunctionEmitter& e, Value* goes_on, BasicBlock* header, Value* exceeds) {
+  Builder& b = e.builder();
+  BasicBlock* leaving = new_block(e, "leaving");
+  b.CreateCondBr(goes_on, header, leaving);
+  b.SetInsertPoint(leaving);
+  Value* left = e.load_steps_left();
+  e.store_steps_left(b.CreateSelect(exceeds, b.getInt64(~std::uint64_t{0}), left));
+}
+
 Value* end_loop(FunctionEmitter& e, ValueId) {
   const Region region = std::move(e.regions.back());
   e.regions.pop_back();
   Builder& b = e.builder();
+  const std::uint32_t imm = e.at(region.open).imm;
   Value* count = b.CreateAdd(region.iteration, e.i32(1));
-  Value* below = b.CreateICmpULT(count, e.i32(e.at(region.open).imm));
-  Value* goes_on = b.CreateAnd(below, e.any(e.unkept(region.again, Scalar::b1)));
+  Value* below = b.CreateICmpULT(count, e.i32(loop_bound(imm)));
+  Value* wants_more = e.any(e.unkept(region.again, Scalar::b1));
+  Value* goes_on = b.CreateAnd(below, wants_more);
+  if (e.module().limit().is_counted()) {
+    goes_on = b.CreateAnd(goes_on, count_round(e, region.open));
+  }
   if (region.active != nullptr) {
     region.active->addIncoming(region.again, b.GetInsertBlock());
   }
@@ -154,7 +180,14 @@ Value* end_loop(FunctionEmitter& e, ValueId) {
                                             : e.keep(carry.next, e.lanes_of(carry.next)));
   }
   BasicBlock* latch = b.GetInsertBlock();
-  b.CreateCondBr(goes_on, region.header, region.after);
+  BasicBlock* last = latch;  // The one before `after`.
+  if ((imm & loop_must_end) != 0) {
+    leave_by_fault(e, goes_on, region.header, b.CreateAnd(wants_more, b.CreateNot(below)));
+    last = b.GetInsertBlock();
+    b.CreateBr(region.after);
+  } else {
+    b.CreateCondBr(goes_on, region.header, region.after);
+  }
   region.iteration->addIncoming(count, latch);
   b.SetInsertPoint(region.after);
   for (std::size_t k = 0; k < finals.size(); ++k) {
@@ -162,7 +195,7 @@ Value* end_loop(FunctionEmitter& e, ValueId) {
     carry.phi->addIncoming(finals[k], latch);
     if (carry.next == no_value) continue;
     llvm::PHINode* final = b.CreatePHI(carry.phi->getType(), 2);
-    final->addIncoming(finals[k], latch);
+    final->addIncoming(finals[k], last);
     if (!region.always) final->addIncoming(carry.initial, region.before);
     e.define(carry.next, final);
   }

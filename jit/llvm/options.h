@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "runtime/program/cost.h"
 #include "runtime/program/program.h"
 
 namespace nacre {
@@ -43,6 +44,9 @@ struct CodegenOptions {
   /// assumes that there are no NaN or infinities.
   Accuracy accuracy = Accuracy::standard;
   Tier tier = Tier::full;
+  /// Beyond what a pass may take at most, code counts; see runtime/program/cost.h. Which
+  /// limit it is does not change the code.
+  std::uint64_t max_steps = default_max_steps;
 
   /// A text that is equal for equal options only; part of the cache's key.
   std::string key() const;

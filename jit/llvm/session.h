@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
 #include "jit/llvm/codegen.h"
 #include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
+#include "runtime/program/cost.h"
 
 namespace nacre {
 
@@ -17,10 +19,12 @@ struct SessionOptions {
   bool perf = false;  ///< Linux perf, through a jitdump file in ~/.debug/jit.
 };
 
+struct RunState;
+
 /// Machine code in memory. It stays there while a handle to it is held.
 class LoadedCode {
  public:
-  using Entry = void (*)(const KernelArguments*);
+  using Entry = void (*)(RunState*);
 
   virtual ~LoadedCode() = default;
   /// For whole batches, in the caller's floating-point environment: run it by
@@ -46,8 +50,9 @@ class JitSession {
                                                  Diagnostics& diagnostics) = 0;
 };
 
-/// A Kernel of that code; `lanes` as in the options it was compiled with.
+/// A Kernel of that code; `lanes` and `max_steps` as in the options it was compiled with.
 std::shared_ptr<const Kernel> make_jit_kernel(Program program,
-                                              std::shared_ptr<const LoadedCode> code, int lanes);
+                                              std::shared_ptr<const LoadedCode> code, int lanes,
+                                              std::uint64_t max_steps = default_max_steps);
 
 }  // namespace nacre

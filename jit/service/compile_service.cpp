@@ -69,19 +69,19 @@ class Workshop {
     std::vector<std::shared_ptr<CompileJob>> jobs;
     for (Program& program : programs) {
       if (session_ == nullptr) {
-        kernels.push_back(interpreting_kernel(std::move(program), no_session_));
+        kernels.push_back(interpreting_kernel(std::move(program), options.max_steps, no_session_));
         continue;
       }
       auto shared = std::make_shared<const Program>(std::move(program));
       const std::shared_ptr<CompileJob> job = joined_job(shared, options, true);
-      kernels.push_back(std::make_shared<ServiceKernel>(shared, options.lanes, job, nullptr));
+      kernels.push_back(std::make_shared<ServiceKernel>(shared, options, job, nullptr));
       jobs.push_back(job);
     }
     if (session_ == nullptr) return kernels;
     for (std::size_t i = 0; i < kernels.size(); ++i) {
       std::shared_ptr<CompiledKernel>& kernel = kernels[i];
       if (!jobs[i]->wait(stop)) {
-        kernel = late_kernel(kernel->program(), stop, diagnostics);
+        kernel = late_kernel(kernel->program(), options.max_steps, stop, diagnostics);
         continue;
       }
       const bool ready = kernel->wait();
@@ -95,16 +95,19 @@ class Workshop {
   }
 
   std::shared_ptr<CompiledKernel> request_async(Program program, const CodegenOptions& options) {
-    if (session_ == nullptr) return interpreting_kernel(std::move(program), no_session_);
-    auto interpreter = make_interpreter(program);
+    if (session_ == nullptr) {
+      return interpreting_kernel(std::move(program), options.max_steps, no_session_);
+    }
+    auto interpreter = make_interpreter(program, options.max_steps);
     auto shared = std::make_shared<const Program>(std::move(program));
     const std::shared_ptr<CompileJob> job = joined_job(shared, options, false);
-    return std::make_shared<ServiceKernel>(shared, options.lanes, job, std::move(interpreter));
+    return std::make_shared<ServiceKernel>(shared, options, job, std::move(interpreter));
   }
 
  private:
   /// In the place of one whose code is not ready; nobody waits for that any more.
-  static std::shared_ptr<CompiledKernel> late_kernel(const Program& program, const Stop& stop,
+  static std::shared_ptr<CompiledKernel> late_kernel(const Program& program,
+                                                     std::uint64_t max_steps, const Stop& stop,
                                                      Diagnostics& diagnostics) {
     if (stop.is_requested()) {
       report_if_due(stop, fmt::format("compiling '{}'", program.name), {}, diagnostics);
@@ -115,7 +118,7 @@ class Workshop {
                 fmt::format("compiling '{}' takes too long, so it is interpreted", program.name),
                 fmt::format("at most {} seconds", stop.seconds()));
     diagnostics.add(why.all().front());
-    return interpreting_kernel(program, std::move(why));
+    return interpreting_kernel(program, max_steps, std::move(why));
   }
 
   /// The job for this code, new and begun or one that is under way or done.
@@ -233,6 +236,7 @@ CodegenOptions codegen_options(const CompileOptions& options) {
   CodegenOptions made;
   made.accuracy = options.accuracy;
   made.lanes = options.lanes != 0 ? options.lanes : widest_lanes(made.target);
+  made.max_steps = options.max_steps;
   return made;
 }
 

@@ -11,10 +11,12 @@ namespace {
 
 class InterpretingKernel final : public CompiledKernel {
  public:
-  InterpretingKernel(Program program, Diagnostics why)
-      : interpreter_(make_interpreter(std::move(program))), why_(std::move(why)) {}
+  InterpretingKernel(Program program, std::uint64_t max_steps, Diagnostics why)
+      : interpreter_(make_interpreter(std::move(program), max_steps)), why_(std::move(why)) {}
 
-  void run(const KernelArguments& arguments) const override { interpreter_->run(arguments); }
+  RunStatus run(const KernelArguments& arguments) const override {
+    return interpreter_->run(arguments);
+  }
   const Program& program() const override { return interpreter_->program(); }
   int lanes() const override { return interpreter_->lanes(); }
   const char* engine() const override { return interpreter_->engine(); }
@@ -31,20 +33,21 @@ class InterpretingKernel final : public CompiledKernel {
 
 }  // namespace
 
-ServiceKernel::ServiceKernel(std::shared_ptr<const Program> program, int lanes,
+ServiceKernel::ServiceKernel(std::shared_ptr<const Program> program, const CodegenOptions& options,
                              std::shared_ptr<CompileJob> job, std::unique_ptr<Kernel> interpreter)
     : program_(std::move(program)),
-      lanes_(lanes),
+      lanes_(options.lanes),
+      limit_(*program_, options.max_steps),
       job_(std::move(job)),
       interpreter_(std::move(interpreter)) {}
 
 ServiceKernel::~ServiceKernel() { cancel(); }
 
-void ServiceKernel::run(const KernelArguments& arguments) const {
+RunStatus ServiceKernel::run(const KernelArguments& arguments) const {
   // Code that was seen once stays: the job holds it, and this kernel the job.
   const LoadedCode::Entry entry = job_->entry();
   if (entry == nullptr) return interpreter_->run(arguments);
-  run_code(entry, *program_, lanes_, arguments);
+  return run_code(entry, *program_, lanes_, limit_, arguments);
 }
 
 int ServiceKernel::lanes() const {
@@ -59,8 +62,9 @@ void ServiceKernel::cancel() {
   if (!left_.exchange(true)) job_->leave();
 }
 
-std::shared_ptr<CompiledKernel> interpreting_kernel(Program program, Diagnostics why) {
-  return std::make_shared<InterpretingKernel>(std::move(program), std::move(why));
+std::shared_ptr<CompiledKernel> interpreting_kernel(Program program, std::uint64_t max_steps,
+                                                    Diagnostics why) {
+  return std::make_shared<InterpretingKernel>(std::move(program), max_steps, std::move(why));
 }
 
 }  // namespace nacre

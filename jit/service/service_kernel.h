@@ -14,11 +14,11 @@ class ServiceKernel final : public CompiledKernel {
  public:
   /// `interpreter` answers until the code is there; null if that is awaited. The
   /// job has been joined.
-  ServiceKernel(std::shared_ptr<const Program> program, int lanes, std::shared_ptr<CompileJob> job,
-                std::unique_ptr<Kernel> interpreter);
+  ServiceKernel(std::shared_ptr<const Program> program, const CodegenOptions& options,
+                std::shared_ptr<CompileJob> job, std::unique_ptr<Kernel> interpreter);
   ~ServiceKernel() override;
 
-  void run(const KernelArguments& arguments) const override;
+  RunStatus run(const KernelArguments& arguments) const override;
   const Program& program() const override { return *program_; }
   int lanes() const override;
   const char* engine() const override;
@@ -32,12 +32,14 @@ class ServiceKernel final : public CompiledKernel {
  private:
   std::shared_ptr<const Program> program_;
   int lanes_;
+  StepLimit limit_;
   std::shared_ptr<CompileJob> job_;
   std::unique_ptr<Kernel> interpreter_;
   std::atomic<bool> left_ = false;
 };
 
 /// A kernel for where there is no JIT: it never becomes ready.
-std::shared_ptr<CompiledKernel> interpreting_kernel(Program program, Diagnostics why);
+std::shared_ptr<CompiledKernel> interpreting_kernel(Program program, std::uint64_t max_steps,
+                                                    Diagnostics why);
 
 }  // namespace nacre

@@ -22,18 +22,20 @@ std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) c
   return std::nullopt;
 }
 
-void BoundKernel::run(std::span<const void* const> inputs, std::span<void* const> outputs,
-                      std::uint64_t count, std::span<const std::uint32_t> parameters) const {
+RunStatus BoundKernel::run(std::span<const void* const> inputs, std::span<void* const> outputs,
+                           std::uint64_t count, std::span<const std::uint32_t> parameters,
+                           const std::atomic<std::uint32_t>* stop) const {
   assert(inputs.size() == program().inputs.size());
   assert(outputs.size() == program().outputs.size());
   assert(parameters.empty() || parameters.size() == parameters_.size());
-  kernel_->run({.inputs = inputs.data(),
-                .outputs = outputs.data(),
-                .parameters = parameters.empty() ? parameters_.data() : parameters.data(),
-                .textures = bindings_.data(),
-                .texture_callback = &RecordedTextures::look_up,
-                .texture_user = const_cast<RecordedTextures*>(textures_.get()),
-                .count = count});
+  return kernel_->run({.inputs = inputs.data(),
+                       .outputs = outputs.data(),
+                       .parameters = parameters.empty() ? parameters_.data() : parameters.data(),
+                       .textures = bindings_.data(),
+                       .texture_callback = &RecordedTextures::look_up,
+                       .texture_user = const_cast<RecordedTextures*>(textures_.get()),
+                       .count = count,
+                       .stop = stop});
 }
 
 }  // namespace nacre

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -29,9 +30,10 @@ class BoundKernel {
   /// Index of a slot in the block, if this kernel reads it.
   std::optional<std::size_t> parameter_index(std::string_view name) const;
 
-  /// See KernelArguments. `parameters` empty: those of the document.
-  void run(std::span<const void* const> inputs, std::span<void* const> outputs, std::uint64_t count,
-           std::span<const std::uint32_t> parameters = {}) const;
+  /// See KernelArguments and RunStatus. `parameters` empty: those of the document.
+  [[nodiscard]] RunStatus run(std::span<const void* const> inputs, std::span<void* const> outputs,
+                              std::uint64_t count, std::span<const std::uint32_t> parameters = {},
+                              const std::atomic<std::uint32_t>* stop = nullptr) const;
 
  private:
   std::shared_ptr<const Kernel> kernel_;

@@ -25,13 +25,16 @@ struct Prepared {
   RegisterMap registers;
   std::vector<bool> once;
   std::vector<std::size_t> end;  ///< By opening instruction: the closing one.
+  std::vector<double> round;     ///< By instruction that opens a loop: steps of a round.
 };
 
-Prepared prepare(const Function& function) {
+Prepared prepare(const Function& function, const FunctionCost& cost) {
   Prepared prepared{.function = &function,
                     .registers = assign_registers(function),
                     .once = once_per_call(function),
-                    .end = std::vector<std::size_t>(function.code.size(), 0)};
+                    .end = std::vector<std::size_t>(function.code.size(), 0),
+                    .round = std::vector<double>(function.code.size(), 0)};
+  for (const auto& [open, steps] : cost.rounds) prepared.round[open] = steps;
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < function.code.size(); ++i) {
     if (opens_region(function.code[i].op)) open.push_back(i);
@@ -49,18 +52,23 @@ bool any(const Register& mask) {
 /// The state of one run() on one thread.
 class Run {
  public:
-  Run(const Program& program, const std::vector<Prepared>& functions, const KernelArguments& args)
-      : program_(program), functions_(functions), args_(args), ops_(lane_ops()) {}
+  Run(const Program& program, const std::vector<Prepared>& functions, const StepLimit& limit,
+      const KernelArguments& args)
+      : program_(program), functions_(functions), limit_(limit), args_(args), ops_(lane_ops()) {}
 
-  void all_blocks() {
+  RunStatus all_blocks() {
     const Prepared& entry = functions_.front();
     frames_.resize(entry.registers.count);
     Frame frame{.base = 0, .prepared = &entry};
     fill_once(frame);
     for (first_ = 0; first_ < args_.count; first_ += block_lanes) {
       lanes_ = static_cast<int>(std::min<std::uint64_t>(block_lanes, args_.count - first_));
+      steps_left_ = static_cast<double>(limit_.max_steps());
       execute(frame);
+      if (steps_left_ < 0) return RunStatus::too_many_steps;
+      if (is_asked_to_stop()) return RunStatus::stopped;
     }
+    return RunStatus::done;
   }
 
  private:
@@ -77,6 +85,10 @@ class Run {
     std::uint32_t iteration = 0;
     Register active;
   };
+
+  bool is_asked_to_stop() const {
+    return args_.stop != nullptr && args_.stop->load(std::memory_order_relaxed) != 0;
+  }
 
   Register& reg(const Frame& frame, ValueId id) {
     return frames_[frame.base + frame.prepared->registers.of[id]];
@@ -193,14 +205,25 @@ class Run {
   std::size_t close_loop(const Frame& frame, std::size_t i, std::vector<LoopState>& loops) {
     const Function& function = *frame.prepared->function;
     LoopState& state = loops.back();
-    const Instruction& opening = function.code[state.start];
-    if (++state.iteration < opening.imm && any(state.active)) {
+    const std::uint32_t imm = function.code[state.start].imm;
+    const bool wants_more = any(state.active);
+    const bool may_more = ++state.iteration < loop_bound(imm);
+    if (wants_more && !may_more && (imm & loop_must_end) != 0) steps_left_ = -1;
+    if (wants_more && may_more && pays_for_round(frame, state.start)) {
       for_each_next(frame, state.start,
                     [&](ValueId next, ValueId carry) { reg(frame, carry) = reg(frame, next); });
       return state.start;
     }
     loops.pop_back();
     return i;
+  }
+
+  /// False once there were too many steps, or somebody asks to stop: then the loops around
+  /// end too, at their next round, and the block comes to its end.
+  bool pays_for_round(const Frame& frame, std::size_t opening) {
+    if (!limit_.is_counted()) return true;
+    steps_left_ -= frame.prepared->round[opening];
+    return steps_left_ >= 0 && !is_asked_to_stop();
   }
 
   template <class F>
@@ -251,7 +274,8 @@ class Run {
     const auto* source = static_cast<const std::uint32_t*>(args_.inputs[instruction.imm]) + first_;
     Register& to = reg(frame, id);
     for (int k = 0; k < block_lanes; ++k) {
-      const std::uint32_t bits = k < lanes_ ? source[k] : 0u;
+      // Beyond the batch the last point is repeated: no lane takes a way of its own.
+      const std::uint32_t bits = source[std::min(k, lanes_ - 1)];
       if (instruction.type == Scalar::f32) to[k] = flush_denormal(bits);
       if (instruction.type == Scalar::i32) to[k] = bits;
       if (instruction.type == Scalar::b1) to[k] = bits != 0 ? all_ones : 0u;
@@ -335,6 +359,7 @@ class Run {
 
   const Program& program_;
   const std::vector<Prepared>& functions_;
+  const StepLimit& limit_;
   const KernelArguments& args_;
   const LaneOps& ops_;
   std::vector<Register> frames_;
@@ -342,17 +367,22 @@ class Run {
   std::vector<Register> results_pending_;  ///< Of the function being executed.
   std::uint64_t first_ = 0;
   int lanes_ = block_lanes;
+  double steps_left_ = 0;  ///< Of the block; below zero: the run has failed.
 };
 
 class Interpreter final : public Kernel {
  public:
-  explicit Interpreter(Program program) : program_(std::move(program)) {
-    for (const Function& function : program_.functions) functions_.push_back(prepare(function));
+  Interpreter(Program program, std::uint64_t max_steps)
+      : program_(std::move(program)), limit_(program_, max_steps) {
+    const std::vector<FunctionCost> costs = function_costs(program_);
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+      functions_.push_back(prepare(program_.functions[i], costs[i]));
+    }
   }
 
-  void run(const KernelArguments& arguments) const override {
+  RunStatus run(const KernelArguments& arguments) const override {
     const ScopedFloatEnvironment environment;
-    Run(program_, functions_, arguments).all_blocks();
+    return Run(program_, functions_, limit_, arguments).all_blocks();
   }
   const Program& program() const override { return program_; }
   int lanes() const override { return block_lanes; }
@@ -360,13 +390,14 @@ class Interpreter final : public Kernel {
 
  private:
   Program program_;
+  StepLimit limit_;
   std::vector<Prepared> functions_;
 };
 
 }  // namespace
 
-std::unique_ptr<Kernel> make_interpreter(Program program) {
-  return std::make_unique<Interpreter>(std::move(program));
+std::unique_ptr<Kernel> make_interpreter(Program program, std::uint64_t max_steps) {
+  return std::make_unique<Interpreter>(std::move(program), max_steps);
 }
 
 }  // namespace nacre

@@ -113,7 +113,9 @@ enum class Op : std::uint8_t {
   merge,   ///< (inner, outer) Last in an if_any region, visible after it: inner
            ///< in the lanes of the mask, outer in the others.
   end_if,
-  loop,   ///< (b1 mask) Runs its region at most imm times while any lane is active.
+  loop,   ///< (b1 mask) Runs its region at most loop_bound(imm) times while any lane is
+          ///< active. With loop_must_end in imm it is an error if one still is then: the
+          ///< run ends, RunStatus::too_many_steps.
   carry,  ///< (initial) First in a loop region: the value carried by a lane.
   next,   ///< (carry, value) Last but one in a loop region: what the carry becomes
           ///< in active lanes. Visible after the loop as the final value.
@@ -143,6 +145,10 @@ struct OpInfo {
 };
 
 const OpInfo& info(Op op);
+/// In the imm of a loop: more rounds than its bound are no result, but an error.
+inline constexpr std::uint32_t loop_must_end = 0x80000000u;
+constexpr std::uint32_t loop_bound(std::uint32_t imm) { return imm & ~loop_must_end; }
+
 inline constexpr int op_count = static_cast<int>(Op::store) + 1;
 
 /// Opens a region: if_any, loop.

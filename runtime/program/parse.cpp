@@ -245,10 +245,16 @@ class Parser {
         to.imm = number<std::uint32_t>(name.substr(name.rfind('.') + 1), "@name.index");
         break;
       }
+      case Op::loop: {
+        std::string_view bound = words.take();
+        const bool must_end = bound.ends_with('!');
+        if (must_end) bound.remove_suffix(1);
+        to.imm = number<std::uint32_t>(bound, "a number") | (must_end ? loop_must_end : 0u);
+        break;
+      }
       case Op::argument:
       case Op::give:
       case Op::result:
-      case Op::loop:
       case Op::keep:
       case Op::ddx:
       case Op::texture_call: to.imm = number<std::uint32_t>(words.take(), "a number"); break;

@@ -52,10 +52,13 @@ void put_imm(Buffer& text, const Program& program, const Instruction& instructio
     case Op::call:
       put(text, " @{}.{}", program.functions[instruction.imm].name, instruction.imm);
       break;
+    case Op::loop:
+      put(text, " {}{}", loop_bound(instruction.imm),
+          (instruction.imm & loop_must_end) != 0 ? "!" : "");
+      break;
     case Op::argument:
     case Op::give:
     case Op::result:
-    case Op::loop:
     case Op::keep:
     case Op::ddx:
     case Op::texture_call: put(text, " {}", instruction.imm); break;

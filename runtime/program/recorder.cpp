@@ -165,6 +165,7 @@ Ref Recorder::append(Instruction instruction, bool varying) {
   auto& list = code().code;
   const auto id = static_cast<ValueId>(list.size());
   list.push_back(instruction);
+  ++size_;
   Open& open = open_.back();
   open.varying.push_back(varying);
   open.home.push_back(open.regions.back());
@@ -192,6 +193,7 @@ void Recorder::open_region(Op op, Ref mask, std::uint32_t imm) {
   append(instruction, is_varying(mask));
   Open& open = open_.back();
   open.regions.push_back(open.next_region++);
+  open.masks.push_back(op == Op::if_any ? mask : Ref::literal(true));
   open.scopes.emplace_back();
 }
 
@@ -199,6 +201,7 @@ void Recorder::close_region(Op op) {
   Open& open = open_.back();
   assert(open.regions.size() > 1);
   open.regions.pop_back();
+  open.masks.pop_back();
   open.scopes.pop_back();
   append(leaf(op, Scalar::none, 0), false);
 }
@@ -220,7 +223,13 @@ Ref Recorder::merge(Ref inner, Ref outer) {
 
 void Recorder::end_if() { close_region(Op::end_if); }
 
-void Recorder::begin_loop(Ref mask, std::uint32_t bound) { open_region(Op::loop, mask, bound); }
+Ref Recorder::needed_lanes() {
+  Ref lanes = Ref::literal(true);
+  for (const Ref mask : open_.back().masks) lanes = emit(Op::band, std::array{lanes, mask});
+  return lanes;
+}
+
+void Recorder::begin_loop(Ref mask, std::uint32_t imm) { open_region(Op::loop, mask, imm); }
 
 Ref Recorder::carry(Ref initial) {
   Instruction instruction = leaf(Op::carry, initial.type, 0);

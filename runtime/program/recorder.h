@@ -55,13 +55,19 @@ class Recorder {
   bool visible(Ref x) const { return in_scope(x.id); }
   /// True for what differs from lane to lane: depends on an input.
   bool is_varying(Ref x) const;
+  /// Instructions recorded so far, of all functions, those under construction included.
+  std::size_t size() const { return size_; }
+  /// The lanes that need what is recorded now, as far as the if_any regions tell that are
+  /// open in the current function.
+  Ref needed_lanes();
 
   // -- Regions; use if_any() and loop() of runtime/value/control.h. --
 
   void begin_if(Ref mask);
   Ref merge(Ref inner, Ref outer);
   void end_if();
-  void begin_loop(Ref mask, std::uint32_t bound);
+  /// `imm` as of Op::loop: a bound, or one with loop_must_end.
+  void begin_loop(Ref mask, std::uint32_t imm);
   Ref carry(Ref initial);
   Ref next(Ref carry, Ref value);
   void again(Ref condition);
@@ -109,6 +115,7 @@ class Recorder {
     std::vector<bool> varying;           ///< By value id.
     std::vector<std::uint32_t> home;     ///< By value id: the region it stands in.
     std::vector<std::uint32_t> regions;  ///< Regions open, outermost first.
+    std::vector<Ref> masks{};            ///< Of those but the first.
     std::uint32_t next_region = 1;
   };
 
@@ -127,6 +134,7 @@ class Recorder {
   std::unordered_map<std::string, ValueId> list_keys_;
   std::unordered_map<ValueId, ValueId> keeps_;  ///< By the value kept.
   std::uint32_t keep_count_ = 0;
+  std::size_t size_ = 0;
 };
 
 }  // namespace nacre

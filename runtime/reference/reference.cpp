@@ -84,24 +84,35 @@ std::uint32_t compare(Op op, double a, double b) {
 
 class Run {
  public:
-  Run(const Program& program, const KernelArguments& args, bool store_double)
-      : program_(program), args_(args), store_double_(store_double) {}
+  Run(const Program& program, const std::vector<FunctionCost>& costs, const StepLimit& limit,
+      const KernelArguments& args, bool store_double)
+      : program_(program), costs_(costs), limit_(limit), args_(args), store_double_(store_double) {}
 
-  void point(std::uint64_t index) {
+  RunStatus point(std::uint64_t index) {
     point_ = index;
-    call(program_.entry(), {});
+    steps_left_ = static_cast<double>(limit_.max_steps());
+    call(0, {});
+    if (steps_left_ < 0) return RunStatus::too_many_steps;
+    return is_asked_to_stop() ? RunStatus::stopped : RunStatus::done;
   }
 
  private:
   struct Frame {
     const Function& function;
+    const FunctionCost& cost;
     const std::vector<Value>& arguments;
     std::vector<Value> values;
     std::vector<Value> results;
   };
 
-  std::vector<Value> call(const Function& function, const std::vector<Value>& arguments) {
+  bool is_asked_to_stop() const {
+    return args_.stop != nullptr && args_.stop->load(std::memory_order_relaxed) != 0;
+  }
+
+  std::vector<Value> call(std::uint32_t number, const std::vector<Value>& arguments) {
+    const Function& function = program_.functions[number];
     Frame frame{.function = function,
+                .cost = costs_[number],
                 .arguments = arguments,
                 .values = std::vector<Value>(function.code.size()),
                 .results = std::vector<Value>(function.results.size())};
@@ -152,7 +163,13 @@ class Run {
       frame.values[k] = frame.values[function.code[k].operands[0]];
     });
     bool active = frame.values[function.code[open].operands[0]].i != 0;
-    for (std::uint32_t n = 0; active && n < function.code[open].imm; ++n) {
+    const std::uint32_t imm = function.code[open].imm;
+    for (std::uint32_t n = 0; active; ++n) {
+      if (n == loop_bound(imm)) {
+        if ((imm & loop_must_end) != 0) steps_left_ = -1;
+        return;
+      }
+      if (n > 0 && !pays_for_round(frame, open)) return;
       run(frame, open + 1, close);
       for_each_own(function, open, close, Op::next, [&](std::size_t k) {
         frame.values[k] = frame.values[function.code[k].operands[1]];
@@ -164,6 +181,14 @@ class Run {
         active = frame.values[function.code[k].operands[0]].i != 0;
       });
     }
+  }
+
+  /// False once there were too many steps, or somebody asks to stop: then the loops around
+  /// end too, at their next round, and the point comes to its end.
+  bool pays_for_round(const Frame& frame, std::size_t open) {
+    if (!limit_.is_counted()) return true;
+    steps_left_ -= frame.cost.rounds.at(static_cast<ValueId>(open));
+    return steps_left_ >= 0 && !is_asked_to_stop();
   }
 
   /// f(index) for the instructions of kind `op` that stand in the region
@@ -212,7 +237,7 @@ class Run {
         for (const ValueId id : frame.function.operands(instruction)) {
           arguments.push_back(frame.values[id]);
         }
-        results_ = call(program_.functions[instruction.imm], arguments);
+        results_ = call(instruction.imm, arguments);
         break;
       }
       case Op::result: to = results_[instruction.imm]; break;
@@ -298,36 +323,51 @@ class Run {
   }
 
   const Program& program_;
+  const std::vector<FunctionCost>& costs_;
+  const StepLimit& limit_;
   const KernelArguments& args_;
   bool store_double_;
   std::uint64_t point_ = 0;
+  double steps_left_ = 0;  ///< Of the point; below zero: the run has failed.
   std::vector<Value> results_;
 };
 
 class Reference final : public ReferenceKernel {
  public:
-  explicit Reference(Program program) : program_(std::move(program)) {}
+  Reference(Program program, std::uint64_t max_steps)
+      : program_(std::move(program)),
+        costs_(function_costs(program_)),
+        limit_(program_, max_steps) {}
 
-  void run(const KernelArguments& arguments) const override { run_all(arguments, false); }
-  void run_double(const KernelArguments& arguments) const override { run_all(arguments, true); }
+  RunStatus run(const KernelArguments& arguments) const override {
+    return run_all(arguments, false);
+  }
+  RunStatus run_double(const KernelArguments& arguments) const override {
+    return run_all(arguments, true);
+  }
   const Program& program() const override { return program_; }
   int lanes() const override { return 1; }
   const char* engine() const override { return "reference"; }
 
  private:
-  void run_all(const KernelArguments& arguments, bool store_double) const {
+  RunStatus run_all(const KernelArguments& arguments, bool store_double) const {
     const ScopedFloatEnvironment environment;
-    Run run(program_, arguments, store_double);
-    for (std::uint64_t i = 0; i < arguments.count; ++i) run.point(i);
+    Run run(program_, costs_, limit_, arguments, store_double);
+    for (std::uint64_t i = 0; i < arguments.count; ++i) {
+      if (const RunStatus status = run.point(i); status != RunStatus::done) return status;
+    }
+    return RunStatus::done;
   }
 
   Program program_;
+  std::vector<FunctionCost> costs_;
+  StepLimit limit_;
 };
 
 }  // namespace
 
-std::unique_ptr<ReferenceKernel> make_reference(Program program) {
-  return std::make_unique<Reference>(std::move(program));
+std::unique_ptr<ReferenceKernel> make_reference(Program program, std::uint64_t max_steps) {
+  return std::make_unique<Reference>(std::move(program), max_steps);
 }
 
 }  // namespace nacre

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "runtime/kernel.h"
+#include "runtime/program/cost.h"
 
 namespace nacre {
 
@@ -17,9 +19,10 @@ namespace nacre {
 class ReferenceKernel : public Kernel {
  public:
   /// As run(), but every f32 output is an array of doubles.
-  virtual void run_double(const KernelArguments& arguments) const = 0;
+  virtual RunStatus run_double(const KernelArguments& arguments) const = 0;
 };
 
-std::unique_ptr<ReferenceKernel> make_reference(Program program);
+std::unique_ptr<ReferenceKernel> make_reference(Program program,
+                                                std::uint64_t max_steps = default_max_steps);
 
 }  // namespace nacre

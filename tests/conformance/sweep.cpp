@@ -182,7 +182,7 @@ Arrays run(const BoundKernel& kernel, const Arrays& known, std::size_t count) {
     outputs[channel.name].resize(count);
     out.push_back(outputs[channel.name].data());
   }
-  kernel.run(in, out, count, sweep_parameters(kernel));
+  EXPECT_EQ(kernel.run(in, out, count, sweep_parameters(kernel)), RunStatus::done);
   return outputs;
 }
 

@@ -20,7 +20,7 @@ std::vector<Lanes> run(const BoundKernel& kernel, const std::vector<Lanes>& inpu
   std::vector<Lanes> outputs(kernel.program().outputs.size(), Lanes(count));
   std::vector<void*> out;
   for (Lanes& lanes : outputs) out.push_back(lanes.data());
-  kernel.run(in, out, count, parameters);
+  EXPECT_EQ(kernel.run(in, out, count, parameters), RunStatus::done);
   return outputs;
 }
 

@@ -105,7 +105,7 @@ std::vector<float> emission(const BoundKernel& kernel,
   std::vector<const void*> in(kernel.program().inputs.size(), zero.data());
   std::vector<void*> out;
   for (float& value : values) out.push_back(&value);
-  kernel.run(in, out, 1, parameters);
+  EXPECT_EQ(kernel.run(in, out, 1, parameters), RunStatus::done);
   return values;
 }
 

@@ -34,7 +34,7 @@ class Shaders : public ::testing::TestWithParam<Backend> {
     std::vector<float> results(program.outputs.size());
     std::vector<void*> out;
     for (float& result : results) out.push_back(&result);
-    kernel->kernel.run(in, out, 1);
+    EXPECT_EQ(kernel->kernel.run(in, out, 1), RunStatus::done);
     Numbers numbers;
     for (std::size_t i = 0; i < results.size(); ++i) {
       numbers[program.outputs[i].name.substr(2)] = results[i];
