@@ -2,6 +2,7 @@
 #include <cctype>
 
 #include "jit/glsl/token.h"
+#include "runtime/report_stop.h"
 
 namespace nacre::glsl {
 
@@ -149,6 +150,11 @@ class Lexer {
   bool line_is_empty_ = true;
 };
 
+SourceLocation location(const Sources& sources, Place place) {
+  const Sources::File& file = sources.file(place.file);
+  return {file.name, place.line + file.first_line - 1, place.column, ""};
+}
+
 }  // namespace
 
 std::uint32_t Sources::add(File file) {
@@ -160,12 +166,16 @@ std::vector<Token> lex(const Sources& sources, std::uint32_t file) {
   return Lexer(sources.file(file).text, file).run();
 }
 
+void check_stop(const Stop& stop, const Sources& sources, Diagnostics& diagnostics, Place place) {
+  if (report_if_due(stop, "reading the text", location(sources, place), diagnostics)) {
+    throw Failure{};
+  }
+}
+
 void fail(const Sources& sources, Diagnostics& diagnostics, Place place, std::string code,
           std::string message, std::string expected, std::string found) {
-  const Sources::File& file = sources.file(place.file);
-  diagnostics.error(std::move(code),
-                    {file.name, place.line + file.first_line - 1, place.column, ""},
-                    std::move(message), std::move(expected), std::move(found));
+  diagnostics.error(std::move(code), location(sources, place), std::move(message),
+                    std::move(expected), std::move(found));
   throw Failure{};
 }
 

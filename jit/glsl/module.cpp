@@ -17,7 +17,7 @@ std::shared_ptr<const Module> Module::read(const std::shared_ptr<const Prelude>&
     const std::uint32_t file = module->sources_.add(std::move(text));
     const std::vector<Token> tokens =
         preprocess(module->sources_, file, options, definitions, diagnostics);
-    parse(tokens, module->sources_, diagnostics, module->syntax_);
+    parse(tokens, module->sources_, diagnostics, module->syntax_, options.stop);
   } catch (const Failure&) {
     return nullptr;
   }
@@ -25,21 +25,22 @@ std::shared_ptr<const Module> Module::read(const std::shared_ptr<const Prelude>&
 }
 
 std::shared_ptr<const Module> Module::read_expression(const std::shared_ptr<const Prelude>& prelude,
-                                                      Sources::File text,
-                                                      Diagnostics& diagnostics) {
+                                                      Sources::File text, Diagnostics& diagnostics,
+                                                      const Stop& stop) {
   auto module = std::shared_ptr<Module>(new Module(prelude));
   try {
     Definitions definitions = prelude->definitions();
     const std::uint32_t file = module->sources_.add(std::move(text));
     const std::vector<Token> tokens =
-        preprocess(module->sources_, file, {}, definitions, diagnostics);
+        preprocess(module->sources_, file, {.stop = stop}, definitions, diagnostics);
     if (tokens.size() == 1) {
       const Sources::File& empty = module->sources_.file(file);
       diagnostics.error("glsl-syntax", {empty.name, empty.first_line, 0, ""}, "the text is empty",
                         "an expression");
       return nullptr;
     }
-    module->expression_ = parse_expression(tokens, module->sources_, diagnostics, module->syntax_);
+    module->expression_ =
+        parse_expression(tokens, module->sources_, diagnostics, module->syntax_, stop);
   } catch (const Failure&) {
     return nullptr;
   }

@@ -26,7 +26,8 @@ class Module {
                                             Diagnostics& diagnostics);
   /// A lone expression, "a * sin(b)".
   static std::shared_ptr<const Module> read_expression(
-      const std::shared_ptr<const Prelude>& prelude, Sources::File text, Diagnostics& diagnostics);
+      const std::shared_ptr<const Prelude>& prelude, Sources::File text, Diagnostics& diagnostics,
+      const Stop& stop = {});
 
   /// The last function defined under that name, or null.
   const Function* function(std::string_view name) const;

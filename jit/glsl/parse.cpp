@@ -12,6 +12,17 @@ namespace {
 
 constexpr int max_nesting = 200;
 constexpr int max_length = 4096;  ///< Of an array; also scalars in a structure.
+constexpr int max_struct_depth = 32;
+constexpr int max_parts = 65536;  ///< Scalars of one variable.
+
+/// a op b for the sizes of arrays; nothing beyond what sizes may be.
+std::optional<long long> combined(std::string_view op, long long a, std::optional<long long> b) {
+  constexpr long long most = 1LL << 31;
+  if (!b || std::abs(a) > most || std::abs(*b) > most) return std::nullopt;
+  if (op == "+") return a + *b;
+  if (op == "-") return a - *b;
+  return op == "*" ? std::optional(a * *b) : std::nullopt;
+}
 
 constexpr std::string_view qualifiers[] = {"highp", "mediump", "lowp", "flat", "precise"};
 constexpr std::string_view refused[] = {"discard", "switch", "case",   "uniform",
@@ -24,6 +35,7 @@ void Parser::expect(std::string_view text) {
 }
 
 void Parser::enter() {
+  if (++levels_entered_ % 1024 == 0) check_stop(stop_, sources_, diagnostics_, peek().place);
   if (++depth_ <= max_nesting) return;
   error(peek().place, "glsl-too-deep", "the text is nested too deeply",
         fmt::format("at most {} levels", max_nesting));
@@ -73,9 +85,8 @@ void Parser::error(Place place, std::string code, std::string message, std::stri
 const Struct* Parser::find_struct(std::string_view text) const {
   for (const Syntax* syntax : {static_cast<const Syntax*>(into_), &known_}) {
     if (syntax == nullptr) continue;
-    for (auto at = syntax->structs.rbegin(); at != syntax->structs.rend(); ++at) {
-      if ((*at)->name == text) return at->get();
-    }
+    const auto found = syntax->struct_by_name.find(text);
+    if (found != syntax->struct_by_name.end()) return found->second;
   }
   return nullptr;
 }
@@ -141,24 +152,22 @@ int Parser::array_length() {
 }
 
 std::optional<long long> Parser::constant(const Expression& expression) const {
-  if (expression.kind == Expression::Kind::literal && expression.type.base != Base::number) {
-    return static_cast<std::int32_t>(expression.bits);
+  std::vector<const Expression*> chain;
+  const Expression* first = &expression;
+  for (; first->kind == Expression::Kind::binary; first = first->operands[0].get()) {
+    chain.push_back(first);
   }
-  if (expression.kind == Expression::Kind::name && into_ != nullptr) {
-    for (const auto& global : into_->globals) {
-      if (global->name == expression.text && global->constant && global->initial) {
-        return constant(*global->initial);
-      }
-    }
+  std::optional<long long> value;
+  if (first->kind == Expression::Kind::literal && first->type.base != Base::number) {
+    value = static_cast<std::int32_t>(first->bits);
+  } else if (first->kind == Expression::Kind::name && into_ != nullptr) {
+    const auto global = into_->global_by_name.find(first->text);
+    if (global != into_->global_by_name.end()) value = global->second->whole;
   }
-  if (expression.kind != Expression::Kind::binary) return std::nullopt;
-  const std::optional<long long> a = constant(*expression.operands[0]);
-  const std::optional<long long> b = constant(*expression.operands[1]);
-  if (!a || !b) return std::nullopt;
-  if (expression.text == "+") return *a + *b;
-  if (expression.text == "-") return *a - *b;
-  if (expression.text == "*" && std::abs(*a) < 65536 && std::abs(*b) < 65536) return *a * *b;
-  return std::nullopt;
+  for (; value && !chain.empty(); chain.pop_back()) {
+    value = combined(chain.back()->text, *value, constant(*chain.back()->operands[1]));
+  }
+  return value;
 }
 
 void Parser::top_level() {
@@ -188,7 +197,10 @@ void Parser::top_level() {
       error(place, "glsl-type", fmt::format("'{}' cannot be declared so", variable.name),
             "samplers as 'uniform sampler2D NAME;', nothing else as uniform");
     }
-    into_->globals.push_back(std::make_shared<const Statement::Variable>(std::move(variable)));
+    if (variable.constant && variable.initial) variable.whole = this->constant(*variable.initial);
+    auto global = std::make_shared<const Statement::Variable>(std::move(variable));
+    into_->global_by_name.emplace(global->name, global.get());
+    into_->globals.push_back(std::move(global));
   }
 }
 
@@ -204,15 +216,24 @@ void Parser::structure() {
       const std::string_view member_name = name();
       if (const int length = array_length()) one.length = length;
       if (one.length < 0 || one.is_void()) unexpected("a member with a size");
-      made->members.push_back({member_name, one});
+      made->add({member_name, one});
+      if (made->parts > max_length || made->depth > max_struct_depth) {
+        error(peek().place, "glsl-too-large", "the structure is too large",
+              fmt::format("at most {} numbers, and structures {} deep", max_length,
+                          max_struct_depth));
+      }
     } while (take(","));
     expect(";");
   }
   expect(";");
-  int parts = 0;
-  for (const Struct::Member& member : made->members) parts += part_count(member.type);
-  if (parts > max_length) error(peek().place, "glsl-too-large", "the structure is too large");
+  into_->struct_by_name.insert_or_assign(made->name, made.get());
   into_->structs.push_back(std::move(made));
+}
+
+void Parser::check_size(const Type& type, Place place) {
+  if (type.length < 0 || part_count(type) <= max_parts) return;
+  error(place, "glsl-too-large", fmt::format("a {} is too large", to_string(type)),
+        fmt::format("at most {} numbers", max_parts));
 }
 
 void Parser::function(const Type& result, std::string_view function_name, Place place) {
@@ -220,6 +241,7 @@ void Parser::function(const Type& result, std::string_view function_name, Place 
   made->name = function_name;
   made->type = result;
   made->place = place;
+  check_size(result, place);
   expect("(");
   if (peek().is("void") && peek(1).is(")")) ++at_;
   while (!take(")")) {
@@ -230,6 +252,7 @@ void Parser::function(const Type& result, std::string_view function_name, Place 
     function_ = made.get();
     made->body = block();
     made->cost += made->body->cost;
+    made->has_loop = made->body->has_loop;
     function_ = nullptr;
   }
   add_function(std::move(made));
@@ -254,6 +277,7 @@ Function::Parameter Parser::parameter() {
   if (!peek().is(",") && !peek().is(")")) result.name = name();
   if (const int length = array_length()) result.type.length = length;
   if (result.type.length < 0) unexpected("the size of the array");
+  check_size(result.type, peek().place);
   return result;
 }
 
@@ -280,13 +304,13 @@ void Parser::add_function(std::unique_ptr<Function> made) {
 }
 
 void parse(const std::vector<Token>& tokens, const Sources& sources, Diagnostics& diagnostics,
-           Syntax& into) {
-  Parser(tokens, sources, diagnostics, into, &into).text();
+           Syntax& into, const Stop& stop) {
+  Parser(tokens, sources, diagnostics, into, &into, stop).text();
 }
 
 ExpressionPtr parse_expression(const std::vector<Token>& tokens, const Sources& sources,
-                               Diagnostics& diagnostics, const Syntax& context) {
-  return Parser(tokens, sources, diagnostics, context, nullptr).lone_expression();
+                               Diagnostics& diagnostics, const Syntax& context, const Stop& stop) {
+  return Parser(tokens, sources, diagnostics, context, nullptr, stop).lone_expression();
 }
 
 }  // namespace nacre::glsl

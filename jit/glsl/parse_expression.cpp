@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <charconv>
+#include <iterator>
 
 #include "jit/glsl/parser.h"
 
@@ -15,12 +16,30 @@ constexpr std::string_view precedence[][4] = {
     {"||"},       {"^^"},     {"&&"},         {"|"},
     {"^"},        {"&"},      {"==", "!="},   {"<", ">", "<=", ">="},
     {"<<", ">>"}, {"+", "-"}, {"*", "/", "%"}};
-constexpr int levels = static_cast<int>(std::size(precedence));
+
+/// How tightly a token binds as a binary operator; -1 if it is none.
+int precedence_of(const Token& token) {
+  if (token.kind != Token::Kind::punctuation || token.text.empty()) return -1;
+  for (std::size_t level = 0; level < std::size(precedence); ++level) {
+    if (contains(precedence[level], token.text)) return static_cast<int>(level);
+  }
+  return -1;
+}
 
 constexpr std::string_view assignments[] = {
     "=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<=", ">>="};
 
 }  // namespace
+
+Expression::~Expression() {
+  std::vector<ExpressionPtr> pending = std::move(operands);
+  while (!pending.empty()) {
+    const ExpressionPtr last = std::move(pending.back());
+    pending.pop_back();
+    std::move(last->operands.begin(), last->operands.end(), std::back_inserter(pending));
+    last->operands.clear();
+  }
+}
 
 ExpressionPtr Parser::node(Expression::Kind kind) const {
   auto made = std::make_unique<Expression>();
@@ -32,6 +51,7 @@ ExpressionPtr Parser::node(Expression::Kind kind) const {
 void Parser::adopt(Expression& outer, ExpressionPtr inner) {
   outer.cost = std::min(outer.cost + inner->cost, 1'000'000);
   outer.has_effect = outer.has_effect || inner->has_effect;
+  outer.has_loop = outer.has_loop || inner->has_loop;
   outer.operands.push_back(std::move(inner));
 }
 
@@ -62,7 +82,7 @@ ExpressionPtr Parser::assignment() {
 }
 
 ExpressionPtr Parser::conditional() {
-  ExpressionPtr condition = binary(0);
+  ExpressionPtr condition = binary();
   if (!peek().is("?")) return condition;
   ExpressionPtr made = node(Expression::Kind::conditional);
   ++at_;
@@ -73,33 +93,47 @@ ExpressionPtr Parser::conditional() {
   return made;
 }
 
-ExpressionPtr Parser::binary(int level) {
-  if (level == levels) return unary();
-  ExpressionPtr left = binary(level + 1);
-  while (peek().kind == Token::Kind::punctuation && !peek().text.empty() &&
-         contains(precedence[level], peek().text)) {
+/// All binary operators at once, by a stack of those whose right side is not whole yet:
+/// one that follows binds what stands before it unless it binds more tightly.
+ExpressionPtr Parser::binary() {
+  struct Pending {
+    int precedence;
+    ExpressionPtr made;  ///< With its left side.
+  };
+  std::vector<Pending> pending;
+  ExpressionPtr last = unary();
+  while (true) {
+    const int precedence = precedence_of(peek());
+    while (!pending.empty() && pending.back().precedence >= precedence) {
+      adopt(*pending.back().made, std::move(last));
+      last = std::move(pending.back().made);
+      pending.pop_back();
+    }
+    if (precedence < 0) return last;
     ExpressionPtr made = node(Expression::Kind::binary);
     made->text = tokens_[at_++].text;
-    adopt(*made, std::move(left));
-    adopt(*made, binary(level + 1));
-    left = std::move(made);
+    adopt(*made, std::move(last));
+    pending.push_back({precedence, std::move(made)});
+    last = unary();
   }
-  return left;
 }
 
 ExpressionPtr Parser::unary() {
   const Level level(*this);
-  for (const std::string_view candidate : {"+", "-", "!", "~", "++", "--"}) {
-    if (!peek().is(candidate)) continue;
-    ExpressionPtr made =
-        node(candidate.size() == 2 ? Expression::Kind::step_before : Expression::Kind::unary);
-    made->text = candidate;
-    ++at_;
-    adopt(*made, unary());
-    if (candidate.size() == 2) made->has_effect = true;
-    return made;
+  static constexpr std::string_view operators[] = {"+", "-", "!", "~", "++", "--"};
+  std::vector<ExpressionPtr> outer;
+  while (peek().kind == Token::Kind::punctuation && contains(operators, peek().text)) {
+    const bool steps = peek().text.size() == 2;
+    outer.push_back(node(steps ? Expression::Kind::step_before : Expression::Kind::unary));
+    outer.back()->text = tokens_[at_++].text;
+    outer.back()->has_effect = steps;
   }
-  return postfix();
+  ExpressionPtr result = postfix();
+  for (; !outer.empty(); outer.pop_back()) {
+    adopt(*outer.back(), std::move(result));
+    result = std::move(outer.back());
+  }
+  return result;
 }
 
 ExpressionPtr Parser::postfix() {
@@ -190,6 +224,7 @@ void Parser::note_call(Expression& call) {
       for (const Function::Parameter& parameter : function->parameters) {
         call.has_effect = call.has_effect || parameter.out;
       }
+      call.has_loop = call.has_loop || function->has_loop;
       if (function->stays_inline && function_ != nullptr) function_->stays_inline = true;
     }
   }

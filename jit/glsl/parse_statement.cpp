@@ -15,12 +15,14 @@ StatementPtr Parser::make(Statement::Kind kind) {
 void Parser::absorb(Statement& outer, const Statement& inner) {
   outer.cost = std::min(outer.cost + inner.cost, 1'000'000);
   outer.may_leave = outer.may_leave || inner.may_leave;
+  outer.has_loop = outer.has_loop || inner.has_loop;
   outer.assigned.insert(inner.assigned.begin(), inner.assigned.end());
 }
 
-void Parser::absorb(Statement& outer, const Expression* inner) const {
+void Parser::absorb(Statement& outer, const Expression* inner) {
   if (inner == nullptr) return;
   outer.cost = std::min(outer.cost + inner->cost, 1'000'000);
+  outer.has_loop = outer.has_loop || inner->has_loop;
   if (inner->has_effect) collect_assigned(*inner, outer.assigned);
 }
 
@@ -98,6 +100,7 @@ void Parser::variables(const Type& declared, std::string_view first, bool consta
     variable.constant = constant;
     variable.place = place;
     if (const int length = array_length()) variable.type.length = length;
+    check_size(variable.type, place);
     if (take("=")) {
       variable.initial = peek().is("{") ? initializer_list() : assignment();
       absorb(into, variable.initial.get());
@@ -178,6 +181,7 @@ void Parser::finish_loop(Statement& loop) {
   absorb(loop, loop.condition.get());
   absorb(loop, loop.step.get());
   loop.cost = std::min(loop.cost * 8 + 64, 1'000'000);
+  loop.has_loop = true;
 }
 
 StatementPtr Parser::do_statement() {
@@ -194,6 +198,7 @@ StatementPtr Parser::do_statement() {
   absorb(*made, *made->body[0]);
   absorb(*made, made->condition.get());
   made->cost = std::min(made->cost * 8 + 64, 1'000'000);
+  made->has_loop = true;
   return made;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "jit/glsl/parse.h"
+#include "runtime/stop.h"
 
 namespace nacre::glsl {
 
@@ -21,8 +22,13 @@ bool contains(const List& list, std::string_view text) {
 class Parser {
  public:
   Parser(const std::vector<Token>& tokens, const Sources& sources, Diagnostics& diagnostics,
-         const Syntax& known, Syntax* into)
-      : tokens_(tokens), sources_(sources), diagnostics_(diagnostics), known_(known), into_(into) {}
+         const Syntax& known, Syntax* into, const Stop& stop)
+      : tokens_(tokens),
+        sources_(sources),
+        diagnostics_(diagnostics),
+        known_(known),
+        into_(into),
+        stop_(stop) {}
 
   void text();
   ExpressionPtr lone_expression();
@@ -75,7 +81,9 @@ class Parser {
   // Statements (parse_statement.cpp)
   StatementPtr make(Statement::Kind kind);
   static void absorb(Statement& outer, const Statement& inner);
-  void absorb(Statement& outer, const Expression* inner) const;
+  /// Says what is too large for a variable, argument or result.
+  void check_size(const Type& type, Place place);
+  static void absorb(Statement& outer, const Expression* inner);
   static void collect_assigned(const Expression& expression, std::set<std::string_view>& names);
   StatementPtr block();
   StatementPtr statement();
@@ -98,7 +106,7 @@ class Parser {
   ExpressionPtr expression();
   ExpressionPtr assignment();
   ExpressionPtr conditional();
-  ExpressionPtr binary(int level);
+  ExpressionPtr binary();
   ExpressionPtr unary();
   ExpressionPtr postfix();
   ExpressionPtr primary();
@@ -113,7 +121,9 @@ class Parser {
   Diagnostics& diagnostics_;
   const Syntax& known_;
   Syntax* into_;
+  const Stop& stop_;
   std::size_t at_ = 0;
+  std::size_t levels_entered_ = 0;
   int depth_ = 0;
   int loops_ = 0;
   Function* function_ = nullptr;

@@ -12,6 +12,7 @@ namespace nacre::glsl {
 namespace {
 
 constexpr int max_nesting = 64;
+constexpr std::size_t max_parameters = 256;
 
 class Preprocessor {
  public:
@@ -39,6 +40,11 @@ class Preprocessor {
     if (++depth_ > max_nesting || static_cast<int>(seen_.size()) > options_.max_files) {
       error({file, 1, 1}, "glsl-too-many-files", "there are too many or too deeply nested includes",
             fmt::format("at most {} files, {} deep", options_.max_files, max_nesting));
+    }
+    bytes_ += sources_.file(file).text.size();
+    if (bytes_ > options_.max_bytes) {
+      error({file, 1, 1}, "glsl-too-large", "the text is too large with all it includes",
+            fmt::format("at most {} bytes", options_.max_bytes));
     }
     const std::vector<Token> tokens = lex(sources_, file);
     const std::size_t conditions = conditions_.size();
@@ -71,10 +77,7 @@ class Preprocessor {
     return tokens.size() - 1;
   }
 
-  bool active() const {
-    return std::all_of(conditions_.begin(), conditions_.end(),
-                       [](const Condition& condition) { return condition.active; });
-  }
+  bool active() const { return conditions_.empty() || conditions_.back().active; }
 
   void directive(Tokens line) {
     if (line.size() < 2) return;
@@ -102,8 +105,8 @@ class Preprocessor {
   // -- #if ... #endif
 
   struct Condition {
-    bool active = false;
-    bool taken = false;  ///< A branch of it was active.
+    bool active = false;  ///< And all around it.
+    bool taken = false;   ///< A branch of it was active.
   };
 
   void open_condition(std::string_view name, Tokens line) {
@@ -140,6 +143,7 @@ class Preprocessor {
 
   bool evaluate(Tokens line, Place place) {
     std::vector<Token> replaced;
+    spend(line.size(), place);
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (!line[i].is("defined")) {
         replaced.push_back(line[i]);
@@ -238,6 +242,10 @@ class Preprocessor {
       for (++at; at < line.size() && !line[at].is(")"); ++at) {
         if (!line[at].is(",")) macro.parameters.push_back(line[at].text);
       }
+      if (macro.parameters.size() > max_parameters) {
+        error(name.place, "glsl-macro", "the macro has too many parameters",
+              fmt::format("at most {}", max_parameters));
+      }
       if (at >= line.size()) error(name.place, "glsl-directive", "a parameter list is not closed");
       ++at;
     }
@@ -256,17 +264,32 @@ class Preprocessor {
       if (found != tokens_.end()) name = name.substr(0, dollar) + std::string(found->second);
     }
     std::optional<Sources::File> file;
+    spend(1000, line[0].place);  // Looking for it costs much more than a token.
     if (options_.find_include) {
       file = options_.find_include(name, sources_.file(line[2].place.file).name);
     }
     if (!file) error(line[2].place, "glsl-include", fmt::format("'{}' was not found", name));
+    spend(file->text.size() / 16, line[0].place);
     if (!seen_.contains(file->name)) read(sources_.add(std::move(*file)));
   }
 
   // -- Macros
 
+  /// Counts what leaves no trace in the result: macros that stand for nothing too take time.
+  void spend(std::size_t steps, Place place) {
+    steps_ += steps;
+    if (steps_ > options_.max_steps) {
+      error(place, "glsl-too-large", "the text takes too long to expand its macros",
+            fmt::format("at most {} steps", options_.max_steps));
+    }
+    if (steps_ < next_look_) return;
+    next_look_ = steps_ + 65536;
+    check_stop(options_.stop, sources_, diagnostics_, place);
+  }
+
   void expand(Tokens tokens, int depth, std::vector<Token>& into) {
     for (std::size_t i = 0; i < tokens.size(); ++i) {
+      spend(1, tokens[i].place);
       const auto found =
           tokens[i].kind == Token::Kind::name ? macros_.find(tokens[i].text) : macros_.end();
       if (found == macros_.end() || expanding_.contains(tokens[i].text)) {
@@ -278,14 +301,13 @@ class Preprocessor {
       if (depth > max_nesting) {
         error(name.place, "glsl-macro", "macros are nested too deeply");
       }
-      std::vector<Token> body = macro.body;
-      if (macro.is_function) {
-        if (i + 1 >= tokens.size() || !tokens[i + 1].is("(")) {
-          put(name, into);
-          continue;
-        }
-        body = substitute(macro, name, tokens, i, depth);
+      if (macro.is_function && (i + 1 >= tokens.size() || !tokens[i + 1].is("("))) {
+        put(name, into);
+        continue;
       }
+      spend(macro.body.size(), name.place);
+      std::vector<Token> body =
+          macro.is_function ? substitute(macro, name, tokens, i, depth) : macro.body;
       // Complaints about what a macro stands for belong where it is used.
       for (Token& token : body) token.place = name.place;
       expanding_.insert(name.text);
@@ -301,6 +323,7 @@ class Preprocessor {
     int open = 0;
     for (++i; i < tokens.size(); ++i) {
       const Token& token = tokens[i];
+      spend(1, name.place);
       if (token.is("(") && ++open == 1) continue;
       if (token.is(")") && --open == 0) break;
       if (token.is(",") && open == 1) {
@@ -358,6 +381,9 @@ class Preprocessor {
   std::vector<Condition> conditions_;
   std::vector<Token> output_;
   std::size_t count_ = 0;
+  std::size_t steps_ = 0;
+  std::size_t next_look_ = 65536;
+  std::size_t bytes_ = 0;
   int depth_ = 0;
 
   std::vector<Token> condition_;

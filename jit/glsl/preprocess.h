@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jit/glsl/token.h"
+#include "runtime/stop.h"
 
 namespace nacre::glsl {
 
@@ -15,9 +16,14 @@ using FindInclude =
     std::function<std::optional<Sources::File>(const std::string& name, const std::string& from)>;
 
 struct PreprocessOptions {
-  FindInclude find_include;            ///< Null: includes are errors.
+  FindInclude find_include = {};       ///< Null: includes are errors.
   std::size_t max_tokens = 1'000'000;  ///< After expansion.
+  /// Tokens looked at and macros replaced while expanding, those included of which nothing
+  /// is left, in the text and in conditions.
+  std::size_t max_steps = 4'000'000;
   int max_files = 256;
+  std::size_t max_bytes = 8'000'000;  ///< Of all files.
+  Stop stop = {};
 };
 
 struct Macro {

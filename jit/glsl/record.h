@@ -11,14 +11,23 @@
 #include "jit/glsl/syntax.h"
 #include "jit/glsl/value.h"
 #include "runtime/program/recorder.h"
+#include "runtime/stop.h"
 
 namespace nacre::glsl {
 
 struct RecordLimits {
-  int loop_iterations = 1024;  ///< A loop ends after as many, whatever its condition says.
+  /// Rounds after which a loop must have ended by itself: else the run of the kernel ends,
+  /// RunStatus::too_many_steps.
+  int loop_iterations = 1024;
   std::size_t operations = 2'000'000;
-  std::size_t steps = 4'000'000;  ///< Expressions walked, what folds away included.
+  /// Expressions walked, what folds away included, and variables copied at branches.
+  std::size_t steps = 4'000'000;
   int call_depth = 64;
+  /// What statements, operands and calls within one another may take of the stack together,
+  /// each counted with what it takes in optimized code: the same texts pass in every build.
+  int stack_bytes = 192 * 1024;
+  std::size_t live_parts = std::size_t{1} << 20;  ///< Scalars of all variables in scope.
+  Stop stop = {};
 };
 
 /// Reads what a sampler stands for: four floats. The place has as many components

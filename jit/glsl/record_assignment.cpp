@@ -10,8 +10,24 @@
 namespace nacre::glsl {
 
 Recording::Target Recording::target(const Expression& expression) {
-  if (expression.kind == Expression::Kind::member) return target_member(expression);
-  if (expression.kind == Expression::Kind::index) return target_index(expression);
+  // "a.b.c" from the left, without recursion: see evaluate().
+  using Kind = Expression::Kind;
+  std::vector<const Expression*> chain;
+  const Expression* first = &expression;
+  for (; first->kind == Kind::member || first->kind == Kind::index;
+       first = first->operands[0].get()) {
+    chain.push_back(first);
+  }
+  Target result = target_variable(*first);
+  for (; !chain.empty(); chain.pop_back()) {
+    count_steps(1, chain.back()->place);
+    result = chain.back()->kind == Kind::member ? target_member(*chain.back(), std::move(result))
+                                                : target_index(*chain.back(), result);
+  }
+  return result;
+}
+
+Recording::Target Recording::target_variable(const Expression& expression) {
   if (expression.kind == Expression::Kind::name) {
     Variable* variable = find(expression.text);
     if (variable != nullptr && !variable->constant) {
@@ -28,8 +44,7 @@ Recording::Target Recording::target(const Expression& expression) {
   error(expression.place, "glsl-assignment", "this cannot be assigned to", "a variable");
 }
 
-Recording::Target Recording::target_member(const Expression& expression) {
-  Target result = target(*expression.operands[0]);
+Recording::Target Recording::target_member(const Expression& expression, Target result) const {
   std::vector<std::size_t> parts;
   if (result.type.base == Base::structure && !result.type.is_array()) {
     if (const auto found = find_member(result.type, expression.text)) {
@@ -59,8 +74,8 @@ Recording::Target Recording::target_member(const Expression& expression) {
   return result;
 }
 
-Recording::Target Recording::target_index(const Expression& expression) {
-  Target whole = target(*expression.operands[0]);
+Recording::Target Recording::target_index(const Expression& expression, const Target& whole) {
+  const Level level(*this, expression.place, 700);
   const Value index = evaluate(*expression.operands[1]);
   const std::optional<Type> type = element_type(whole.type);
   if (!type || !index.type.is_whole() || !index.type.is_scalar()) {
@@ -113,6 +128,7 @@ void Recording::write(const Target& target, const Value& value) {
 }
 
 Value Recording::assign(const Expression& expression) {
+  const Level level(*this, expression.place, 550);
   Value value = evaluate(*expression.operands[1]);
   const Target to = target(*expression.operands[0]);
   if (expression.text != "=") {
@@ -132,6 +148,7 @@ Value Recording::assign(const Expression& expression) {
 }
 
 Value Recording::step(const Expression& expression, bool value_before) {
+  const Level level(*this, expression.place, 700);
   const Target to = target(*expression.operands[0]);
   const Value before = read(to);
   const Value one = before.type.base == Base::number ? make(Float(1.0f)) : make(Int(1));

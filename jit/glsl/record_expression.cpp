@@ -20,6 +20,13 @@ std::string type_list(const std::vector<Value>& values) {
   return fmt::format("({})", text);
 }
 
+/// Kinds that begin with the value of operands[0].
+bool starts_left(Expression::Kind kind) {
+  using Kind = Expression::Kind;
+  return kind == Kind::member || kind == Kind::index || kind == Kind::unary ||
+         kind == Kind::binary || kind == Kind::conditional || kind == Kind::sequence;
+}
+
 Value slice(const Value& value, std::size_t first, const Type& type) {
   Value result{type, {}, {}};
   const auto begin = value.parts.begin() + static_cast<std::ptrdiff_t>(first);
@@ -29,9 +36,34 @@ Value slice(const Value& value, std::size_t first, const Type& type) {
 
 }  // namespace
 
+/// What stands leftmost is evaluated first, then what is done with it, step by step: "a + b
+/// + c", "a.b.c", "- - a" may be as long as a text, and take no more stack than "a".
 Value Recording::evaluate(const Expression& expression) {
+  const Level level(*this, expression.place, 500);
+  std::vector<const Expression*> chain;
+  const Expression* first = &expression;
+  for (; starts_left(first->kind); first = first->operands[0].get()) chain.push_back(first);
+  Value value = leaf(*first);
+  for (; !chain.empty(); chain.pop_back()) value = apply(*chain.back(), std::move(value));
+  return value;
+}
+
+Value Recording::apply(const Expression& expression, Value left) {
   using Kind = Expression::Kind;
-  count_step(expression.place);
+  count_steps(1, expression.place);
+  switch (expression.kind) {
+    case Kind::member: return member(expression, left);
+    case Kind::index: return index(expression, left);
+    case Kind::unary: return unary_value(expression, left);
+    case Kind::binary: return binary_value(expression, left);
+    case Kind::conditional: return conditional(expression, left);
+    default: return evaluate(*expression.operands[1]);  // A sequence.
+  }
+}
+
+Value Recording::leaf(const Expression& expression) {
+  using Kind = Expression::Kind;
+  count_steps(1, expression.place);
   switch (expression.kind) {
     case Kind::literal: {
       Ref part = Ref::literal(static_cast<std::int32_t>(expression.bits));
@@ -40,20 +72,12 @@ Value Recording::evaluate(const Expression& expression) {
       return {expression.type, {part}, {}};
     }
     case Kind::name: return name(expression);
-    case Kind::member: return member(expression);
-    case Kind::index: return index(expression);
     case Kind::call: return call_named(expression);
     case Kind::construct: return construct(expression);
-    case Kind::unary: return unary_value(expression);
-    case Kind::binary: return binary_value(expression);
     case Kind::assign: return assign(expression);
     case Kind::step_before: return step(expression, false);
     case Kind::step_after: return step(expression, true);
-    case Kind::conditional: return conditional(expression);
-    case Kind::sequence:
-      evaluate(*expression.operands[0]);
-      return evaluate(*expression.operands[1]);
-    case Kind::list: break;
+    default: break;
   }
   error(expression.place, "glsl-syntax", "a list stands only where a variable is declared");
 }
@@ -66,9 +90,11 @@ Value Recording::expect(const Value& value, const Type& type, Place place) {
 }
 
 Value Recording::name(const Expression& expression) {
+  count_steps((variables_.size() - frame().first) / 64, expression.place);  // They are searched.
   if (const Variable* variable = find(expression.text)) return variable->value;
-  for (const auto& global : context_.syntax.globals) {
-    if (global->name != expression.text) continue;
+  const auto& globals = context_.syntax.global_by_name;
+  if (const auto found = globals.find(expression.text); found != globals.end()) {
+    const Statement::Variable* global = found->second;
     if (global->type.base == Base::sampler) return uniform_sampler(*global);
     if (!global->initial || std::find(reading_globals_.begin(), reading_globals_.end(),
                                       global->name) != reading_globals_.end()) {
@@ -94,8 +120,7 @@ Value Recording::uniform_sampler(const Statement::Variable& global) {
   return value;
 }
 
-Value Recording::member(const Expression& expression) {
-  const Value whole = evaluate(*expression.operands[0]);
+Value Recording::member(const Expression& expression, const Value& whole) const {
   if (whole.type.base == Base::structure && !whole.type.is_array()) {
     if (const auto found = find_member(whole.type, expression.text)) {
       return slice(whole, found->first, found->second);
@@ -112,8 +137,8 @@ Value Recording::member(const Expression& expression) {
         fmt::format("{} has no member '{}'", to_string(whole.type), expression.text));
 }
 
-Value Recording::index(const Expression& expression) {
-  const Value whole = evaluate(*expression.operands[0]);
+Value Recording::index(const Expression& expression, const Value& whole) {
+  const Level level(*this, expression.place, 250);
   return element(whole, evaluate(*expression.operands[1]), expression.place);
 }
 
@@ -146,20 +171,19 @@ Value Recording::element(const Value& whole, const Value& index, Place place) {
   return result;
 }
 
-Value Recording::unary_value(const Expression& expression) {
-  const Value operand = evaluate(*expression.operands[0]);
+Value Recording::unary_value(const Expression& expression, const Value& operand) const {
   if (std::optional<Value> result = unary(expression.text, operand)) return *result;
   error(expression.place, "glsl-type",
         fmt::format("'{}' does not work on {}", expression.text, to_string(operand.type)));
 }
 
-Value Recording::binary_value(const Expression& expression) {
+Value Recording::binary_value(const Expression& expression, const Value& a) {
+  const Level level(*this, expression.place, 450);
   const bool is_lazy = expression.text == "&&" || expression.text == "||";
   if (is_lazy &&
       (expression.operands[1]->has_effect || expression.operands[1]->cost >= cheap_branch)) {
-    return look_ahead(expression);
+    return look_ahead(expression, a);
   }
-  const Value a = evaluate(*expression.operands[0]);
   const Value b = evaluate(*expression.operands[1]);
   if (std::optional<Value> result = binary(expression.text, a, b)) return *result;
   error(expression.place, "glsl-type",
@@ -168,14 +192,15 @@ Value Recording::binary_value(const Expression& expression) {
 }
 
 /// && and || whose right side is evaluated only where the left leaves it open.
-Value Recording::look_ahead(const Expression& expression) {
+Value Recording::look_ahead(const Expression& expression, const Value& first) {
+  const Level level(*this, expression.place, 850);
   const bool is_and = expression.text == "&&";
-  const Value left = expect(evaluate(*expression.operands[0]), bool_type, expression.place);
+  const Value left = expect(first, bool_type, expression.place);
   Value result;
   scoped([&] {
     const Slot slot = push("", left);
     branch(
-        is_and ? left.truth(0) : !left.truth(0), expression.operands[1]->cost,
+        is_and ? left.truth(0) : !left.truth(0), expression.operands[1]->cost, expression.place,
         [&] {
           variables_[slot].value =
               expect(evaluate(*expression.operands[1]), bool_type, expression.place);
@@ -187,15 +212,16 @@ Value Recording::look_ahead(const Expression& expression) {
 }
 
 /// Both sides are computed; what they assign holds in the lanes that take them.
-Value Recording::conditional(const Expression& expression) {
-  const Value condition = expect(evaluate(*expression.operands[0]), bool_type, expression.place);
+Value Recording::conditional(const Expression& expression, const Value& asked) {
+  const Level level(*this, expression.place, 950);
+  const Value condition = expect(asked, bool_type, expression.place);
   if (condition.parts[0].is_constant()) {
     return evaluate(*expression.operands[condition.parts[0].is_constant(1u) ? 1 : 2]);
   }
   Value a;
   Value b;
   branch(
-      condition.truth(0), 0, [&] { a = evaluate(*expression.operands[1]); },
+      condition.truth(0), 0, expression.place, [&] { a = evaluate(*expression.operands[1]); },
       [&] { b = evaluate(*expression.operands[2]); });
   if (converts(a.type, b.type)) {
     a = convert(a, b.type);
@@ -212,6 +238,7 @@ Value Recording::conditional(const Expression& expression) {
 // -- Constructors
 
 Value Recording::construct(const Expression& expression) {
+  const Level level(*this, expression.place, 500);
   std::vector<Value> arguments;
   arguments.reserve(expression.operands.size());
   for (const ExpressionPtr& operand : expression.operands) arguments.push_back(evaluate(*operand));
@@ -286,6 +313,7 @@ Value Recording::construct_matrix(const Type& type, const Value& argument) const
 }
 
 Value Recording::initial_value(const Expression& expression, const Type& type) {
+  const Level level(*this, expression.place, 600);
   if (expression.kind != Expression::Kind::list) {
     Value value = evaluate(expression);
     if (type.length < 0 && value.type.is_array() && value.type.element() == type.element()) {
@@ -321,6 +349,7 @@ Value Recording::initial_value(const Expression& expression, const Type& type) {
 // -- Calls
 
 Value Recording::call_named(const Expression& expression) {
+  const Level level(*this, expression.place, 550);
   std::vector<Value> arguments;
   arguments.reserve(expression.operands.size());
   for (const ExpressionPtr& operand : expression.operands) arguments.push_back(evaluate(*operand));

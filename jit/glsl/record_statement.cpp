@@ -10,7 +10,10 @@ namespace {
 
 constexpr int max_unrolled_trips = 64;
 constexpr int max_unrolled_cost = 8192;
-constexpr int max_variable_parts = 65536;
+
+bool is_worth_unrolling(int trips, const Statement& body) {
+  return trips <= max_unrolled_trips && (trips <= 4 || trips * body.cost <= max_unrolled_cost);
+}
 
 }  // namespace
 
@@ -23,6 +26,7 @@ Bool Recording::running() {
 }
 
 void Recording::execute(const Statement& statement) {
+  const Level level(*this, statement.place, 250);
   switch (statement.kind) {
     case Statement::Kind::block: scoped([&] { execute_list(statement, 0); }); break;
     case Statement::Kind::declare: declare(statement); break;
@@ -38,6 +42,7 @@ void Recording::execute(const Statement& statement) {
 
 /// After a statement that some lanes may leave by, the rest is a branch.
 void Recording::execute_list(const Statement& block, std::size_t from) {
+  const Level level(*this, block.place, 500);
   for (std::size_t i = from; i < block.body.size(); ++i) {
     execute(*block.body[i]);
     if (!block.body[i]->may_leave) continue;
@@ -46,23 +51,22 @@ void Recording::execute_list(const Statement& block, std::size_t from) {
     if (go_on.is_constant(false) || i + 1 == block.body.size()) return;
     int cost = 0;
     for (std::size_t k = i + 1; k < block.body.size(); ++k) cost += block.body[k]->cost;
-    branch(go_on, cost, [&] { execute_list(block, i + 1); }, [] {});
+    branch(go_on, cost, block.body[i + 1]->place, [&] { execute_list(block, i + 1); }, [] {});
     return;
   }
 }
 
 void Recording::declare(const Statement& statement) {
+  const Level level(*this, statement.place, 350);
   for (const Statement::Variable& variable : statement.variables) {
     if (variable.type.length < 0 && !variable.initial) {
       error(variable.place, "glsl-array-size", "the size of an array must be given");
     }
+    count_steps(1, variable.place);
     Value value;
     if (variable.initial) {
       value = initial_value(*variable.initial, variable.type);
     } else {
-      if (part_count(variable.type) > max_variable_parts) {
-        error(variable.place, "glsl-too-large", "the variable is too large");
-      }
       value = zero(variable.type);
     }
     push(variable.name, std::move(value), variable.constant);
@@ -70,17 +74,19 @@ void Recording::declare(const Statement& statement) {
 }
 
 void Recording::if_statement(const Statement& statement) {
+  const Level level(*this, statement.place, 600);
   const Value condition = expect(evaluate(*statement.condition), bool_type, statement.place);
   int cost = 0;
   for (const StatementPtr& side : statement.body) cost = std::max(cost, side->cost);
   branch(
-      condition.truth(0), cost, [&] { execute(*statement.body[0]); },
+      condition.truth(0), cost, statement.place, [&] { execute(*statement.body[0]); },
       [&] {
         if (statement.body.size() > 1) execute(*statement.body[1]);
       });
 }
 
 void Recording::return_statement(const Statement& statement) {
+  const Level level(*this, statement.place, 250);
   const Type type = frame().function != nullptr ? frame().function->type : void_type;
   if (statement.condition) {
     Value value = expect(evaluate(*statement.condition), type, statement.place);
@@ -102,6 +108,7 @@ void Recording::run_body(const Statement& body) {
 }
 
 void Recording::loop_statement(const Statement& statement) {
+  const Level level(*this, statement.place, 400);
   if (statement.body[0]) execute(*statement.body[0]);
   const Slot outer_broke = frame().broke;
   const Slot outer_continued = frame().continued;
@@ -109,17 +116,18 @@ void Recording::loop_statement(const Statement& statement) {
   push("", make(Bool(false)));
   frame().broke = broke;
   frame().continued = broke + 1;
-  if (const std::optional<int> trips = literal_trips(statement)) {
+  const std::optional<int> trips = literal_trips(statement);
+  if (trips && is_worth_unrolling(*trips, *statement.body[1])) {
     unroll(statement, *trips);
   } else {
-    iterate(statement, *statement.body[1]);
+    iterate(statement, *statement.body[1], trips);
   }
   frame().broke = outer_broke;
   frame().continued = outer_continued;
 }
 
-/// How often a loop runs whose condition is literal throughout; nothing if
-/// another way to record it is better.
+/// How often a loop runs whose condition is literal throughout, if nothing leaves it before;
+/// nothing also for more rounds than a loop may have.
 std::optional<int> Recording::literal_trips(const Statement& statement) {
   if (!statement.condition || !statement.step) return std::nullopt;
   // What the condition reads must not be changed by the body.
@@ -133,21 +141,25 @@ std::optional<int> Recording::literal_trips(const Statement& statement) {
     if (at->kind == Expression::Kind::call) return std::nullopt;
     for (const ExpressionPtr& operand : at->operands) pending.push_back(operand.get());
   }
-  const auto before = snapshot();
+  const auto before = snapshot(statement.place);
   int trips = 0;
   Bool go_on = loop_condition(statement.condition.get());
-  while (go_on.is_constant(true) && trips <= max_unrolled_trips) {
+  const std::size_t size = context_.recorder.size();
+  // A step that leaves operations is not literal, whatever the condition is.
+  const auto may_be_literal = [&] {
+    return trips <= max_unrolled_trips || context_.recorder.size() == size;
+  };
+  while (go_on.is_constant(true) && trips < context_.limits.loop_iterations && may_be_literal()) {
     ++trips;
     evaluate(*statement.step);
     go_on = loop_condition(statement.condition.get());
   }
   restore(before);
-  const bool small = trips <= max_unrolled_trips &&
-                     (trips <= 4 || trips * statement.body[1]->cost <= max_unrolled_cost);
-  return go_on.is_constant(false) && small ? std::optional(trips) : std::nullopt;
+  return go_on.is_constant(false) ? std::optional(trips) : std::nullopt;
 }
 
 void Recording::unroll(const Statement& statement, int trips) {
+  const Level level(*this, statement.place, 650);
   const Statement& body = *statement.body[1];
   // A counter that ends with the loop may go on in lanes that left, and so
   // stays literal.
@@ -155,13 +167,16 @@ void Recording::unroll(const Statement& statement, int trips) {
   for (int i = 0; i < trips; ++i) {
     const Bool go_on = running();
     if (go_on.is_constant(false)) return;
-    branch(go_on, body.cost, [&] { run_body(body); }, [] {});
-    branch(own_counter ? Bool(true) : running(), 0, [&] { evaluate(*statement.step); }, [] {});
+    branch(go_on, body.cost, body.place, [&] { run_body(body); }, [] {});
+    branch(
+        own_counter ? Bool(true) : running(), 0, statement.place,
+        [&] { evaluate(*statement.step); }, [] {});
   }
 }
 
 /// Records a loop: every variable that it may assign is carried.
-void Recording::iterate(const Statement& loop, const Statement& body) {
+void Recording::iterate(const Statement& loop, const Statement& body, std::optional<int> rounds) {
+  const Level level(*this, loop.place, 850);
   Recorder& recorder = context_.recorder;
   const Bool active = mask_ & running() & loop_condition(loop.condition.get());
   if (active.is_constant(false)) return;
@@ -173,7 +188,10 @@ void Recording::iterate(const Statement& loop, const Statement& body) {
   carried.push_back(frame().returned + 1);
 
   const Bool mask = mask_;
-  recorder.begin_loop(active.ref(), static_cast<std::uint32_t>(context_.limits.loop_iterations));
+  const auto most = static_cast<std::uint32_t>(context_.limits.loop_iterations);
+  // Too many rounds of a loop that says how many it has cannot be.
+  recorder.begin_loop(active.ref(),
+                      rounds ? static_cast<std::uint32_t>(*rounds) : most | loop_must_end);
   std::vector<std::vector<Ref>> carries;
   for (const Slot slot : carried) {
     std::vector<Ref>& made = carries.emplace_back();
@@ -182,7 +200,11 @@ void Recording::iterate(const Statement& loop, const Statement& body) {
       made.push_back(part);
     }
   }
-  mask_ = true;
+  // Which lanes are still here, for loops inside: in the others they might never end.
+  const bool has_inner = body.has_loop || (loop.condition && loop.condition->has_loop) ||
+                         (loop.step && loop.step->has_loop);
+  const Ref here = has_inner ? recorder.carry(active.ref()) : Ref::literal(true);
+  mask_ = Bool(here);
   // Lanes that returned or left are not here.
   variables_[frame().returned].value = make(Bool(false));
   variables_[frame().broke].value = make(Bool(false));
@@ -191,7 +213,7 @@ void Recording::iterate(const Statement& loop, const Statement& body) {
   Bool go_on = stays;
   if (!stays.is_constant(false)) {
     branch(
-        stays, 0,
+        stays, 0, loop.place,
         [&] {
           if (loop.step) evaluate(*loop.step);
         },
@@ -206,6 +228,7 @@ void Recording::iterate(const Statement& loop, const Statement& body) {
       made.push_back(recorder.next(carries[i][k], parts[k]));
     }
   }
+  if (has_inner) recorder.next(here, go_on.ref());
   recorder.again(go_on.ref());
   recorder.end_loop();
   for (std::size_t i = 0; i < carried.size(); ++i) {
@@ -214,11 +237,11 @@ void Recording::iterate(const Statement& loop, const Statement& body) {
   variables_[frame().broke].value = make(Bool(false));
   variables_[frame().continued].value = make(Bool(false));
   mask_ = mask;
-  check_size(loop.place);
 }
 
 /// do body while (condition): the body once, then a loop of it.
 void Recording::do_loop(const Statement& statement) {
+  const Level level(*this, statement.place, 450);
   const Slot outer_broke = frame().broke;
   const Slot outer_continued = frame().continued;
   scoped([&] {
@@ -227,7 +250,9 @@ void Recording::do_loop(const Statement& statement) {
     frame().broke = broke;
     frame().continued = broke + 1;
     run_body(*statement.body[0]);
-    branch(running(), cheap_branch, [&] { iterate(statement, *statement.body[0]); }, [] {});
+    branch(
+        running(), cheap_branch, statement.place, [&] { iterate(statement, *statement.body[0]); },
+        [] {});
   });
   frame().broke = outer_broke;
   frame().continued = outer_continued;

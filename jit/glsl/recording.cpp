@@ -18,12 +18,16 @@ Scalar scalar_of(Base base) {
 
 }  // namespace
 
-void Recording::bind(std::string_view name, Value value) {
-  if (frames_.empty()) frames_.emplace_back();
-  push(name, std::move(value), true);
+Recording::Recording(const RecordContext& context) : context_(context) {
+  frames_.emplace_back();  // Of an expression that stands in no function.
 }
 
-Recording::Parts Recording::snapshot() const {
+void Recording::bind(std::string_view name, Value value) { push(name, std::move(value), true); }
+
+Recording::Parts Recording::snapshot(Place place) {
+  if (!variables_.empty()) {
+    count_steps((variables_.back().parts_before + variables_.size()) / 16, place);
+  }
   Parts result;
   result.reserve(variables_.size() - base_);
   for (Slot i = base_; i < variables_.size(); ++i) result.push_back(variables_[i].value.parts);
@@ -46,7 +50,11 @@ void Recording::choose(Bool condition, const Parts& taken) {
 }
 
 Recording::Slot Recording::push(std::string_view name, Value value, bool constant) {
-  variables_.push_back({name, std::move(value), constant});
+  std::size_t before = 0;
+  if (!variables_.empty()) {
+    before = variables_.back().parts_before + variables_.back().value.parts.size();
+  }
+  variables_.push_back({name, std::move(value), constant, before});
   return variables_.size() - 1;
 }
 
@@ -63,22 +71,31 @@ void Recording::error(Place place, std::string code, std::string message, std::s
        std::move(expected), std::move(found));
 }
 
-void Recording::count_step(Place place) {
-  if (++steps_ > context_.limits.steps) {
+void Recording::count_steps(std::size_t steps, Place place) {
+  const RecordLimits& limits = context_.limits;
+  steps_ += steps;
+  if (steps_ > limits.steps) {
     error(place, "too-many-operations", "the text takes too long to record",
-          fmt::format("at most {} steps", context_.limits.steps));
+          fmt::format("at most {} steps", limits.steps));
   }
+  if (context_.recorder.size() > limits.operations) {
+    error(place, "too-many-operations", "the text records too many operations",
+          fmt::format("at most {}", limits.operations));
+  }
+  if (!variables_.empty() && variables_.back().parts_before > limits.live_parts) {
+    error(place, "glsl-too-large", "the variables in use are too large together",
+          fmt::format("at most {} numbers", limits.live_parts));
+  }
+  if (steps_ < next_look_) return;
+  next_look_ = steps_ + 1024;
+  check_stop(limits.stop, context_.sources, context_.diagnostics, place);
 }
 
-void Recording::check_size(Place place) const {
-  std::size_t count = 0;
-  for (const nacre::Function& function : context_.recorder.program().functions) {
-    count += function.code.size();
+void Recording::enter(Place place, int bytes) {
+  if (stack_ + bytes > context_.limits.stack_bytes) {
+    error(place, "glsl-too-deep", "the text is nested too deeply, with all calls up to here");
   }
-  if (count > context_.limits.operations) {
-    error(place, "too-many-operations", "the text records too many operations",
-          fmt::format("at most {}", context_.limits.operations));
-  }
+  stack_ += bytes;
 }
 
 CallResult Recording::call(const Function& function, std::vector<Value> arguments, Place place) {
@@ -93,7 +110,15 @@ CallResult Recording::call(const Function& function, std::vector<Value> argument
     error(place, "glsl-too-deep", "calls are nested too deeply",
           fmt::format("at most {}", context_.limits.call_depth));
   }
-  check_size(place);
+  std::size_t parts = static_cast<std::size_t>(part_count(function.type));
+  for (const Function::Parameter& parameter : function.parameters) {
+    parts += static_cast<std::size_t>(part_count(parameter.type));
+  }
+  if (parts > context_.limits.live_parts) {
+    error(place, "glsl-too-large",
+          fmt::format("what function '{}' takes and returns is too large", function.name));
+  }
+  const Level level(*this, place, 1100);
   calling_.push_back(&function);
   const bool has_texts = std::any_of(arguments.begin(), arguments.end(), [](const Value& value) {
     return value.type.base == Base::sampler;
@@ -147,6 +172,13 @@ CallResult Recording::call_outlined(const Function& function, const std::vector<
     }
   }
   if (passed.empty()) return call_inline(function, arguments);
+  // A loop must know which lanes it is for: the others may never end it.
+  const bool is_masked = function.has_loop && !mask_.is_constant();
+  if (is_masked) {
+    key += " masked";
+    passed.push_back(mask_.ref());
+    types.push_back(Scalar::b1);
+  }
 
   // What comes back: the value, then the outputs in order.
   CallResult shape{zero(function.type), {}};
@@ -167,7 +199,7 @@ CallResult Recording::call_outlined(const Function& function, const std::vector<
     const Slot base = base_;
     const Bool mask = mask_;
     base_ = variables_.size();
-    mask_ = true;
+    mask_ = is_masked ? Bool(recorder.argument(next)) : Bool(true);
     const CallResult inside = call_inline(function, std::move(formal));
     base_ = base;
     mask_ = mask;
@@ -188,12 +220,15 @@ CallResult Recording::call_outlined(const Function& function, const std::vector<
 
 CallResult record_call(const RecordContext& context, const Function& function,
                        std::vector<Value> arguments) {
-  return Recording(context).call(function, std::move(arguments), function.place);
+  Recording recording(context);
+  if (function.has_loop) recording.restrict_to(Bool(context.recorder.needed_lanes()));
+  return recording.call(function, std::move(arguments), function.place);
 }
 
 Value record_expression(const RecordContext& context, const Expression& expression,
                         const std::vector<std::pair<std::string_view, Value>>& names) {
   Recording recording(context);
+  if (expression.has_loop) recording.restrict_to(Bool(context.recorder.needed_lanes()));
   for (const auto& [name, value] : names) recording.bind(name, value);
   return recording.evaluate(expression);
 }

@@ -12,17 +12,20 @@ namespace nacre::glsl {
 /// Variables live on one stack, so that a branch can note what it changed.
 class Recording {
  public:
-  explicit Recording(const RecordContext& context) : context_(context) {}
+  explicit Recording(const RecordContext& context);
 
   CallResult call(const Function& function, std::vector<Value> arguments, Place place);
   Value evaluate(const Expression& expression);
   void bind(std::string_view name, Value value);
+  /// Only these lanes need what is recorded.
+  void restrict_to(Bool lanes) { mask_ = lanes; }
 
  private:
   struct Variable {
     std::string_view name;
     Value value;
     bool constant = false;
+    std::size_t parts_before = 0;  ///< Scalars of the variables that stand before it.
   };
   using Slot = std::size_t;
 
@@ -47,29 +50,48 @@ class Recording {
     int depth = 0;
   };
 
-  // Expressions (record_expression.cpp).
+  /// Counts a level of recursion for as long as it lives: the bytes of its frame, about.
+  class Level {
+   public:
+    Level(Recording& recording, Place place, int bytes) : recording_(recording), bytes_(bytes) {
+      recording.enter(place, bytes);
+    }
+    ~Level() { recording_.stack_ -= bytes_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+   private:
+    Recording& recording_;
+    int bytes_;
+  };
+
+  // Expressions (record_expression.cpp). Those that get `left` go on from the value of
+  // operands[0].
+  Value leaf(const Expression& expression);
+  Value apply(const Expression& expression, Value left);
   Value name(const Expression& expression);
   static Value uniform_sampler(const Statement::Variable& global);
-  Value member(const Expression& expression);
-  Value index(const Expression& expression);
+  Value member(const Expression& expression, const Value& whole) const;
+  Value index(const Expression& expression, const Value& whole);
   Value element(const Value& whole, const Value& index, Place place);
   Value construct(const Expression& expression);
   Value construct_plain(const Expression& expression, const std::vector<Value>& arguments);
   Value construct_matrix(const Type& type, const Value& argument) const;
-  Value unary_value(const Expression& expression);
-  Value binary_value(const Expression& expression);
-  Value look_ahead(const Expression& expression);
+  Value unary_value(const Expression& expression, const Value& operand) const;
+  Value binary_value(const Expression& expression, const Value& left);
+  Value look_ahead(const Expression& expression, const Value& left);
   Value assign(const Expression& expression);
   Value step(const Expression& expression, bool value_before);
-  Value conditional(const Expression& expression);
+  Value conditional(const Expression& expression, const Value& condition);
   Value call_named(const Expression& expression);
   Value call_texture(const Expression& expression, const std::vector<Value>& arguments);
   Value initial_value(const Expression& expression, const Type& type);
   const Function* select_overload(const Expression& expression,
                                   const std::vector<Value>& arguments);
   Target target(const Expression& expression);
-  Target target_member(const Expression& expression);
-  Target target_index(const Expression& expression);
+  Target target_variable(const Expression& expression);
+  Target target_member(const Expression& expression, Target whole) const;
+  Target target_index(const Expression& expression, const Target& whole);
   Value read(const Target& target) const;
   void write(const Target& target, const Value& value);
   Value expect(const Value& value, const Type& type, Place place);
@@ -84,20 +106,21 @@ class Recording {
   void return_statement(const Statement& statement);
   std::optional<int> literal_trips(const Statement& statement);
   void unroll(const Statement& statement, int trips);
-  void iterate(const Statement& loop, const Statement& body);
+  /// `rounds`: how many there are, if that is known.
+  void iterate(const Statement& loop, const Statement& body, std::optional<int> rounds = {});
   void run_body(const Statement& body);
   Bool loop_condition(const Expression* condition);
   Bool running();
 
   // Control flow (recording.cpp).
   template <class Then, class Otherwise>
-  void branch(Bool condition, int cost, Then&& then, Otherwise&& otherwise);
+  void branch(Bool condition, int cost, Place place, Then&& then, Otherwise&& otherwise);
   using Parts = std::vector<std::vector<Ref>>;  ///< Of all variables.
   template <class Body>
   void region(Bool where, const Parts& before, const Parts& outside, Body&& body);
   template <class Body>
   void scoped(Body&& body);
-  Parts snapshot() const;
+  Parts snapshot(Place place);
   void restore(const Parts& parts);
   void choose(Bool condition, const Parts& taken);
   static bool is_same(Ref a, Ref b) { return a.recorder == b.recorder && a.id == b.id; }
@@ -109,10 +132,10 @@ class Recording {
   Slot push(std::string_view name, Value value, bool constant = false);
   Variable* find(std::string_view name);
   Frame& frame() { return frames_.back(); }
-  [[noreturn]] void error(Place place, std::string code, std::string message,
-                          std::string expected = {}, std::string found = {}) const;
-  void count_step(Place place);
-  void check_size(Place place) const;
+  [[noreturn, gnu::noinline]] void error(Place place, std::string code, std::string message,
+                                         std::string expected = {}, std::string found = {}) const;
+  void count_steps(std::size_t steps, Place place);
+  void enter(Place place, int bytes);
 
   const RecordContext& context_;
   std::vector<Variable> variables_;
@@ -120,8 +143,10 @@ class Recording {
   std::vector<const Function*> calling_;
   std::vector<std::string_view> reading_globals_;
   std::size_t steps_ = 0;
-  Slot base_ = 0;     ///< Variables below are of the function around an outlined one.
-  Bool mask_ = true;  ///< Lanes for which the current branch is taken.
+  std::size_t next_look_ = 0;  ///< Steps at which the deadline is looked at.
+  int stack_ = 0;              ///< Bytes: see RecordLimits::stack_bytes.
+  Slot base_ = 0;              ///< Variables below are of the function around an outlined one.
+  Bool mask_ = true;           ///< Lanes for which the current branch is taken.
 };
 
 /// A branch below this cost is computed in every lane and selected from.
@@ -138,15 +163,15 @@ void Recording::scoped(Body&& body) {
 /// Records both sides, each seeing the variables as they are now, and gives every
 /// variable the value of the side that a lane takes.
 template <class Then, class Otherwise>
-void Recording::branch(Bool condition, int cost, Then&& then, Otherwise&& otherwise) {
+void Recording::branch(Bool condition, int cost, Place place, Then&& then, Otherwise&& otherwise) {
   if (condition.is_constant(true)) return scoped(then);
   if (condition.is_constant(false)) return scoped(otherwise);
   const Bool mask = mask_;
-  const auto before = snapshot();
+  const auto before = snapshot(place);
   if (cost < cheap_branch) {
     mask_ = mask & condition;
     scoped(then);
-    const auto taken = snapshot();
+    const auto taken = snapshot(place);
     restore(before);
     mask_ = mask & !condition;
     scoped(otherwise);
@@ -154,7 +179,7 @@ void Recording::branch(Bool condition, int cost, Then&& then, Otherwise&& otherw
   } else {
     mask_ = mask & condition;
     region(condition, before, before, then);
-    const auto after = snapshot();
+    const auto after = snapshot(place);
     restore(before);
     mask_ = mask & !condition;
     region(!condition, before, after, otherwise);

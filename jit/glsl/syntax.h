@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -12,7 +13,14 @@
 
 namespace nacre::glsl {
 
+/// A node of a tree that is as deep as a text has terms: "a + b + c" leans to the left.
+/// Nothing that walks over it may call itself for operands[0].
 struct Expression {
+  Expression() = default;
+  Expression(Expression&&) = default;
+  Expression& operator=(Expression&&) = default;
+  ~Expression();
+
   enum class Kind : std::uint8_t {
     literal,      ///< `type`, `bits`
     name,         ///< `text`
@@ -39,6 +47,8 @@ struct Expression {
   int cost = 1;
   /// May change a variable.
   bool has_effect = false;
+  /// Calls a function that has a loop.
+  bool has_loop = false;
 };
 using ExpressionPtr = std::unique_ptr<Expression>;
 
@@ -60,6 +70,7 @@ struct Statement {
     bool constant = false;
     ExpressionPtr initial;  ///< May be null.
     Place place;
+    std::optional<long long> whole;  ///< What a constant at the top of a text is.
   };
   Kind kind = Kind::block;
   Place place;
@@ -70,6 +81,8 @@ struct Statement {
   int cost = 0;
   /// Holds a return, break or continue.
   bool may_leave = false;
+  /// Is or holds a loop, or calls a function that does.
+  bool has_loop = false;
   /// Names of variables that may be assigned in it.
   std::set<std::string_view> assigned;
 };
@@ -90,6 +103,7 @@ struct Function {
   int cost = 1;
   /// Uses derivatives or textures, here or in what it calls: stays in line.
   bool stays_inline = false;
+  bool has_loop = false;  ///< Here or in what it calls.
 };
 
 /// A text that was read. A copy shares what is in it, and more can be read into it.
@@ -98,6 +112,9 @@ struct Syntax {
   std::vector<std::shared_ptr<const Function>> functions;
   std::vector<std::shared_ptr<const Statement::Variable>> globals;
   std::map<std::string_view, std::vector<const Function*>> by_name;
+  /// The last of each name, and the first.
+  std::map<std::string_view, const Struct*> struct_by_name;
+  std::map<std::string_view, const Statement::Variable*> global_by_name;
 };
 
 }  // namespace nacre::glsl

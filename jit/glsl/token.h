@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/diagnostic.h"
+#include "runtime/stop.h"
 
 namespace nacre::glsl {
 
@@ -76,6 +77,9 @@ std::vector<Token> lex(const Sources& sources, std::uint32_t file);
 /// Ends the reading or recording of a text: caught where a module is entered,
 /// after the diagnostic was added. Never leaves this folder.
 struct Failure {};
+
+/// Fails if `stop` is due.
+void check_stop(const Stop& stop, const Sources& sources, Diagnostics& diagnostics, Place place);
 
 /// Adds an error at a place and throws Failure.
 [[noreturn]] void fail(const Sources& sources, Diagnostics& diagnostics, Place place,

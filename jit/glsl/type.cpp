@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 namespace nacre::glsl {
 
 namespace {
+
+constexpr long long max_parts = 1 << 30;
 
 constexpr Type vector(Base base, std::uint8_t rows) { return {base, rows}; }
 constexpr Type matrix(std::uint8_t size) { return {Base::number, size, size}; }
@@ -69,16 +72,22 @@ std::string element_name(const Type& type) {
 
 int element_parts(const Type& type) {
   if (type.base == Base::none || type.base == Base::sampler) return 0;
-  if (type.base != Base::structure) return type.rows * type.columns;
-  int count = 0;
-  for (const Struct::Member& member : type.structure->members) count += part_count(member.type);
-  return count;
+  return type.base == Base::structure ? type.structure->parts : type.rows * type.columns;
 }
 
 }  // namespace
 
+void Struct::add(const Member& member) {
+  members.push_back(member);
+  const long long sum = parts + static_cast<long long>(part_count(member.type));
+  parts = static_cast<int>(std::min<long long>(sum, max_parts));
+  if (member.type.base == Base::structure)
+    depth = std::max(depth, member.type.structure->depth + 1);
+}
+
 int part_count(const Type& type) {
-  return element_parts(type) * (type.is_array() ? type.length : 1);
+  const long long length = type.is_array() ? type.length : 1;
+  return static_cast<int>(std::min<long long>(element_parts(type) * length, max_parts));
 }
 
 Base part_base(const Type& type, int index) {

@@ -65,6 +65,10 @@ struct Struct {
   };
   std::string_view name;
   std::vector<Member> members;
+  int parts = 0;  ///< part_count() of a value; grows no further beyond 2^30.
+  int depth = 1;  ///< Structures in one another, this one included.
+
+  void add(const Member& member);
 };
 
 /// Scalars that a value of the type has: components of a vector, columns of a

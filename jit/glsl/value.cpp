@@ -4,12 +4,16 @@ namespace nacre::glsl {
 
 Value zero(const Type& type) {
   Value result{type, {}, {}};
-  for (int i = 0; i < part_count(type); ++i) {
+  for (int i = 0; i < part_count(type.element()); ++i) {
     switch (part_base(type, i)) {
       case Base::boolean: result.parts.push_back(Ref::literal(false)); break;
       case Base::number: result.parts.push_back(Ref::literal(0.0f)); break;
       default: result.parts.push_back(Ref::literal(0)); break;
     }
+  }
+  const std::vector<Ref> element = result.parts;
+  for (int i = 1; i < type.length; ++i) {
+    result.parts.insert(result.parts.end(), element.begin(), element.end());
   }
   return result;
 }

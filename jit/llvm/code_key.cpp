@@ -14,7 +14,7 @@ namespace nacre {
 namespace {
 
 /// To be raised when what kernels do or expect changes and no build id tells.
-constexpr int code_version = 2;
+constexpr int code_version = 3;
 
 /// The object file that is loaded at an address, and the id its linker gave it.
 struct BuildId {

@@ -62,12 +62,16 @@ class GraphRecorder {
  private:
   using Ports = std::vector<NodeCall::Port>;
 
-  /// Functions that are recorded stay as they are: each is counted once.
-  std::size_t count_instructions() {
+  /// What a pass takes of what was recorded so far, every loop counted for one round.
+  double count_steps() {
     const std::vector<Function>& functions = recorder_.program().functions;
-    for (; counted_ < functions.size(); ++counted_)
-      in_functions_ += functions[counted_].code.size();
-    return in_functions_ + functions.front().code.size();
+    for (std::size_t i = std::max<std::size_t>(1, once_.size()); i < functions.size(); ++i) {
+      once_.resize(i);
+      once_.push_back(cost_once(functions[i], 0, once_));
+    }
+    steps_ += cost_once(functions.front(), counted_, once_);
+    counted_ = functions.front().code.size();
+    return steps_;
   }
 
   /// All nodes of one branch, in order. False, with a diagnostic, where one cannot
@@ -79,10 +83,18 @@ class GraphRecorder {
         return false;
       }
       if (!record_node(number)) return false;
-      if (count_instructions() <= options_.max_instructions) continue;
-      diagnostics_.error("program-too-large", node.where, "the graph leads to too large a kernel",
-                         std::to_string(options_.max_instructions).append(" instructions at most"));
-      return false;
+      if (recorder_.size() > options_.max_instructions) {
+        diagnostics_.error(
+            "program-too-large", node.where, "the graph leads to too large a kernel",
+            std::to_string(options_.max_instructions).append(" instructions at most"));
+        return false;
+      }
+      if (count_steps() > static_cast<double>(options_.max_steps)) {
+        diagnostics_.error("too-many-steps", node.where,
+                           "the graph up to this node takes too long for each point",
+                           std::to_string(options_.max_steps).append(" steps at most"));
+        return false;
+      }
     }
     return true;
   }
@@ -115,7 +127,7 @@ class GraphRecorder {
       return true;
     }
     NodeCall call = make_call(node, std::move(inputs), std::move(outputs));
-    if (!options_.sources->record(*source, call)) return false;
+    if (!options_.sources->record(*source, call, options_.stop)) return false;
     outputs_[number] = call.outputs();
     return true;
   }
@@ -279,8 +291,9 @@ class GraphRecorder {
   Diagnostics& diagnostics_;
   BranchPlan plan_;
   std::vector<Ports> outputs_;  ///< By node.
-  std::size_t counted_ = 1;     ///< Functions; the first is the entry.
-  std::size_t in_functions_ = 0;
+  std::vector<double> once_;    ///< By function: steps, each loop counted for one round.
+  std::size_t counted_ = 0;     ///< Of the entry's instructions.
+  double steps_ = 0;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "jit/record/bodies.h"
 #include "runtime/node/recorded.h"
 #include "runtime/node/texture_source.h"
+#include "runtime/program/cost.h"
 #include "runtime/program/recorder.h"
 #include "runtime/stop.h"
 
@@ -37,6 +39,9 @@ struct RecordOptions {
   std::function<void(const GraphNode& node)> before_node = {};
   /// A graph that leads to more is refused.
   std::size_t max_instructions = 2'000'000;
+  /// A graph that takes more for each pass of points, every loop counted for one round, is
+  /// refused; see runtime/program/cost.h.
+  std::uint64_t max_steps = default_max_steps;
   /// The file that a name written in `document` stands for; the name itself if null.
   std::function<std::string(const std::string& name, const std::string& document)> resolve_file;
   /// Ends recording early, as an error.

@@ -114,6 +114,21 @@ glsl::TextureLookup texture_lookup(const NodeSource& source, NodeCall& call) {
   };
 }
 
+/// Hands on what was found about a text: with the path of the implementation that it is of,
+/// where none is given, and not what was said before, of another node of that kind.
+void say_once(const NodeSource& source, const Diagnostics& found, Diagnostics& diagnostics) {
+  for (Diagnostic one : found.all()) {
+    if (one.where.path.empty()) one.where.path = source.where.path;
+    const auto is_same = [&](const Diagnostic& other) {
+      return other.where.line == one.where.line && other.where.column == one.where.column &&
+             other.code == one.code && other.where.file == one.where.file &&
+             other.where.path == one.where.path && other.message == one.message;
+    };
+    const std::vector<Diagnostic>& said = diagnostics.all();
+    if (std::none_of(said.begin(), said.end(), is_same)) diagnostics.add(std::move(one));
+  }
+}
+
 bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string message,
             std::string expected, std::string found) {
   diagnostics.error("source-misfit", source.where, std::move(message), std::move(expected),
@@ -135,34 +150,34 @@ void set_output(NodeCall& call, const SourcePorts::Port& output, const glsl::Val
 /// Sets the node's only output to the value of an expression, or of a function that
 /// returns it.
 bool set_only_output(const NodeSource& source, NodeCall& call, const SourcePorts& outputs,
-                     std::string message, const glsl::Value& value) {
+                     std::string message, const glsl::Value& value, Diagnostics& diagnostics) {
   const SourcePorts::Port& output = outputs.all().front();
   if (outputs.all().size() != 1) {
-    return misfit(source, call.diagnostics(), std::move(message), "one output",
+    return misfit(source, diagnostics, std::move(message), "one output",
                   fmt::format("{} outputs", outputs.all().size()));
   }
   if (const auto difference = find_misfit(output.value.type, value.type)) {
-    return misfit(source, call.diagnostics(), std::move(message), difference->expected,
-                  difference->found);
+    return misfit(source, diagnostics, std::move(message), difference->expected, difference->found);
   }
   set_output(call, output, value);
   return true;
 }
 
-bool record_expression(const NodeSource& source, const glsl::Module& module, NodeCall& call) {
+bool record_expression(const NodeSource& source, const glsl::Module& module, NodeCall& call,
+                       const glsl::RecordLimits& limits, Diagnostics& diagnostics) {
   const SourcePorts inputs(source, call.inputs());
   std::deque<std::string> names;
   std::vector<std::pair<std::string_view, glsl::Value>> values;
   for (const SourcePorts::Port& input : inputs.all()) {
     values.emplace_back(names.emplace_back(fmt::format("__{}__", input.name)), input.value);
   }
-  auto result = module.record_expression(values, call.recorder(), call.diagnostics());
+  auto result = module.record_expression(values, call.recorder(), diagnostics, limits);
   if (!result) return false;
   const SourcePorts outputs(source, call.outputs());
   const glsl::Type& wanted = outputs.all().front().value.type;
   if (glsl::converts(result->type, wanted)) result = glsl::convert(*result, wanted);
   return set_only_output(source, call, outputs, "the expression has another type than the output",
-                         *result);
+                         *result, diagnostics);
 }
 
 /// The value as the parameter's type, or nothing, with a diagnostic.
@@ -189,10 +204,11 @@ std::optional<glsl::Value> fitted(const NodeSource& source, Diagnostics& diagnos
 }
 
 /// A function may also return its only output.
-bool record_function(const NodeSource& source, const glsl::Module& module, NodeCall& call) {
+bool record_function(const NodeSource& source, const glsl::Module& module, NodeCall& call,
+                     const glsl::RecordLimits& limits, Diagnostics& diagnostics) {
   const glsl::Function* function = module.function(source.function);
   if (function == nullptr) {
-    return misfit(source, call.diagnostics(), "the text does not define the function",
+    return misfit(source, diagnostics, "the text does not define the function",
                   "'" + source.function + "'", "no such function");
   }
   const SourcePorts inputs(source, call.inputs());
@@ -202,7 +218,7 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
   const std::size_t wanted = count + (returns ? 0 : outputs.all().size());
   if (function->parameters.size() != wanted) {
     return misfit(
-        source, call.diagnostics(),
+        source, diagnostics,
         "function '" + source.function + "' must take the node's inputs, then its outputs",
         fmt::format("{} parameters", wanted), fmt::format("{}", function->parameters.size()));
   }
@@ -210,17 +226,17 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
   for (std::size_t i = 0; i < wanted; ++i) {
     const bool is_input = i < count;
     const SourcePorts::Port& port = is_input ? inputs.all()[i] : outputs.all()[i - count];
-    auto argument =
-        fitted(source, call.diagnostics(), function->parameters[i], i + 1, port, is_input);
+    auto argument = fitted(source, diagnostics, function->parameters[i], i + 1, port, is_input);
     if (!argument) return false;
     arguments.push_back(std::move(*argument));
   }
-  const auto result = module.record(*function, std::move(arguments), call.recorder(),
-                                    call.diagnostics(), texture_lookup(source, call));
+  const auto result = module.record(*function, std::move(arguments), call.recorder(), diagnostics,
+                                    texture_lookup(source, call), limits);
   if (!result) return false;
   if (returns) {
     return set_only_output(source, call, outputs,
-                           "the function returns another type than the output", result->value);
+                           "the function returns another type than the output", result->value,
+                           diagnostics);
   }
   for (std::size_t i = 0; i < outputs.all().size(); ++i) {
     set_output(call, outputs.all()[i], result->outputs[count + i]);
@@ -233,14 +249,20 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
 SourceBodies::SourceBodies(std::vector<fs::path> roots)
     : roots_(std::move(roots)), prelude_(glsl::Prelude::read()) {}
 
-bool SourceBodies::record(const NodeSource& source, NodeCall& call) {
-  const std::shared_ptr<const glsl::Module> module = module_of(source, call.diagnostics());
-  if (module == nullptr) return false;
-  return source.function.empty() ? record_expression(source, *module, call)
-                                 : record_function(source, *module, call);
+bool SourceBodies::record(const NodeSource& source, NodeCall& call, const Stop& stop) {
+  Diagnostics found;
+  const glsl::RecordLimits limits{.stop = stop};
+  const std::shared_ptr<const glsl::Module> module = module_of(source, found, stop);
+  const bool done =
+      module != nullptr &&
+      (source.function.empty() ? record_expression(source, *module, call, limits, found)
+                               : record_function(source, *module, call, limits, found));
+  say_once(source, found, call.diagnostics());
+  return done;
 }
 
-bool SourceBodies::check(const NodeSource& source, const NodeDef& def, Diagnostics& diagnostics) {
+bool SourceBodies::check(const NodeSource& source, const NodeDef& def, Diagnostics& diagnostics,
+                         const Stop& stop) {
   Recorder recorder;
   std::vector<NodeCall::Port> inputs;
   for (const NodeDefInput& input : def.inputs) {
@@ -261,27 +283,29 @@ bool SourceBodies::check(const NodeSource& source, const NodeDef& def, Diagnosti
   }
   NodeCall call(recorder, def.category, def.name, std::move(inputs), std::move(outputs),
                 Accuracy::standard, nullptr, diagnostics, source.where);
-  return record(source, call);
+  return record(source, call, stop);
 }
 
 std::shared_ptr<const glsl::Module> SourceBodies::module_of(const NodeSource& source,
-                                                            Diagnostics& diagnostics) {
+                                                            Diagnostics& diagnostics,
+                                                            const Stop& stop) {
   const std::string key = source.document + '\n' + source.file + '\n' + source.text;
   const std::lock_guard lock(mutex_);
   const auto found = modules_.find(key);
   if (found != modules_.end()) return found->second;
-  std::shared_ptr<const glsl::Module> module = read(source, diagnostics);
+  std::shared_ptr<const glsl::Module> module = read(source, diagnostics, stop);
   // A faulty text is read again, to complain again.
   if (module != nullptr) modules_.emplace(key, module);
   return module;
 }
 
 std::shared_ptr<const glsl::Module> SourceBodies::read(const NodeSource& source,
-                                                       Diagnostics& diagnostics) {
+                                                       Diagnostics& diagnostics, const Stop& stop) {
   const fs::path home = fs::path(source.document).parent_path();
   std::vector<fs::path> allowed{home};
   allowed.insert(allowed.end(), roots_.begin(), roots_.end());
   glsl::PreprocessOptions options;
+  options.stop = stop;
   options.find_include = [&](const std::string& name, const std::string& from) {
     std::vector<fs::path> folders{fs::path(from).parent_path()};
     folders.insert(folders.end(), allowed.begin(), allowed.end());
@@ -292,7 +316,7 @@ std::shared_ptr<const glsl::Module> SourceBodies::read(const NodeSource& source,
   if (source.file.empty()) {
     if (source.function.empty()) {
       return glsl::Module::read_expression(prelude_, {where, with_names(source.text), line},
-                                           diagnostics);
+                                           diagnostics, stop);
     }
     return glsl::Module::read(prelude_, {where, source.text, line}, options, diagnostics);
   }

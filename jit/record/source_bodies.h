@@ -11,6 +11,7 @@
 #include "jit/glsl/module.h"
 #include "jit/graph/graph.h"
 #include "runtime/node/node_call.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -31,16 +32,20 @@ class SourceBodies {
   const std::vector<std::filesystem::path>& roots() const { return roots_; }
 
   /// Records the node and sets its outputs. False, with a diagnostic, for a
-  /// text that cannot be read or does not fit the node.
-  bool record(const NodeSource& source, NodeCall& call);
+  /// text that cannot be read or does not fit the node: it says the file, line and column
+  /// of the text and the path of the implementation, and is said once for all nodes.
+  bool record(const NodeSource& source, NodeCall& call, const Stop& stop = {});
 
   /// Records the node on its own, every number unknown, to find what is wrong
   /// with the text.
-  bool check(const NodeSource& source, const NodeDef& def, Diagnostics& diagnostics);
+  bool check(const NodeSource& source, const NodeDef& def, Diagnostics& diagnostics,
+             const Stop& stop = {});
 
  private:
-  std::shared_ptr<const glsl::Module> module_of(const NodeSource& source, Diagnostics& diagnostics);
-  std::shared_ptr<const glsl::Module> read(const NodeSource& source, Diagnostics& diagnostics);
+  std::shared_ptr<const glsl::Module> module_of(const NodeSource& source, Diagnostics& diagnostics,
+                                                const Stop& stop);
+  std::shared_ptr<const glsl::Module> read(const NodeSource& source, Diagnostics& diagnostics,
+                                           const Stop& stop);
 
   std::vector<std::filesystem::path> roots_;
   std::shared_ptr<const glsl::Prelude> prelude_;

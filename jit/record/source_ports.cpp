@@ -128,7 +128,7 @@ glsl::Value SourcePorts::structure_of(const Members& members, std::size_t first,
       value = structure_of(members, first, next, dot + 1);
     }
     const std::string& name = names_.emplace_back(path.substr(skip, dot - skip));
-    made.members.push_back({name, value.type});
+    made.add({name, value.type});
     result.parts.insert(result.parts.end(), value.parts.begin(), value.parts.end());
     first = next;
   }

@@ -89,7 +89,8 @@ class Workshop {
       for (const Diagnostic& one : said.all()) diagnostics.add(one);
       if (ready) continue;
       // Without an error it is the system that has no memory for code.
-      kernel = said.has_errors() ? nullptr : interpreting_kernel(kernel->program(), said);
+      kernel = said.has_errors() ? nullptr
+                                 : interpreting_kernel(kernel->program(), options.max_steps, said);
     }
     return kernels;
   }

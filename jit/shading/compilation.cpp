@@ -88,6 +88,7 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
       .lazy = options_.lazy,
       .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
       .max_instructions = options_.compile.max_instructions,
+      .max_steps = options_.compile.max_steps,
       .resolve_file =
           [&](const std::string& name, const std::string& document) {
             return find_image(name, document, options_.search_paths, roots);
@@ -147,7 +148,10 @@ std::optional<RecordedOutputs> record_outputs(Compilation& compilation, const Gr
           "a numeric type, a medium, displacement or light", std::string(type_name(value.type)));
       return std::nullopt;
     }
-    recorded.outputs.push_back({name, value.type, recorded.channels.size(), list.size()});
+    const Source& source = graph.outputs[i].source;
+    const bool is_linked = source.kind == Source::Kind::link;
+    recorded.outputs.push_back({name, value.type, recorded.channels.size(), list.size(),
+                                is_linked ? graph.nodes[source.node].where : SourceLocation{}});
     std::ranges::move(list, std::back_inserter(recorded.channels));
   }
   return recorded;

@@ -33,7 +33,7 @@ std::vector<std::vector<std::uint32_t>> outputs_of(const BoundKernel& kernel) {
                                                   std::vector<std::uint32_t>(points));
   std::vector<void*> out;
   for (auto& channel : outputs) out.push_back(channel.data());
-  kernel.run(in, out, points);
+  EXPECT_EQ(kernel.run(in, out, points), RunStatus::done);
   return outputs;
 }
 
