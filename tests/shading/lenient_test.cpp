@@ -67,7 +67,7 @@ class Lenient : public ::testing::Test {
     std::vector<float> results(expected.size());
     std::vector<void*> out;
     for (float& result : results) out.push_back(&result);
-    kernel->kernel.run(in, out, 1);
+    EXPECT_EQ(kernel->kernel.run(in, out, 1), RunStatus::done);
     for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_FLOAT_EQ(results[i], expected[i]) << i;
   }
 
