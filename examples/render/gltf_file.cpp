@@ -19,10 +19,45 @@ using Json = nlohmann::json;
 // No property of glTF is nested deeper than this but within `extras`.
 constexpr int deepest_json = 64;
 
-/// What stops the parser early.
-struct TooMuch {
-  const char* message;
-  std::string expected;
+/// Looks at JSON before anything is made of it: how deep it is and how many values it has.
+class Counter : public nlohmann::json_sax<Json> {
+ public:
+  explicit Counter(std::size_t most) : most_(most) {}
+
+  bool too_deep() const { return too_deep_; }
+  bool too_many() const { return values_ > most_; }
+
+  bool null() override { return count(); }
+  bool boolean(bool) override { return count(); }
+  bool number_integer(number_integer_t) override { return count(); }
+  bool number_unsigned(number_unsigned_t) override { return count(); }
+  bool number_float(number_float_t, const string_t&) override { return count(); }
+  bool string(string_t&) override { return count(); }
+  bool binary(binary_t&) override { return count(); }
+  bool key(string_t&) override { return true; }
+  bool start_object(std::size_t) override { return enter(); }
+  bool start_array(std::size_t) override { return enter(); }
+  bool end_object() override { return leave(); }
+  bool end_array() override { return leave(); }
+  /// Who makes the values finds the fault again, and says it.
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override {
+    return false;
+  }
+
+ private:
+  bool count() { return ++values_ <= most_; }
+  bool enter() {
+    too_deep_ = ++depth_ > deepest_json;
+    return !too_deep_ && count();
+  }
+  bool leave() {
+    --depth_;
+    return true;
+  }
+
+  std::size_t most_, values_ = 0;
+  int depth_ = 0;
+  bool too_deep_ = false;
 };
 
 /// Line and column, from 1, of a byte, from 1.
@@ -45,25 +80,20 @@ std::string reason(const Json::exception& fault) {
 
 std::optional<Json> parse_json(const std::string& file, std::string_view text,
                                const SceneLimits& limits, Diagnostics& diagnostics) {
-  std::size_t values = 0;
-  const auto count = [&](int depth, Json::parse_event_t event, const Json&) {
-    using Event = Json::parse_event_t;
-    if (depth > deepest_json) {
-      throw TooMuch{"the JSON is nested too deeply",
-                    fmt::format("at most {} levels", deepest_json)};
-    }
-    const bool begins =
-        event == Event::object_start || event == Event::array_start || event == Event::value;
-    if (begins && ++values > limits.values) {
-      throw TooMuch{"the JSON has too many values",
-                    fmt::format("at most {} (--max-scene-values)", limits.values)};
-    }
-    return true;
-  };
+  // A callback of parse() would do both at once, and look at all elements of an array as
+  // often as it has objects.
+  Counter counter(limits.values);
+  Json::sax_parse(text.begin(), text.end(), &counter);
+  if (counter.too_deep() || counter.too_many()) {
+    diagnostics.error(
+        "scene-too-large", {file, 0, 0, {}},
+        counter.too_deep() ? "the JSON is nested too deeply" : "the JSON has too many values",
+        counter.too_deep() ? fmt::format("at most {} levels", deepest_json)
+                           : fmt::format("at most {} (--max-scene-values)", limits.values));
+    return {};
+  }
   try {
-    return Json::parse(text.begin(), text.end(), count);
-  } catch (const TooMuch& fault) {
-    diagnostics.error("scene-too-large", {file, 0, 0, {}}, fault.message, fault.expected);
+    return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& fault) {
     diagnostics.error("bad-gltf", place(file, text, fault.byte), "this is not JSON",
                       "a glTF 2.0 file", reason(fault));

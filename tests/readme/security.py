@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 ROW = re.compile(r"^\| `(--[a-z-]+)` \| ([0-9.]+) \|.*\| `(\w+)::(\w+)` \|$", re.MULTILINE)
-OPTION = re.compile(r"^  (--max-[a-z-]+) [^\n]*?=([0-9.]+)$", re.MULTILINE)
+OPTION = re.compile(r"^  (--max-[a-z-]+) [^\n]*?=([0-9.]+)(?= |$)", re.MULTILINE)
 
 
 def shown(nacre: str, command: str) -> dict[str, str]:

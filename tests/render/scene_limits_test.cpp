@@ -103,6 +103,14 @@ TEST_F(SceneLimitsTest, JsonIsCountedWhileItIsRead) {
   EXPECT_EQ(loaded("a.gltf", R"({"extras":)" + many + "]}"), "scene-too-large");
 }
 
+TEST_F(SceneLimitsTest, LongListsTakeTimeInProportion) {
+  std::string nodes;
+  for (int i = 0; i < 500'000; ++i) nodes += "{},";
+  std::string text(card_json);
+  const std::size_t place = text.find("{\"camera\": 0");
+  EXPECT_EQ(loaded("a.gltf", text.insert(place, nodes)), "");
+}
+
 TEST_F(SceneLimitsTest, FacesOfAnObjCountWhileTheyAreRead) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 1000; ++i) text += "f 1 2 3\n";
