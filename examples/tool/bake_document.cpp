@@ -96,6 +96,7 @@ class MaterialBaker {
     texture.encoding.is_tile = !options_.tiles.empty();
     ShaderOptions shader = options_.shader;
     shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
+    shader.compile.stop = stop_from_now(shader.compile);
     const auto graph = build_graph(*opened_.document, opened_.system->library(),
                                    {.outputs = {job.request}, .material = {}},
                                    opened_.system->graph_options(shader), diagnostics_);
