@@ -41,11 +41,6 @@ def bars(run: results.Run, subjects: dict[str, str], variants: list[str], title:
 
 
 def draw(run: results.Run, out: pathlib.Path) -> None:
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        print("no plots: matplotlib is missing (Debian: python3-matplotlib)")
-        return
     widths = ["interpreter/standard", *(f"jit_w{w}/standard" for w in (1, 4, 8, 16))]
     bars(run, {"peers/chain": "50 arithmetic nodes", "peers/fractal": "fractal3d, 4 octaves",
                "peers/conductor": "conductor, f and pdf"}, widths + ["xsimd"],

@@ -7,6 +7,7 @@
 import argparse
 import pathlib
 import platform
+import sys
 
 import plots
 import results
@@ -177,7 +178,10 @@ def main() -> None:
     for name, message in run.errors.items():
         if message != "nothing to do":
             print(f"not timed: {name}: {message}")
-    plots.draw(run, arguments.out)
+    try:
+        plots.draw(run, arguments.out)
+    except ImportError as error:
+        sys.exit(f"no plots: {error} for {sys.executable} (Debian: python3-matplotlib)")
 
 
 if __name__ == "__main__":

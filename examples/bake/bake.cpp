@@ -1,5 +1,6 @@
 #include "examples/bake/bake.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -85,6 +86,12 @@ class Baker {
 BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
                 const std::function<bool(const BakedRows&)>& sink, const BakeControl& control) {
   const Baker baker(kernel, output, settings);
+  // More threads than cores are had only by those who say so.
+  const auto threads = static_cast<std::size_t>(std::max(settings.threads, 1));
+  const tbb::global_control allowed(
+      tbb::global_control::max_allowed_parallelism,
+      std::max(threads,
+               tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
   tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
   const auto row_texels =
       static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(baker.components());

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "examples/common/checked_file.h"
+
 namespace nacre::host {
 
 namespace {
@@ -39,7 +41,7 @@ std::string copy_levels(const std::string& from, const std::string& to) {
   as_it_is.attribute("oiio:UnassociatedAlpha", 1);
   const auto in = OIIO::ImageInput::open(from, &as_it_is);
   const auto out = OIIO::ImageOutput::create("tiff");
-  if (!in || !out) return OIIO::geterror();
+  if (!in || !out) return failure(OIIO::geterror());
   for (int level = 0; in->seek_subimage(0, level); ++level) {
     OIIO::ImageSpec spec = in->spec();
     spec.attribute("DateTime", "");
@@ -52,11 +54,13 @@ std::string copy_levels(const std::string& from, const std::string& to) {
     if (!known.empty()) spec.attribute("ImageDescription", known);
     // Levels are pages to TIFF.
     const auto mode = level == 0 ? OIIO::ImageOutput::Create : OIIO::ImageOutput::AppendSubimage;
-    if (!out->open(to, spec, mode)) return out->geterror();
-    if (!copy_tiles(*in, *out, level)) return in->has_error() ? in->geterror() : out->geterror();
+    if (!out->open(to, spec, mode)) return failure(out->geterror());
+    if (!copy_tiles(*in, *out, level)) {
+      return failure(in->has_error() ? in->geterror() : out->geterror());
+    }
   }
   in->geterror();  // Of the level that there is none of.
-  return out->close() ? std::string() : out->geterror();
+  return out->close() ? std::string() : failure(out->geterror());
 }
 
 }  // namespace nacre::host

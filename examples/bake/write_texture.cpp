@@ -15,6 +15,7 @@
 
 #include "examples/bake/copy_levels.h"
 #include "examples/common/atomic_file.h"
+#include "examples/common/checked_file.h"
 #include "examples/common/srgb.h"
 #include "jit/graph/colorspace.h"
 
@@ -204,15 +205,19 @@ std::string reason(BakeResult result, const std::string& unwritten) {
 
 /// Rows to an open file, in the file's own format.
 std::string write_rows(const Job& job, const std::string& file) {
+  CheckedFile written(file);
   const auto out = OIIO::ImageOutput::create(job.format.plugin);
-  if (out == nullptr) return OIIO::geterror();
-  if (!out->open(file, spec_of(job))) return out->geterror();
+  if (out == nullptr) return failure(OIIO::geterror());
+  out->set_ioproxy(&written);
+  if (!out->open(file, spec_of(job))) return failure(out->geterror());
   const BakeResult result = bake_encoded(job, [&](const BakedRows& rows) {
     return out->write_scanlines(rows.first, rows.first + rows.rows, 0, OIIO::TypeDesc::FLOAT,
                                 rows.texels.data());
   });
-  if (result != BakeResult::done) return reason(result, out->geterror());
-  return out->close() ? std::string() : out->geterror();
+  if (result != BakeResult::done) return reason(result, failure(out->geterror()));
+  const bool closed = out->close();
+  const std::string problem = written.finish();
+  return closed || !problem.empty() ? problem : failure(out->geterror());
 }
 
 std::string write_tx(const Job& job, const std::string& file) {
@@ -222,7 +227,7 @@ std::string write_tx(const Job& job, const std::string& file) {
                         image.nchannels());
     return image.set_pixels(roi, OIIO::TypeDesc::FLOAT, rows.texels.data());
   });
-  if (result != BakeResult::done) return reason(result, image.geterror());
+  if (result != BakeResult::done) return reason(result, failure(image.geterror()));
   // Else tiles lie in the order they are ready. The smaller levels have no attribute of
   // their own for it, only the process has.
   OIIO::attribute("tiff:multithread", 0);
@@ -304,39 +309,54 @@ bool holds_unit_range_only(const std::string& extension) {
   return format != nullptr && format->is_integer;
 }
 
-bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
-                  const TextureEncoding& encoding, const std::string& path,
-                  Diagnostics& diagnostics, const BakeControl& control, TexelRange* range) {
+std::unique_ptr<PartialFile> bake_to_partial_file(const OutputKernel& kernel, std::size_t output,
+                                                  const BakeSettings& settings,
+                                                  const TextureEncoding& encoding,
+                                                  const std::string& path, Diagnostics& diagnostics,
+                                                  const BakeControl& control, TexelRange* range) {
   const Format* format = format_of(std::filesystem::path(path).extension().string());
   Cut cut;
   std::optional<Diagnostic> complaint;
   bool too_many_steps = false;
-  Diagnostics writing;
-  const bool done = write_atomically(
-      path,
-      [&](const std::string& file) -> std::string {
-        if (format == nullptr) return "unknown extension; .exr, .png and .tx can be written";
-        const Job job{kernel,  output, settings, encoding,      *format,
-                      control, range,  &cut,     too_many_steps};
-        const std::string fault = fault_of(job);
-        if (!fault.empty()) return fault;
-        const std::string problem =
-            format->extension == ".tx" ? write_tx(job, file) : write_rows(job, file);
-        if (problem.empty() && (range == nullptr || job.type() == half_float))
-          complaint = complaint_of(job, path);
-        return complaint && complaint->severity == Severity::error ? complaint->message : problem;
-      },
-      writing);
+  const auto write = [&](const std::string& file) -> std::string {
+    if (format == nullptr) return "unknown extension; .exr, .png and .tx can be written";
+    const Job job{kernel,  output, settings, encoding,      *format,
+                  control, range,  &cut,     too_many_steps};
+    const std::string fault = fault_of(job);
+    if (!fault.empty()) return fault;
+    const std::string problem =
+        format->extension == ".tx" ? write_tx(job, file) : write_rows(job, file);
+    if (problem.empty() && (range == nullptr || job.type() == half_float)) {
+      complaint = complaint_of(job, path);
+    }
+    return problem;
+  };
+  auto file = std::make_unique<PartialFile>(path);
+  std::string problem = file->problem();
+  if (problem.empty()) problem = write(file->name());
+  if (control.stop.stop_requested()) return nullptr;
   if (too_many_steps) {
     report_too_many_steps(kernel.outputs[output], diagnostics);
-    return false;
+    return nullptr;
   }
-  const bool is_refused = complaint && complaint->severity == Severity::error;
   if (complaint) diagnostics.add(*complaint);
-  if (!is_refused) {
-    for (const Diagnostic& said : writing.all()) diagnostics.add(said);
-  }
-  return done;
+  if (complaint && complaint->severity == Severity::error) return nullptr;
+  if (problem.empty()) return file;
+  write_failed(path, problem, diagnostics);
+  return nullptr;
+}
+
+bool commit(PartialFile& file, Diagnostics& diagnostics) {
+  const std::string problem = file.commit();
+  return problem.empty() || write_failed(file.path(), problem, diagnostics);
+}
+
+bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
+                  const TextureEncoding& encoding, const std::string& path,
+                  Diagnostics& diagnostics, const BakeControl& control, TexelRange* range) {
+  const auto file =
+      bake_to_partial_file(kernel, output, settings, encoding, path, diagnostics, control, range);
+  return file != nullptr && commit(*file, diagnostics);
 }
 
 }  // namespace nacre::host

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "examples/bake/bake.h"
+#include "examples/common/partial_file.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::host {
@@ -46,8 +48,8 @@ bool is_srgb(std::string_view colorspace);
 /// True if the numbers of such a file are from 0 to 1.
 bool holds_unit_range_only(const std::string& extension);
 
-/// Bakes one output into a file, atomically; the kernel's graph was built with
-/// `output_space`. The extension says what is written:
+/// Bakes one output into a partial file that waits to be committed; the kernel's graph was
+/// built with `output_space`. The extension of `path` says what is written:
 ///
 ///   .exr  32 bits, or 16: floats, as computed
 ///   .png  8 bits, or 16: integers, clamped to [0, 1]
@@ -56,14 +58,26 @@ bool holds_unit_range_only(const std::string& extension);
 ///
 /// Other numbers of bits are an error. One channel for float, boolean and integer,
 /// else as many as the type has or `encoding` asks for. Widens `range`, of those
-/// channels, if there is one. The bytes depend on nothing but all this: no time, no host.
+/// channels, if there is one. Null after an error, or without one if stopped. The bytes
+/// depend on nothing but all this: no time, no host.
 ///
 /// What a file cannot hold is cut off at its ends: a warning, how much and what there was.
 /// For vectors, of which half would be lost, it is an error, and there is no file. Whoever
 /// asks for the range judges that himself.
+std::unique_ptr<PartialFile> bake_to_partial_file(const OutputKernel& kernel, std::size_t output,
+                                                  const BakeSettings& settings,
+                                                  const TextureEncoding& encoding,
+                                                  const std::string& path, Diagnostics& diagnostics,
+                                                  const BakeControl& control = {},
+                                                  TexelRange* range = nullptr);
+
+/// The same, committed: the file appears whole or not at all.
 bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
                   const TextureEncoding& encoding, const std::string& path,
                   Diagnostics& diagnostics, const BakeControl& control = {},
                   TexelRange* range = nullptr);
+
+/// Gives a partial file its name; false with an error if that fails.
+bool commit(PartialFile& file, Diagnostics& diagnostics);
 
 }  // namespace nacre::host

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "examples/common/atomic_file.h"
+#include "examples/common/checked_file.h"
 #include "examples/common/srgb.h"
 
 namespace nacre::host {
@@ -57,8 +58,10 @@ std::vector<float> interleaved(const Film& film) {
 /// Empty when written; otherwise why not.
 std::string write_file(const Film& film, const std::string& path, bool exr,
                        const WriteOptions& options) {
+  CheckedFile written(path);
   const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(exr ? "openexr" : "png");
-  if (!out) return OIIO::geterror();
+  if (!out) return failure(OIIO::geterror());
+  out->set_ioproxy(&written);
   const OIIO::TypeDesc type =
       !exr ? OIIO::TypeDesc::UINT8 : (options.half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
   OIIO::ImageSpec spec(film.width(), film.height(), film.has_alpha() ? 4 : 3, type);
@@ -66,11 +69,11 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");  // Else the writer notes the time.
   if (!exr) spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (!out->open(path, spec)) return out->geterror();
+  if (!out->open(path, spec)) return failure(out->geterror());
   const bool ok = exr ? out->write_image(OIIO::TypeDesc::FLOAT, interleaved(film).data())
                       : out->write_image(OIIO::TypeDesc::UINT8, developed(film, options).data());
-  if (!ok || !out->close()) return out->geterror();
-  return {};
+  if (!ok || !out->close()) return failure(out->geterror());
+  return written.finish();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include "examples/render/camera.h"
@@ -155,8 +156,13 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
                                 : std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::jthread> threads;
     for (unsigned i = 0; i < std::min<std::size_t>(wanted, tiles.size()); ++i) {
-      threads.emplace_back(run);
+      try {
+        threads.emplace_back(run);
+      } catch (const std::system_error&) {
+        break;  // No more to be had: those there are do it all.
+      }
     }
+    if (threads.empty()) run();
   }
   if (shared.failure) std::rethrow_exception(shared.failure);
   if (statistics != nullptr) *statistics = shared.statistics;

@@ -1,16 +1,21 @@
 #include <fmt/format.h>
 
-#include <csignal>
+#include <algorithm>
 #include <filesystem>
-#include <stop_token>
 
 #include "examples/bake/write_texture.h"
+#include "examples/common/atomic_file.h"
 #include "examples/tool/bake_document.h"
+#include "examples/tool/file_stems.h"
 #include "examples/tool/material_inputs.h"
+#include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
+#include "examples/tool/plane_reads.h"
+#include "examples/tool/process.h"
 #include "examples/tool/stop.h"
 #include "examples/tool/texture_request.h"
 #include "examples/tool/udim.h"
+#include "jit/graph/build.h"
 #include "jit/graph/find.h"
 
 namespace nacre::tool {
@@ -19,26 +24,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// As far as every whole number is a float.
+constexpr double largest_whole = 1 << 24;
+
 struct BakeOptions {
   CommonOptions common;
   std::vector<std::string> outputs;
   std::string material;
   std::string document;
   TextureRequest textures;
-  std::string out = ".";
+  std::string out;   ///< "": beside the document that is written, or here.
   std::string udim;  ///< --udim: numbers, or "auto".
   float frame = 1.0f;
   float time = 0.0f;
 };
-
-/// "NG_marble/out" becomes "NG_marble.out".
-std::string file_stem(const std::string& output) {
-  std::string name = output;
-  for (char& c : name) {
-    if (c == '/' || c == ':') c = '.';
-  }
-  return name;
-}
 
 /// Every numeric output of the document, or what the command line names.
 std::vector<std::string> wanted(const BakeOptions& options, const Opened& opened,
@@ -46,8 +45,11 @@ std::vector<std::string> wanted(const BakeOptions& options, const Opened& opened
   if (!options.material.empty()) {
     return material_inputs(*opened.document, options.material, diagnostics);
   }
-  if (!options.outputs.empty()) return options.outputs;
   std::vector<std::string> names;
+  for (const std::string& name : options.outputs) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (!names.empty()) return names;
   for (const FoundOutput& output : find_outputs(*opened.document)) {
     if (is_numeric(output.type)) names.push_back(output.name);
   }
@@ -67,46 +69,79 @@ const Element* output_element(const Document& document, const std::string& name)
   return element != nullptr && element->category() == "output" ? element : nullptr;
 }
 
-/// One output into one file.
-void bake_file(const BakeOptions& options, const OutputKernel& kernel, const std::string& stem,
-               const host::BakeSettings& settings, const TextureSettings& texture,
-               const std::stop_token& stop, Diagnostics& diagnostics) {
-  const std::string path = (fs::path(options.out) / (stem + texture.extension)).string();
-  ProgressLine line(stem, options.common.quiet);
-  const host::BakeControl control{.stop = stop,
-                                  .progress = [&](double share) { line.update(share); }};
-  if (host::bake_to_file(kernel, 0, settings, texture.encoding, path, diagnostics, control) &&
-      !options.common.quiet) {
-    fmt::print("{}\n", path);
+/// One output, and the files it is to be in: one for each tile.
+struct Piece {
+  std::string name;
+  SourceLocation where;
+  TextureSettings texture;
+  std::vector<std::string> files;
+};
+
+std::vector<Piece> pieces(const BakeOptions& options, const Opened& opened,
+                          const std::vector<UdimTile>& tiles, Diagnostics& diagnostics) {
+  std::vector<Piece> all;
+  FileStems stems;
+  for (const std::string& name : wanted(options, opened, diagnostics)) {
+    const Element* output = output_element(*opened.document, name);
+    Piece piece{
+        .name = name, .where = {options.common.file, 0, 0, name}, .texture = {}, .files = {}};
+    if (output != nullptr) piece.where = location(*output);
+    if (!texture_settings(options.textures, output, piece.texture, diagnostics)) continue;
+    piece.texture.encoding.is_tile = !tiles.empty();
+    const std::string stem = stems.stem_of(name, piece.where, diagnostics);
+    const auto add = [&](const std::string& number) {
+      piece.files.push_back((fs::path(options.out) / (stem + number + piece.texture.extension)));
+    };
+    if (tiles.empty()) add("");
+    for (const UdimTile& tile : tiles) add("." + tile.number());
+    all.push_back(std::move(piece));
+  }
+  return all;
+}
+
+/// One output into its files.
+void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& piece,
+                host::BakeSettings settings, const std::vector<UdimTile>& tiles,
+                ShaderOptions shader, PlaneReads& reads, Diagnostics& diagnostics) {
+  shader.compile.stop = stop_from_now(shader.compile);
+  const auto graph = build_graph(*opened.document, opened.system->library(),
+                                 {.outputs = {piece.name}, .material = {}},
+                                 opened.system->graph_options(shader), diagnostics);
+  const auto kernel = graph ? opened.system->compile_outputs(*graph, shader, diagnostics) : nullptr;
+  if (kernel == nullptr) return;
+  reads.warn(*graph, kernel->kernel.program(), false, piece.where);
+  settings.width = piece.texture.width;
+  settings.height = piece.texture.height;
+  for (std::size_t i = 0; i < piece.files.size(); ++i) {
+    const std::string& path = piece.files[i];
+    if (!tiles.empty()) settings.corner_u = tiles[i].u;
+    if (!tiles.empty()) settings.corner_v = tiles[i].v;
+    ProgressLine line(fs::path(path).stem().string(), options.common.quiet);
+    const host::BakeControl control{.stop = stop().token(),
+                                    .progress = [&](double share) { line.update(share); }};
+    if (host::bake_to_file(*kernel, 0, settings, piece.texture.encoding, path, diagnostics,
+                           control)) {
+      file_is_written(path, options.common.quiet);
+    }
+    if (stop().is_due()) return;
   }
 }
 
-void bake_outputs(const BakeOptions& options, const Opened& opened, host::BakeSettings settings,
-                  const std::vector<UdimTile>& tiles, ShaderOptions shader,
-                  const std::stop_token& stop, Diagnostics& diagnostics) {
-  for (const std::string& name : wanted(options, opened, diagnostics)) {
-    if (stop.stop_requested()) break;
-    TextureSettings texture;
-    if (!texture_settings(options.textures, output_element(*opened.document, name), texture,
-                          diagnostics)) {
-      continue;
+void bake_outputs(const BakeOptions& options, const Opened& opened,
+                  const host::BakeSettings& settings, const std::vector<UdimTile>& tiles,
+                  ShaderOptions shader, Diagnostics& diagnostics) {
+  const std::vector<Piece> all = pieces(options, opened, tiles, diagnostics);
+  for (const Piece& piece : all) {
+    promise_files(piece.files);
+    for (const std::string& file : piece.files) {
+      if (!host::prepare_output(file, diagnostics)) return;
     }
-    texture.encoding.is_tile = !tiles.empty();
-    shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
-    const auto kernel =
-        opened.system->compile_outputs(*opened.document, {name}, shader, diagnostics);
-    if (kernel == nullptr) continue;
-    settings.width = texture.width;
-    settings.height = texture.height;
-    if (tiles.empty()) {
-      bake_file(options, *kernel, file_stem(name), settings, texture, stop, diagnostics);
-    }
-    for (const UdimTile& tile : tiles) {
-      settings.corner_u = tile.u;
-      settings.corner_v = tile.v;
-      const std::string stem = file_stem(name) + "." + tile.number();
-      bake_file(options, *kernel, stem, settings, texture, stop, diagnostics);
-    }
+  }
+  PlaneReads reads(diagnostics);
+  for (const Piece& piece : all) {
+    if (stop().is_due()) return;
+    shader.graph.output_space = host::output_space(piece.texture.extension, piece.texture.encoding);
+    bake_piece(options, opened, piece, settings, tiles, shader, reads, diagnostics);
   }
 }
 
@@ -126,12 +161,20 @@ std::vector<std::string> wanted_materials(const BakeOptions& options, const Docu
   return names;
 }
 
-int run(const BakeOptions& options) {
+/// Where textures go that nobody gave a place: beside the document they are of.
+std::string texture_folder(const BakeOptions& options) {
+  if (!options.out.empty()) return options.out;
+  const fs::path beside = fs::path(options.document).parent_path();
+  return beside.empty() ? "." : beside.string();
+}
+
+int run(BakeOptions& options) {
   Diagnostics diagnostics;
   if (!options.textures.check(diagnostics)) {
     report(diagnostics);
     return status_usage;
   }
+  options.out = texture_folder(options);
   host::BakeSettings settings;
   settings.threads = options.common.threads;
   settings.frame = options.frame;
@@ -142,22 +185,20 @@ int run(const BakeOptions& options) {
       read_tiles(options.udim, *opened.document, options.common.search_paths, diagnostics,
                  options.common.allow_outside);
   if (diagnostics.has_errors()) return report(diagnostics);
-  std::error_code status;
-  fs::create_directories(options.out, status);
   ShaderOptions shader = options.common.shader_options();
   shader.graph.frame = static_cast<int>(options.frame);
-  const StopOnSignal stop;
   if (options.document.empty()) {
-    bake_outputs(options, opened, settings, tiles, shader, stop.token(), diagnostics);
-  } else {
-    shader.graph.working_space = "lin_rec709";  // What the textures are tagged with.
-    const DocumentBake bake{
-        options.document, wanted_materials(options, *opened.document, diagnostics),
-        options.out,      options.textures,
-        settings,         tiles,
-        shader,           options.common.quiet};
-    if (!bake.materials.empty()) bake_document(bake, opened, stop.token(), diagnostics);
+    bake_outputs(options, opened, settings, tiles, shader, diagnostics);
+    report_texels(*opened.system, diagnostics);
+    return report(diagnostics);
   }
+  shader.graph.working_space = "lin_rec709";  // What the textures are tagged with.
+  const DocumentBake bake{
+      options.document, wanted_materials(options, *opened.document, diagnostics),
+      options.out,      options.textures,
+      settings,         tiles,
+      shader,           options.common.quiet};
+  if (!bake.materials.empty()) bake_document(bake, opened, diagnostics);
   report_texels(*opened.system, diagnostics);
   return report(diagnostics);
 }
@@ -189,11 +230,26 @@ void add_bake(CLI::App& app, int& status) {
                   "Tiles, an image each: numbers as 1001,1002, or auto for those of the "
                   "document's udimset or images (default: one image of uv from 0 to 1)")
       ->type_name("N,N...|auto");
-  command.add_option("--out", options->out, "Folder for the images")->capture_default_str();
-  command.add_option("--frame", options->frame, "Frame number")->capture_default_str();
-  command.add_option("--time", options->time, "Seconds")->capture_default_str();
+  command
+      .add_option("--out", options->out,
+                  "Folder for the images, made where there is none (default: that of --document, "
+                  "or the current one)")
+      ->type_name("DIR");
+  command.add_option("--frame", options->frame, "Frame number")
+      ->check(number_within(-largest_whole, largest_whole))
+      ->capture_default_str();
+  command.add_option("--time", options->time, "Seconds")
+      ->check(number_within(-largest_whole, largest_whole))
+      ->capture_default_str();
+  command.footer(
+      "Graphs are baked on a plane: texel (i, j) of a W x H image, j from the top, has uv = "
+      "((i+1/2)/W, 1-(j+1/2)/H) in every set, position (u, v, 0), normal (0, 0, 1), tangent "
+      "(1, 0, 0), bitangent (0, 1, 0) and a viewer straight above; vertex colours are 0, "
+      "properties have their defaults. What reads more than uv is named in a warning.");
   options->common.add_compile(command);
-  command.callback([options, &status] { status = run(*options); });
+  command.callback([options, &status] {
+    status = guarded(options->common.file, [&] { return run(*options); });
+  });
 }
 
 }  // namespace nacre::tool

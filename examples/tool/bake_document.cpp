@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <map>
 
 #include "examples/common/atomic_file.h"
 #include "examples/tool/baked_document.h"
+#include "examples/tool/file_stems.h"
+#include "examples/tool/plane_reads.h"
+#include "examples/tool/process.h"
+#include "examples/tool/stop.h"
+#include "jit/graph/build.h"
 
 namespace nacre::tool {
 
@@ -35,27 +40,55 @@ float largest_integer(int bits) { return bits == 16 ? 2048.0f : 16777216.0f; }
 class MaterialBaker {
  public:
   MaterialBaker(const DocumentBake& options, const Opened& opened, const Definitions& definitions,
-                const std::stop_token& stop, Diagnostics& diagnostics)
+                Diagnostics& diagnostics)
       : options_(options),
         opened_(opened),
-        stop_(stop),
         diagnostics_(diagnostics),
+        reads_(diagnostics),
         folder_(absolute_path(options.document).parent_path()),
         baked_(*opened.document, definitions, folder_.string(), diagnostics) {}
 
   void run() {
+    promise_files({options_.document});
+    if (!is_new_document() || !host::prepare_output(options_.document, diagnostics_) ||
+        !host::prepare_folder(options_.folder, diagnostics_)) {
+      return;
+    }
     const std::size_t errors = diagnostics_.error_count();
     for (const std::string& material : options_.materials) baked_.add_material(material);
     baked_.finish_source();
     for (const BakedDocument::Job& job : baked_.jobs()) {
-      if (stop_.stop_requested() || diagnostics_.error_count() != errors) return;
+      if (stop().is_due() || diagnostics_.error_count() != errors) return;
       bake(job);
     }
-    if (diagnostics_.error_count() == errors) write();
+    if (!stop().is_due() && diagnostics_.error_count() == errors) write();
   }
 
  private:
+  /// What an input got; other inputs that the same feeds get it too.
+  struct Result {
+    std::vector<float> texel;        ///< Of a value, or
+    std::vector<std::string> names;  ///< of a texture.
+    std::string colorspace;
+  };
+
+  /// The document read must stay: what is baked cannot be had back from what is written.
+  bool is_new_document() {
+    for (const std::string& file : opened_.document->files()) {
+      std::error_code error;
+      if (!fs::equivalent(file, options_.document, error)) continue;
+      diagnostics_.error("output-is-input", {options_.document, 0, 0, {}},
+                         "the baked document would replace the one it is made from",
+                         "another name");
+      return false;
+    }
+    return true;
+  }
+
   void bake(const BakedDocument::Job& job) {
+    if (const auto known = results_.find(job.source); known != results_.end()) {
+      return finish(job, known->second);
+    }
     TextureSettings texture;
     if (!texture_settings(options_.textures, job.output, texture, diagnostics_)) return;
     texture.encoding.is_direction = !job.frame.empty();
@@ -63,9 +96,14 @@ class MaterialBaker {
     texture.encoding.is_tile = !options_.tiles.empty();
     ShaderOptions shader = options_.shader;
     shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
+    shader.compile.stop = stop_from_now(shader.compile);
+    const auto graph = build_graph(*opened_.document, opened_.system->library(),
+                                   {.outputs = {job.request}, .material = {}},
+                                   opened_.system->graph_options(shader), diagnostics_);
     const auto kernel =
-        opened_.system->compile_outputs(*opened_.document, {job.request}, shader, diagnostics_);
+        graph ? opened_.system->compile_outputs(*graph, shader, diagnostics_) : nullptr;
     if (kernel == nullptr) return;
+    reads_.warn(*graph, kernel->kernel.program(), !job.frame.empty(), where_of(job));
     host::BakeSettings settings = options_.settings;
     settings.width = texture.width;
     settings.height = texture.height;
@@ -83,7 +121,8 @@ class MaterialBaker {
   /// texels of all of them are alike.
   void bake_texture(const BakedDocument::Job& job, const OutputKernel& kernel,
                     host::BakeSettings settings, TextureSettings& texture) {
-    std::vector<fs::path> files;
+    const std::string whole = stems_.stem_of(job.stem, where_of(job), diagnostics_);
+    std::vector<std::unique_ptr<host::PartialFile>> files;
     std::vector<std::string> names;
     host::TexelRange all;
     const int rows = matrix_rows(job.type);
@@ -91,30 +130,47 @@ class MaterialBaker {
       host::TexelRange range;
       texture.encoding.first_channel = row * rows;
       texture.encoding.channels = rows == 1 ? 0 : rows;
-      const std::string stem = rows == 1 ? job.stem : fmt::format("{}.row{}", job.stem, row + 1);
+      const std::string stem = rows == 1 ? whole : fmt::format("{}.row{}", whole, row + 1);
       for (const UdimTile& tile : options_.tiles.empty() ? one_tile : options_.tiles) {
         settings.corner_u = tile.u;
         settings.corner_v = tile.v;
-        files.push_back(file_of(stem, options_.tiles.empty() ? "" : tile.number(), texture));
-        if (!bake_file(kernel, settings, texture, files.back(), range)) return;
+        const fs::path file = file_of(stem, options_.tiles.empty() ? "" : tile.number(), texture);
+        files.push_back(bake_file(kernel, settings, texture, file, range));
+        if (files.back() == nullptr) return;
       }
       names.push_back(relative(file_of(stem, options_.tiles.empty() ? "" : "<UDIM>", texture)));
       all.least.insert(all.least.end(), range.least.begin(), range.least.end());
       all.most.insert(all.most.end(), range.most.begin(), range.most.end());
     }
-    std::error_code error;
     if (all.is_uniform()) {
-      for (const fs::path& file : files) fs::remove(file, error);
       return set_value(job, all.least, host::output_space(texture.extension, texture.encoding));
     }
-    check_range(job, texture, all);
-    baked_.set_texture(job, names,
-                       host::texture_colorspace(job.type, texture.extension, texture.encoding));
-    if (!options_.tiles.empty()) baked_.set_tiles(options_.tiles);
-    if (options_.quiet) return;
-    for (const fs::path& file : files) {
-      fmt::print("{}\n", file.lexically_relative(absolute_path(".")).string());
+    if (!check_range(job, texture, all)) return;
+    for (const auto& file : files) {
+      if (!host::commit(*file, diagnostics_)) return;
+      const fs::path path = file->path();
+      file_is_written(path.lexically_relative(absolute_path(".")).string(), options_.quiet);
     }
+    if (!options_.tiles.empty()) baked_.set_tiles(options_.tiles);
+    finish(
+        job,
+        remember(job, {{},
+                       std::move(names),
+                       host::texture_colorspace(job.type, texture.extension, texture.encoding)}));
+  }
+
+  const Result& remember(const BakedDocument::Job& job, Result result) {
+    return results_.emplace(job.source, std::move(result)).first->second;
+  }
+
+  void finish(const BakedDocument::Job& job, const Result& result) {
+    if (result.names.empty()) return baked_.set_value(job, result.texel, result.colorspace);
+    baked_.set_texture(job, result.names, result.colorspace);
+  }
+
+  SourceLocation where_of(const BakedDocument::Job& job) const {
+    if (job.output != nullptr) return location(*job.output);
+    return {opened_.document->files().front(), 0, 0, job.stem};
   }
 
   fs::path file_of(const std::string& stem, const std::string& tile,
@@ -130,78 +186,79 @@ class MaterialBaker {
     return name.empty() ? file.string() : name;
   }
 
-  bool bake_file(const OutputKernel& kernel, const host::BakeSettings& settings,
-                 const TextureSettings& texture, const fs::path& file, host::TexelRange& range) {
+  std::unique_ptr<host::PartialFile> bake_file(const OutputKernel& kernel,
+                                               const host::BakeSettings& settings,
+                                               const TextureSettings& texture, const fs::path& file,
+                                               host::TexelRange& range) {
+    if (!host::prepare_output(file.string(), diagnostics_)) return nullptr;
     ProgressLine line(file.stem().string(), options_.quiet);
-    const host::BakeControl control{.stop = stop_,
+    const host::BakeControl control{.stop = stop().token(),
                                     .progress = [&](double share) { line.update(share); }};
-    return host::bake_to_file(kernel, 0, settings, texture.encoding, file.string(), diagnostics_,
-                              control, &range);
+    return host::bake_to_partial_file(kernel, 0, settings, texture.encoding, file.string(),
+                                      diagnostics_, control, &range);
   }
 
   void set_value(const BakedDocument::Job& job, const std::vector<float>& texel,
                  std::string_view colorspace) {
     const bool finite =
         std::all_of(texel.begin(), texel.end(), [](float x) { return std::isfinite(x); });
-    if (finite) return baked_.set_value(job, texel, colorspace);
+    if (finite) return finish(job, remember(job, {texel, {}, std::string(colorspace)}));
     diagnostics_.error("cannot-bake", {options_.document, 0, 0, job.stem},
                        "the value is not a finite number");
   }
 
   /// Whole numbers hold 0 to 1, or -1 to 1 for directions; more would be cut off.
-  void check_range(const BakedDocument::Job& job, const TextureSettings& texture,
+  bool check_range(const BakedDocument::Job& job, const TextureSettings& texture,
                    const host::TexelRange& range) {
-    if (job.type == Type::integer) check_integers(job, texture.encoding.bits, range);
+    if (job.type == Type::integer && !check_integers(job, texture.encoding.bits, range)) {
+      return false;
+    }
     const bool is_limited =
         host::holds_unit_range_only(texture.extension) ||
         host::is_srgb(host::texture_colorspace(job.type, texture.extension, texture.encoding));
-    if (!is_limited) return;
+    if (!is_limited) return true;
     constexpr float rounding = 1e-5f;
     const float lowest = job.frame.empty() ? 0.0f : -1.0f;
     const float least = *std::min_element(range.least.begin(), range.least.end());
     const float most = *std::max_element(range.most.begin(), range.most.end());
-    if (least >= lowest - rounding && most <= 1.0f + rounding) return;
+    if (least >= lowest - rounding && most <= 1.0f + rounding) return true;
     diagnostics_.error("out-of-range", {options_.document, 0, 0, job.stem},
                        "the texture cannot hold these values; exr and tx can",
                        fmt::format("{} to 1", lowest), fmt::format("{} to {}", least, most));
+    return false;
   }
 
-  void check_integers(const BakedDocument::Job& job, int bits, const host::TexelRange& range) {
+  bool check_integers(const BakedDocument::Job& job, int bits, const host::TexelRange& range) {
     const float limit = largest_integer(bits);
-    if (range.least[0] >= -limit && range.most[0] <= limit) return;
+    if (range.least[0] >= -limit && range.most[0] <= limit) return true;
     diagnostics_.error("out-of-range", {options_.document, 0, 0, job.stem},
                        "the texture cannot hold these integers", fmt::format("-{0} to {0}", limit),
                        fmt::format("{} to {}", range.least[0], range.most[0]));
+    return false;
   }
 
   void write() {
-    const std::string text = baked_.text();
-    const auto fill = [&](const std::string& path) -> std::string {
-      std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-      stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-      stream.close();
-      return stream ? "" : "the data cannot be written";
-    };
-    if (host::write_atomically(options_.document, fill, diagnostics_) && !options_.quiet) {
-      fmt::print("{}\n", options_.document);
+    if (host::write_text_atomically(options_.document, baked_.text(), diagnostics_)) {
+      file_is_written(options_.document, options_.quiet);
     }
   }
 
   const DocumentBake& options_;
   const Opened& opened_;
-  const std::stop_token& stop_;
   Diagnostics& diagnostics_;
+  PlaneReads reads_;
+  FileStems stems_;
+  std::map<std::string, Result> results_;  ///< By Job::source.
   fs::path folder_;
   BakedDocument baked_;
 };
 
 }  // namespace
 
-void bake_document(const DocumentBake& options, const Opened& opened, const std::stop_token& stop,
-                   Diagnostics& diagnostics) {
+void bake_document(const DocumentBake& options, const Opened& opened, Diagnostics& diagnostics) {
   const Definitions definitions(*opened.document, &opened.system->library().definitions(),
                                 diagnostics);
-  MaterialBaker(options, opened, definitions, stop, diagnostics).run();
+  MaterialBaker(options, opened, definitions, diagnostics).run();
 }
 
 }  // namespace nacre::tool

@@ -24,8 +24,8 @@ struct DocumentBake {
 
 /// Bakes what feeds materials into textures, and writes a document that has them
 /// in place of the graphs. The opened document gets outputs for it. A file that
-/// could not be written is an error, and then there is no document.
-void bake_document(const DocumentBake& options, const Opened& opened, const std::stop_token& stop,
-                   Diagnostics& diagnostics);
+/// could not be written is an error, and then there is no document; nor is there if the work
+/// is stopped.
+void bake_document(const DocumentBake& options, const Opened& opened, Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

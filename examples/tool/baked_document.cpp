@@ -192,6 +192,10 @@ void BakedDocument::add_job(const Element& input, const Element& port, const Nod
   const NodeDefInput* declared = def.input(input.name());
   const std::string_view geomprop = declared != nullptr ? declared->defaultgeomprop : "";
   if (plane_axis(geomprop) != nullptr) job.frame = geomprop;
+  job.source = fmt::format("{}|{}|{}", element_path(scope), type_name(job.type), job.frame);
+  for (std::size_t i = 2; i < attributes.size(); ++i) {
+    job.source += fmt::format("|{}={}", attributes[i].name, attributes[i].value);
+  }
   job.node = &copy;
   job.input = input.name();
 }

@@ -24,7 +24,9 @@ class BakedDocument {
  public:
   /// One input to bake.
   struct Job {
-    std::string request;              ///< The output of the source document that gives it.
+    std::string request;  ///< The output of the source document that gives it.
+    /// Equal for inputs that one port feeds in the same way: they get the same.
+    std::string source;
     std::string stem;                 ///< A name for its file: "SR_marble.base_color".
     const Element* output = nullptr;  ///< The <output> it comes from, if there is one.
     Type type = Type::none;

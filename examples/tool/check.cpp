@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "examples/tool/options.h"
+#include "examples/tool/process.h"
 #include "jit/graph/build.h"
 #include "jit/graph/find.h"
 
@@ -28,7 +29,8 @@ void add_check(CLI::App& app, int& status) {
   CLI::App& command = *app.add_subcommand("check", "Say what is wrong with a document");
   options->add_document(command);
   command.footer("Exit status: 0 clean, 1 problems, 2 usage.");
-  command.callback([options, &status] { status = run(*options); });
+  command.callback(
+      [options, &status] { status = guarded(options->file, [&] { return run(*options); }); });
 }
 
 }  // namespace nacre::tool

@@ -1,11 +1,10 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "examples/common/atomic_file.h"
 #include "examples/tool/options.h"
+#include "examples/tool/process.h"
+#include "examples/tool/stop.h"
 #include "jit/document/read.h"
 #include "jit/document/write.h"
 
@@ -22,13 +21,6 @@ struct ConvertOptions {
   bool flatten = false;
   bool quiet = false;
 };
-
-std::string write_text(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  return stream ? "" : "the data cannot be written";
-}
 
 bool is_relative(std::string_view name) { return !name.empty() && fs::path(name).is_relative(); }
 
@@ -58,14 +50,16 @@ int run(const ConvertOptions& options) {
   Diagnostics diagnostics;
   ReadOptions read;
   read.keep_comments = true;
+  read.stop = stop();
   for (const std::string& path : options.search_paths) read.search_paths.emplace_back(path);
   const auto document = read_document(options.file, read, diagnostics);
   if (document == nullptr) return report(diagnostics);
   const std::string text = write_document(*document, {.flatten = options.flatten});
-  host::write_atomically(
-      options.out, [&](const std::string& path) { return write_text(path, text); }, diagnostics);
+  promise_files({options.out});
+  const bool written = host::prepare_output(options.out, diagnostics) &&
+                       host::write_text_atomically(options.out, text, diagnostics);
   warn_of_other_folder(options, *document, diagnostics);
-  if (!options.quiet && !diagnostics.has_errors()) fmt::print("{}\n", options.out);
+  if (written) file_is_written(options.out, options.quiet);
   return report(diagnostics);
 }
 
@@ -89,7 +83,8 @@ void add_convert(CLI::App& app, int& status) {
   command.footer(
       "Elements, attributes and comments stay, unknown ones too; what changed since the document's "
       "version is rewritten.\nExit status: 0 done, 1 problems, 2 usage.");
-  command.callback([options, &status] { status = run(*options); });
+  command.callback(
+      [options, &status] { status = guarded(options->file, [&] { return run(*options); }); });
 }
 
 }  // namespace nacre::tool

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "examples/tool/options.h"
+#include "examples/tool/process.h"
 #include "jit/graph/find.h"
 
 namespace nacre::tool {
@@ -29,11 +31,17 @@ Json channel_list(const std::vector<Channel>& channels) {
   return list;
 }
 
+/// JSON has no numbers that are not finite; those are texts: "inf", "-inf", "nan".
+Json number(float value) {
+  if (!std::isfinite(value)) return fmt::format("{}", value);
+  return value;
+}
+
 Json parameter_list(const Program& program) {
   Json list = Json::array();
   for (const ParameterSlot& slot : program.parameters) {
     Json entry{{"name", slot.name}, {"type", scalar_name(slot.type)}};
-    if (slot.type == Scalar::f32) entry["value"] = std::bit_cast<float>(slot.value);
+    if (slot.type == Scalar::f32) entry["value"] = number(std::bit_cast<float>(slot.value));
     if (slot.type != Scalar::f32) entry["value"] = static_cast<std::int32_t>(slot.value);
     list.push_back(std::move(entry));
   }
@@ -146,7 +154,10 @@ void print_text(const Json& result) {
 int run(const InspectOptions& options) {
   Diagnostics diagnostics;
   const Opened opened = open(options.common, diagnostics);
-  if (!opened) return report(diagnostics);
+  if (!opened) {
+    if (options.json) fmt::print("[]\n");
+    return report(diagnostics);
+  }
   ShaderOptions shader = options.common.shader_options();
   if (options.live) shader.parameters = ParameterMode::live;
   for (const std::string& dump : options.dumps) {
@@ -155,6 +166,9 @@ int run(const InspectOptions& options) {
     if (dump == "assembly") shader.compile.dump_assembly = true;
   }
   Json results = Json::array();
+  const auto add = [&](Json result) {
+    if (!result.is_null()) results.push_back(std::move(result));
+  };
   std::vector<std::string> materials;
   if (!options.material.empty()) materials.push_back(options.material);
   const bool everything = options.material.empty() && options.outputs.empty();
@@ -164,7 +178,7 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& material : materials) {
-    results.push_back(inspect_material(opened, material, shader, diagnostics));
+    add(inspect_material(opened, material, shader, diagnostics));
   }
   std::vector<std::string> outputs = options.outputs;
   if (everything) {
@@ -173,14 +187,13 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& output : outputs) {
-    results.push_back(inspect_output(opened, output, shader, diagnostics));
+    add(inspect_output(opened, output, shader, diagnostics));
   }
   if (options.json) {
-    fmt::print("{}\n", results.dump(2));
+    // Names come from documents, which may hold bytes that are no UTF-8.
+    fmt::print("{}\n", results.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
-    for (const Json& result : results) {
-      if (!result.is_null()) print_text(result);
-    }
+    for (const Json& result : results) print_text(result);
   }
   return report(diagnostics);
 }
@@ -201,7 +214,9 @@ void add_inspect(CLI::App& app, int& status) {
   command.add_flag("--live", options->live, "Keep parameters changeable");
   command.add_flag("--json", options->json, "For programs to read");
   options->common.add_compile(command);
-  command.callback([options, &status] { status = run(*options); });
+  command.callback([options, &status] {
+    status = guarded(options->common.file, [&] { return run(*options); });
+  });
 }
 
 }  // namespace nacre::tool

@@ -1,8 +1,12 @@
 #include "examples/tool/options.h"
+#include "examples/tool/process.h"
+#include "examples/tool/stop.h"
 
 namespace {
 
-constexpr const char* footer = R"(Exit status: 0 done, 1 problems (on standard error), 2 usage.
+constexpr const char* footer =
+    R"(Exit status: 0 done, 1 problems (on standard error), 2 usage; stopped by SIGINT, SIGTERM or
+SIGHUP before all was written, death by that signal, which shells call 128 + its number.
 
 Examples:
   nacre bake marble.mtlx --size 1024 --out textures
@@ -12,6 +16,8 @@ Examples:
 }  // namespace
 
 int main(int argc, char** argv) {
+  nacre::tool::prepare_process();
+  const nacre::tool::StopOnSignal signals;
   CLI::App app{"nacre: MaterialX shading on the CPU, compiled to SIMD machine code", "nacre"};
   app.set_version_flag("--version", NACRE_VERSION);
   app.require_subcommand(1);
@@ -25,7 +31,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? nacre::tool::status_ok : nacre::tool::status_usage;
+    status = app.exit(error) == 0 ? nacre::tool::status_ok : nacre::tool::status_usage;
   }
+  status = nacre::tool::finish_output(status);
+  const bool failed = nacre::tool::stop().is_due() && status != nacre::tool::status_ok;
+  if (failed || nacre::tool::is_stopped_early()) nacre::tool::end_stopped();
   return status;
 }

@@ -1,5 +1,7 @@
 #include "examples/tool/material_inputs.h"
 
+#include <algorithm>
+
 #include "jit/graph/find.h"
 
 namespace nacre::tool {
@@ -33,7 +35,8 @@ std::vector<std::string> material_inputs(const Document& document, const std::st
     for (const Element& input : shader->children()) {
       if (input.category() != "input") continue;
       const std::string name = graph_output(document, input);
-      if (!name.empty()) names.push_back(name);
+      const bool is_known = std::find(names.begin(), names.end(), name) != names.end();
+      if (!name.empty() && !is_known) names.push_back(name);
     }
     return names;
   }

@@ -10,6 +10,8 @@
 
 #include "examples/common/materialx_libraries.h"
 #include "examples/tool/number_range.h"
+#include "examples/tool/stop.h"
+#include "jit/cache/kernel_cache.h"
 #include "jit/document/read.h"
 
 namespace nacre::tool {
@@ -18,15 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path default_cache() {
-  if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder != nullptr && *folder != '\0') {
-    return fs::path(folder) / "nacre";
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-    return fs::path(home) / ".cache" / "nacre";
-  }
-  return {};
-}
+/// Threads are asked for by people, who have machines of hundreds of cores; beyond that it
+/// is a mistake.
+constexpr int most_threads = 1024;
 
 }  // namespace
 
@@ -53,7 +49,8 @@ void CommonOptions::add_document(CLI::App& command) {
   command
       .add_option("--prefer", graph_limits.prefer,
                   "Which implementation of a node to take: body (built in), graph, source (GLSL)")
-      ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case))
+      ->transform(CLI::CheckedTransformer(preferences, CLI::ignore_case)
+                      .description("{body,graph,source}"))  // Not the numbers behind them.
       ->default_str("body")
       ->type_name("KIND");
   command
@@ -123,7 +120,8 @@ void CommonOptions::add_compile(CLI::App& command) {
                   "How much longer than wide a pixel may be on an image without blur; 1: no care")
       ->check(CLI::Range(1, largest_anisotropy))
       ->capture_default_str();
-  command.add_option("--threads", threads, "Threads (default: all)")->check(number_within(0));
+  command.add_option("--threads", threads, "Threads (default: as many as the machine has)")
+      ->check(number_within(0, most_threads));
   command.add_option("--cache", cache, "Folder of compiled kernels (default: in the user's cache)")
       ->type_name("DIR");
   command
@@ -152,6 +150,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.max_instructions = compile_limits.max_instructions;
   options.compile.max_steps = compile_limits.max_steps;
   options.compile.max_seconds = compile_limits.max_seconds;
+  options.compile.stop = stop();
   options.max_anisotropy = anisotropy;
   options.graph.prefer = graph_limits.prefer;
   options.graph.lenient = !strict;
@@ -180,6 +179,12 @@ std::optional<fs::path> ocio_config(const std::string& option, Diagnostics& diag
 
 Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   Opened opened;
+  for (const std::string& path : options.search_paths) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) continue;
+    diagnostics.warning("no-such-folder", {path, 0, 0, {}}, "nothing is found on this search path",
+                        "a folder");
+  }
   const fs::path data = find_materialx_libraries();
   if (data.empty()) {
     diagnostics.error("no-data-library", {}, "the MaterialX data library was not found",
@@ -196,12 +201,13 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   system.compile_threads = options.threads;
   system.textures = options.texture_limits;
   if (!options.no_cache) {
-    system.cache = options.cache.empty() ? default_cache() : fs::path(options.cache);
+    system.cache = options.cache.empty() ? default_cache_folder() : fs::path(options.cache);
   }
   opened.system = ShadingSystem::create(system, diagnostics);
   if (opened.system == nullptr) return opened;
   ReadOptions read;
   read.limits = options.read_limits;
+  read.stop = stop();
   for (const std::string& path : options.search_paths) read.search_paths.emplace_back(path);
   read.includes_anywhere = options.allow_outside;
   opened.document = read_document(options.file, read, diagnostics);

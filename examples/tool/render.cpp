@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "examples/common/output_file.h"
+#include "examples/common/atomic_file.h"
 #include "examples/render/builtin_scene.h"
 #include "examples/render/camera.h"
 #include "examples/render/image_io.h"
@@ -19,6 +19,7 @@
 #include "examples/tool/not_rendered.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
+#include "examples/tool/process.h"
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
 
@@ -171,10 +172,11 @@ int run(RenderOptions& options) {
     return status_usage;
   }
   options.settings.threads = options.common.threads;
+  promise_files({options.out});
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
   if (!host::is_image_name(options.out, diagnostics) ||
-      !host::prepare_output_file(options.out, diagnostics)) {
+      !host::prepare_output(options.out, diagnostics)) {
     return report(diagnostics);
   }
   host::Scene world = scene(options, diagnostics);
@@ -203,8 +205,7 @@ int run(RenderOptions& options) {
   const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
 
-  const StopOnSignal signals;
-  stop.follow(signals.token());
+  stop.follow(tool::stop().token());
   ProgressLine line("render", options.common.quiet);
   const host::RenderControl control{.stop = stop.token(),
                                     .progress = [&](double share) { line.update(share); }};
@@ -212,9 +213,8 @@ int run(RenderOptions& options) {
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
   report_invalid_results(statistics, diagnostics);
   report_failed(opened, assignments, shaders, diagnostics);
-  if (film && host::write_image(*film, options.out, options.write, diagnostics) &&
-      !options.common.quiet) {
-    fmt::print("{}\n", options.out);
+  if (film && host::write_image(*film, options.out, options.write, diagnostics)) {
+    file_is_written(options.out, options.common.quiet);
   }
   report_texels(*opened.system, diagnostics);
   const int status = report(diagnostics);
@@ -304,7 +304,9 @@ void add_render(CLI::App& app, int& status) {
       ->check(number_within(0, host::largest_coordinate));
   add_scene_limits(command, options->scene_limits);
   options->common.add_compile(command);
-  command.callback([options, &status] { status = run(*options); });
+  command.callback([options, &status] {
+    status = guarded(options->common.file, [&] { return run(*options); });
+  });
 }
 
 }  // namespace nacre::tool

@@ -1,47 +1,178 @@
 #include "examples/tool/stop.h"
 
-#include <pthread.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <mutex>
 #include <stop_token>
+#include <string_view>
+#include <system_error>
 #include <thread>
+
+#include "examples/common/partial_file.h"
+#include "runtime/diagnostic.h"
 
 namespace nacre::tool {
 
 namespace {
 
-// A program has one set of signal handlers, so this has one state. The handler
-// itself only writes a flag: what it may do is little.
-volatile std::sig_atomic_t requested = 0;
-std::stop_source source;
-std::jthread watcher;
+/// How long a stop that was asked for may take before the process just ends.
+constexpr int patience = 300;  // ms
 
+/// A process has one set of signals, so this has one state. Never destroyed: the thread
+/// that ends the process may be any.
+struct State {
+  std::stop_source source;
+  std::atomic<int> signal = 0;
+  std::mutex mutex;
+  std::vector<std::string> promised;
+  std::vector<std::string> missing;
+
+  int reading = -1, writing = -1;  ///< Ends of a pipe: a byte for each signal, 0 for the end.
+  std::jthread watcher;
+};
+
+State& state() {
+  static State* const only = new State;
+  return *only;
+}
+
+constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
+
+/// May do next to nothing: what is to be done about a signal the watcher does.
 void handle(int signal) {
-  requested = 1;
-  std::signal(signal, SIG_DFL);
+  const int error = errno;
+  const auto byte = static_cast<char>(signal);
+  (void)!::write(state().writing, &byte, 1);
+  errno = error;
+}
+
+/// Those that whoever started us has ignored, as nohup does, stay so.
+bool is_ignored(int signal) {
+  struct sigaction action{};
+  return sigaction(signal, nullptr, &action) == 0 && (action.sa_flags & SA_SIGINFO) == 0 &&
+         action.sa_handler == SIG_IGN;
+}
+
+void set_action(void (*handler)(int)) {
+  struct sigaction action{};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : signals) {
+    if (!is_ignored(signal)) sigaction(signal, &action, nullptr);
+  }
+}
+
+void watch() {
+  State& all = state();
+  pollfd pipe{all.reading, POLLIN, 0};
+  int wait = -1;
+  while (true) {
+    const int events = ::poll(&pipe, 1, wait);
+    if (events < 0) continue;  // EINTR
+    char signal = 0;
+    if (events == 0 || ::read(all.reading, &signal, 1) != 1) end_stopped();
+    if (signal == 0) return;
+    if (all.signal != 0) end_stopped();
+    all.signal = signal;
+    all.source.request_stop();
+    wait = patience;
+  }
+}
+
+const char* name_of(int signal) {
+  switch (signal) {
+    case SIGINT: return "SIGINT";
+    case SIGTERM: return "SIGTERM";
+    case SIGHUP: return "SIGHUP";
+    default: return "a signal";
+  }
+}
+
+std::string complaint(int signal, const std::vector<std::string>& missing, std::size_t promised) {
+  std::string text = "error: stopped by ";
+  text += name_of(signal);
+  if (promised > 0) {
+    text += fmt::format("; expected {} file{}, not written: ", promised, promised == 1 ? "" : "s");
+    constexpr std::size_t most = 4;
+    for (std::size_t i = 0; i < std::min(most, missing.size()); ++i) {
+      text += (i == 0 ? "" : ", ") + printable(missing[i]);
+    }
+    if (missing.size() > most) text += fmt::format(" and {} more", missing.size() - most);
+  }
+  return text + " [stopped]\n";
 }
 
 }  // namespace
 
 StopOnSignal::StopOnSignal() {
-  requested = 0;
-  source = std::stop_source();
-  std::signal(SIGINT, handle);
-  std::signal(SIGTERM, handle);
-  watcher = std::jthread([](const std::stop_token& ended) {
-    while (!ended.stop_requested()) {
-      if (requested != 0) source.request_stop();
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-  });
+  State& all = state();
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return;  // Then signals end the process as any other.
+  all.reading = ends[0];
+  all.writing = ends[1];
+  try {
+    all.watcher = std::jthread(watch);
+    set_action(handle);
+  } catch (const std::system_error&) {  // No thread to be had: as above.
+  }
 }
 
 StopOnSignal::~StopOnSignal() {
-  watcher = std::jthread();
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  State& all = state();
+  if (!all.watcher.joinable()) return;
+  set_action(SIG_DFL);
+  const char end = 0;
+  if (::write(all.writing, &end, 1) == 1) all.watcher.join();
 }
 
-std::stop_token StopOnSignal::token() const { return source.get_token(); }
+Stop stop() { return Stop(state().source.get_token()); }
+
+void promise_files(const std::vector<std::string>& files) {
+  State& all = state();
+  const std::scoped_lock lock(all.mutex);
+  all.promised.insert(all.promised.end(), files.begin(), files.end());
+  all.missing.insert(all.missing.end(), files.begin(), files.end());
+}
+
+void keep_promise(const std::string& file) {
+  State& all = state();
+  const std::scoped_lock lock(all.mutex);
+  std::erase(all.missing, file);
+}
+
+bool is_stopped_early() {
+  State& all = state();
+  const std::scoped_lock lock(all.mutex);
+  return all.signal != 0 && !all.missing.empty();
+}
+
+void end_stopped() {
+  State& all = state();
+  static std::mutex once;
+  once.lock();  // And stays locked: the first to come ends it for all.
+  host::abandon_partial_files();
+  std::string text;
+  {
+    const std::scoped_lock lock(all.mutex);
+    text = complaint(all.signal, all.missing, all.promised.size());
+  }
+  if (::isatty(STDERR_FILENO) != 0) text.insert(0, "\r\033[K");  // Over the progress.
+  // Not through stdio: a thread that waits for a full pipe has its lock.
+  (void)!::write(STDERR_FILENO, text.data(), text.size());
+  const int signal = all.signal;
+  struct sigaction action{};
+  action.sa_handler = SIG_DFL;
+  sigaction(signal, &action, nullptr);
+  ::kill(::getpid(), signal);
+  std::_Exit(128 + signal);  // Where that is blocked.
+}
 
 }  // namespace nacre::tool

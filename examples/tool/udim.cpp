@@ -29,6 +29,12 @@ void add_tile(std::vector<UdimTile>& tiles, UdimTile tile) {
   if (std::find(tiles.begin(), tiles.end(), tile) == tiles.end()) tiles.push_back(tile);
 }
 
+std::string numbers_of(const std::vector<UdimTile>& tiles) {
+  std::string text;
+  for (const UdimTile& tile : tiles) text += (text.empty() ? "" : ",") + tile.number();
+  return text;
+}
+
 /// Adds the tiles of a list; false after an error.
 bool add_list(std::string_view text, const SourceLocation& where, std::vector<UdimTile>& tiles,
               Diagnostics& diagnostics) {
@@ -96,8 +102,31 @@ std::vector<UdimTile> read_tiles(std::string_view text, const Document& document
                                  const std::vector<std::string>& search_paths,
                                  Diagnostics& diagnostics, bool anywhere) {
   if (text == "auto") return tiles_of(document, search_paths, diagnostics, anywhere);
+  const SourceLocation where{document.files().front(), 0, 0, {}};
+  Diagnostics ignored;
+  const std::vector<UdimTile> known = tiles_of(document, search_paths, ignored, anywhere);
   std::vector<UdimTile> tiles;
-  if (!add_list(text, {}, tiles, diagnostics)) return {};
+  if (text.empty()) {
+    if (known.empty() || known == std::vector<UdimTile>(1)) return tiles;
+    diagnostics.warning("udim-not-baked", where,
+                        "the document has tiles, but one image of uv from 0 to 1 is baked",
+                        "--udim auto", numbers_of(known));
+    return tiles;
+  }
+  SourceLocation flag = where;
+  flag.path = "--udim";
+  if (!add_list(text, flag, tiles, diagnostics)) return {};
+  if (known.empty()) {
+    diagnostics.warning("no-udim", where,
+                        "the document says nothing of tiles: each is what its graphs make of uv",
+                        "a udimset, or files of a name with <UDIM>");
+    return tiles;
+  }
+  for (const UdimTile& tile : tiles) {
+    if (std::find(known.begin(), known.end(), tile) != known.end()) continue;
+    diagnostics.error("no-such-tile", where, "the document has no such tile", numbers_of(known),
+                      tile.number());
+  }
   return tiles;
 }
 

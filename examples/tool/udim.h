@@ -20,8 +20,9 @@ struct UdimTile {
 };
 
 /// What --udim says, without what is said twice: numbers with commas between them, or
-/// "auto" for what the document says (below). Nothing for ""; empty, and an error, for
-/// what cannot be understood.
+/// "auto" for what the document says (below). Nothing for "", with a warning where the
+/// document has tiles; empty, and an error, for what cannot be understood. Tiles that the
+/// document does not have are an error; a warning where it says nothing of any.
 std::vector<UdimTile> read_tiles(std::string_view text, const Document& document,
                                  const std::vector<std::string>& search_paths,
                                  Diagnostics& diagnostics, bool anywhere = false);

@@ -56,6 +56,14 @@ bool write_all(int file, std::string_view bytes) {
   return true;
 }
 
+/// False where that cannot be: see write_and_rename.
+bool write_nameless(int folder, const std::string& name, std::string_view bytes) {
+  const Descriptor file(openat(folder, ".", O_WRONLY | O_TMPFILE | O_CLOEXEC, S_IRUSR | S_IWUSR));
+  if (!file || !write_all(file.get(), bytes)) return false;
+  const std::string here = "/proc/self/fd/" + std::to_string(file.get());
+  return linkat(AT_FDCWD, here.c_str(), folder, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
 }  // namespace
 
 Descriptor::~Descriptor() {
@@ -119,6 +127,7 @@ bool write_new(int folder, const std::string& name, std::string_view bytes) {
 
 bool write_and_rename(int folder, const std::string& name, const std::string& temporary,
                       std::string_view bytes) {
+  if (write_nameless(folder, name, bytes)) return true;
   if (!write_new(folder, temporary, bytes)) return false;
   if (renameat(folder, temporary.c_str(), folder, name.c_str()) == 0) return true;
   const int reason = errno;

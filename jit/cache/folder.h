@@ -37,7 +37,9 @@ std::optional<std::string> read_trusted(int folder, const std::string& name, std
 /// failed; then there is none.
 bool write_new(int folder, const std::string& name, std::string_view bytes);
 
-/// Writes a file under a temporary name and renames it. False if that failed.
+/// Writes a file that appears whole: one without a name that gets it, so that nothing is
+/// left if the process is killed; where the file system has no such files or the name is
+/// taken, under a temporary name first. False if that failed.
 bool write_and_rename(int folder, const std::string& name, const std::string& temporary,
                       std::string_view bytes);
 

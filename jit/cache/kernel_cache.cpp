@@ -25,13 +25,23 @@ void report(Diagnostics& diagnostics, const std::string& path, const std::string
   diagnostics.warning("kernel-cache", std::move(where), message);
 }
 
+/// Without slashes and dots at the end, behind which a link would be followed.
+std::filesystem::path without_trailing(std::filesystem::path folder) {
+  while (folder.has_relative_path() && (!folder.has_filename() || folder.filename() == ".") &&
+         folder.has_parent_path()) {
+    folder = folder.parent_path();
+  }
+  return folder;
+}
+
 /// A file larger than this is not one of ours; it won't be read into memory.
 constexpr std::uint64_t largest_file = 1ull << 28;
 
 }  // namespace
 
-std::unique_ptr<KernelCache> KernelCache::open(const std::filesystem::path& folder,
+std::unique_ptr<KernelCache> KernelCache::open(const std::filesystem::path& asked,
                                                Diagnostics& diagnostics, std::uint64_t limit) {
+  const std::filesystem::path folder = without_trailing(asked);
   std::error_code ignored;
   const auto parent = std::filesystem::absolute(folder, ignored).parent_path();
   std::filesystem::create_directories(parent, ignored);

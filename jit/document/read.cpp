@@ -93,7 +93,10 @@ class FileReader {
     if (where.file.empty()) where.file = path.string();
     std::error_code error;
     if (!fs::is_regular_file(path, error)) {
-      diagnostics_.error("cannot-read", where, "there is no such file", "a file", path.string());
+      const bool is_there = fs::exists(path, error);
+      diagnostics_.error("cannot-read", where,
+                         is_there ? "this is no regular file" : "there is no such file", "a file",
+                         path.string());
       return std::nullopt;
     }
     const std::size_t size = fs::file_size(path, error);

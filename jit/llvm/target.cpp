@@ -4,6 +4,7 @@
 #include <llvm/ADT/StringMap.h>
 #include <llvm/MC/MCSubtargetInfo.h>
 #include <llvm/MC/TargetRegistry.h>
+#include <llvm/Support/ErrorHandling.h>
 #include <llvm/Support/TargetSelect.h>
 #include <llvm/TargetParser/Host.h>
 #include <llvm/TargetParser/SubtargetFeature.h>
@@ -11,11 +12,17 @@
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <new>
 #include <utility>
 
 namespace nacre {
 
 namespace {
+
+/// Throws what operator new throws, through LLVM to whoever asked for the compile.
+void out_of_memory(void* /*user*/, const char* /*reason*/, bool /*crash_dump*/) {
+  throw std::bad_alloc();
+}
 
 void initialize_llvm() {
   static std::once_flag once;
@@ -23,6 +30,8 @@ void initialize_llvm() {
     llvm::InitializeNativeTarget();
     llvm::InitializeNativeTargetAsmPrinter();
     llvm::InitializeNativeTargetAsmParser();
+    // Else LLVM aborts where its own containers find no memory.
+    llvm::install_bad_alloc_error_handler(out_of_memory, nullptr);
   });
 }
 

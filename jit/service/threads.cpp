@@ -18,6 +18,7 @@ constexpr std::size_t stack_bytes = 16u << 20;
 CompileThreads::CompileThreads(int count) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   count = count <= 0 ? cores : std::min(count, std::max(64, 4 * cores));
+  threads_.reserve(static_cast<std::size_t>(count));
   pthread_attr_t attributes;
   if (pthread_attr_init(&attributes) != 0) return;
   pthread_attr_setstacksize(&attributes, stack_bytes);

@@ -75,7 +75,20 @@ Compilation::Compilation(const ShaderOptions& options, const Bodies& bodies, Sou
       textures_(std::make_shared<RecordedTextures>(store, recorder_, diagnostics,
                                                    options.max_anisotropy)) {}
 
+/// Complaints about a whole graph are about what its first output comes from.
+void Compilation::tell(const Diagnostics& said) {
+  for (Diagnostic one : said.all()) {
+    if (one.where.file.empty()) one.where = place_;
+    diagnostics_.add(std::move(one));
+  }
+}
+
 std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
+  for (const GraphOutput& output : graph.outputs) {
+    if (output.source.kind != Source::Kind::link) continue;
+    place_ = graph.nodes[output.source.node].where;
+    break;
+  }
   const FileRoots roots = options_.files_anywhere
                               ? FileRoots{}
                               : image_roots(graph, options_.search_paths, sources_.roots());
@@ -107,8 +120,9 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
   std::vector<std::string> names;
   for (const Program& program : programs) names.push_back(program.name);
   std::vector<std::vector<StageReport>> reports;
-  auto compiled =
-      compile_all(std::move(programs), options_.compile, service_, diagnostics_, &reports);
+  Diagnostics said;
+  auto compiled = compile_all(std::move(programs), options_.compile, service_, said, &reports);
+  tell(said);
   std::vector<std::optional<BoundKernel>> kernels(compiled.size());
   for (std::size_t i = 0; i < compiled.size(); ++i) {
     for (StageReport& report : reports[i]) {
@@ -123,7 +137,9 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
 void Compilation::try_stages(std::vector<Program> programs) {
   CompileOptions options = options_.compile;
   options.backend = Backend::interpreter;
-  compile_all(std::move(programs), options, nullptr, diagnostics_);
+  Diagnostics said;
+  compile_all(std::move(programs), options, nullptr, said);
+  tell(said);
 }
 
 std::optional<RecordedOutputs> record_outputs(Compilation& compilation, const Graph& graph,

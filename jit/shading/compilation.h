@@ -34,11 +34,14 @@ class Compilation {
   std::size_t image_errors() const { return textures_->error_count(); }
 
  private:
+  void tell(const Diagnostics& said);
+
   const ShaderOptions& options_;
   const Bodies& bodies_;
   SourceBodies& sources_;
   CompileService* service_;
   Diagnostics& diagnostics_;
+  SourceLocation place_;  ///< For what is said of a graph and names no place.
   Recorder recorder_;
   std::shared_ptr<RecordedTextures> textures_;
 };

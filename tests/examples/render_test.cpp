@@ -91,8 +91,6 @@ class Render : public Tool {
     }
     return seen;
   }
-
-  bool says(std::string_view text) const { return errors_.find(text) != std::string::npos; }
 };
 
 TEST_F(Render, ThinWallsHaveTwoSides) {

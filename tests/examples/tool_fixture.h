@@ -4,7 +4,9 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -39,13 +41,29 @@ class Tool : public ::testing::Test {
     return folder_.write(name, text);
   }
 
-  /// The exit status of `nacre ARGUMENTS`; what it says on standard error is `errors_`.
-  int run(const std::string& arguments) {
-    const std::string command =
-        std::string(NACRE_TOOL) + " " + arguments + " >" + file("stdout") + " 2>" + file("stderr");
+  /// The exit status of `nacre ARGUMENTS`; what it says is `errors_` and `printed_`.
+  int run(const std::string& arguments) { return shell(std::string(NACRE_TOOL) + " " + arguments); }
+
+  /// The same of a command line of the shell, in which the tool is $NACRE.
+  int shell(const std::string& line) {
+    const std::string command = "NACRE='" + std::string(NACRE_TOOL) + "'; { " + line + "\n} >" +
+                                file("stdout") + " 2>" + file("stderr");
     const int status = std::system(command.c_str());
     errors_ = text_of(file("stderr"));
+    printed_ = text_of(file("stdout"));
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  bool says(std::string_view text) const { return errors_.find(text) != std::string::npos; }
+
+  /// Names of all that is in a folder, hidden or not, sorted.
+  std::set<std::string> names_in(const std::string& folder) const {
+    std::set<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
   }
 
   std::unique_ptr<Document> read(const std::string& path) {
@@ -69,6 +87,7 @@ class Tool : public ::testing::Test {
   host::TemporaryFolder folder_;
   std::unique_ptr<ShadingSystem> system_;
   std::string errors_;
+  std::string printed_;
 };
 
 }  // namespace nacre

@@ -1,0 +1,122 @@
+#include "examples/tool/process.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <system_error>
+
+#include "examples/common/partial_file.h"
+#include "examples/tool/options.h"
+#include "examples/tool/stop.h"
+
+namespace nacre::tool {
+
+namespace {
+
+Diagnostic failure(const std::exception& thrown) {
+  Diagnostic said;
+  if (dynamic_cast<const std::bad_alloc*>(&thrown) != nullptr) {
+    said.code = "out-of-memory";
+    said.message = "this needs more memory than there is";
+  } else {
+    said.code = "system";
+    said.message = "the system refuses";
+    said.found = thrown.what();
+  }
+  return said;
+}
+
+/// errno of what failed first on standard output, of which a process has one.
+int output_error = 0;
+
+void say(const char* text) {
+  const std::size_t size = std::strlen(text);
+  (void)!::write(STDERR_FILENO, text, size);
+}
+
+/// For what a thread throws that is not ours, TBB's or OpenImageIO's, or a function throws
+/// that must not. Whatever is a fault of our own aborts as it always does.
+void terminated() {
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    say("error: this needs more memory than there is [out-of-memory]\n");
+    host::abandon_partial_files();
+    std::_Exit(status_problems);
+  } catch (const std::system_error& error) {
+    say("error: the system refuses; found ");
+    say(error.what());
+    say(" [system]\n");
+    host::abandon_partial_files();
+    std::_Exit(status_problems);
+  } catch (...) {
+  }
+  std::abort();
+}
+
+/// Before anything else, because libraries that we load make threads while they are
+/// loaded, and throw where there are none.
+void prepare_terminate(int /*argc*/, char** /*argv*/, char** /*environment*/) {
+  std::set_terminate(terminated);
+}
+[[gnu::section(".preinit_array"), gnu::used]] void (*const first)(int, char**,
+                                                                  char**) = prepare_terminate;
+
+}  // namespace
+
+void prepare_process() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    // Open for the wrong direction: every use fails as one of a closed stream does. The
+    // lowest free number is taken, which is this one.
+    (void)!::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+int guarded(const std::string& file, const std::function<int()>& run) {
+  Diagnostic said;
+  try {
+    return run();
+  } catch (const std::bad_alloc& thrown) {
+    said = failure(thrown);
+  } catch (const std::system_error& thrown) {
+    if (std::ferror(stdout) != 0) {  // fmt's; finish_output says it.
+      output_error = thrown.code().value();
+      return status_problems;
+    }
+    said = failure(thrown);
+  }
+  said.where.file = file;
+  std::fprintf(stderr, "%s\n", said.to_string().c_str());
+  return status_problems;
+}
+
+void file_is_written(const std::string& file, bool quiet) {
+  keep_promise(file);
+  if (quiet) return;
+  // At once, for whoever waits for it; failing is remembered for the end.
+  const bool printed = std::fprintf(stdout, "%s\n", file.c_str()) >= 0;
+  if (!printed || std::fflush(stdout) != 0) output_error = errno;
+}
+
+int finish_output(int status) {
+  if (std::fflush(stdout) != 0) output_error = errno;
+  std::cout.flush();  // CLI11's, after it: it empties the same buffer and keeps no reason.
+  if (output_error == 0 && std::ferror(stdout) == 0 && std::cout) return status;
+  const int reason = output_error;
+  std::fprintf(stderr, "error: standard output could not be written%s%s [cannot-write]\n",
+               reason != 0 ? "; found " : "", reason != 0 ? std::strerror(reason) : "");
+  return status == status_ok ? status_problems : status;
+}
+
+}  // namespace nacre::tool
