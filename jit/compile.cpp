@@ -21,35 +21,6 @@ namespace nacre {
 
 namespace {
 
-/// Runs one stage: timed, reported and, in debug builds, verified afterwards.
-class Stages {
- public:
-  Stages(std::vector<StageReport>* reports, bool keep_text)
-      : reports_(reports), keep_text_(keep_text) {}
-
-  template <class Pass>
-  Program run(const char* name, const Program& program, Pass&& pass) {
-    const auto start = std::chrono::steady_clock::now();
-    Program result = pass(program);
-    assert(verify(result).empty());
-    if (reports_ != nullptr) {
-      const std::chrono::duration<double, std::milli> elapsed =
-          std::chrono::steady_clock::now() - start;
-      StageReport report;
-      report.name = name;
-      report.milliseconds = elapsed.count();
-      for (const Function& function : result.functions) report.instructions += function.code.size();
-      if (keep_text_) report.text = to_string(result);
-      reports_->push_back(std::move(report));
-    }
-    return result;
-  }
-
- private:
-  std::vector<StageReport>* reports_;
-  bool keep_text_;
-};
-
 std::size_t instruction_count(const Program& program) {
   std::size_t count = 0;
   for (const Function& function : program.functions) count += function.code.size();
@@ -59,6 +30,35 @@ std::size_t instruction_count(const Program& program) {
 bool is_too_large(const Program& program, const CompileOptions& options) {
   return instruction_count(program) > options.max_instructions;
 }
+
+/// Runs one stage: timed, reported and, in debug builds, verified afterwards.
+class Stages {
+ public:
+  Stages(std::vector<StageReport>* reports, const CompileOptions& options)
+      : reports_(reports), options_(options) {}
+
+  template <class Pass>
+  Program run(const char* name, const Program& program, Pass&& pass) {
+    const auto start = std::chrono::steady_clock::now();
+    Program result = pass(program);
+    assert(is_too_large(result, options_) || verify(result).empty());
+    if (reports_ != nullptr) {
+      const std::chrono::duration<double, std::milli> elapsed =
+          std::chrono::steady_clock::now() - start;
+      StageReport report;
+      report.name = name;
+      report.milliseconds = elapsed.count();
+      for (const Function& function : result.functions) report.instructions += function.code.size();
+      if (options_.keep_text && !is_too_large(result, options_)) report.text = to_string(result);
+      reports_->push_back(std::move(report));
+    }
+    return result;
+  }
+
+ private:
+  std::vector<StageReport>* reports_;
+  const CompileOptions& options_;
+};
 
 /// Whether a pass takes too long even if every loop runs one round.
 bool is_too_slow(const Program& program, const CompileOptions& options, Diagnostics& diagnostics) {
@@ -111,13 +111,14 @@ Stop stop_from_now(const CompileOptions& options) {
 
 Program lower(Program program, const CompileOptions& options, std::vector<StageReport>* reports) {
   const ScopedDefaultFloatEnvironment environment;
-  Stages stages(reports, options.keep_text);
+  Stages stages(reports, options);
   program = stages.run("recorded", program, [](const Program& p) { return p; });
   const auto is_over = [&] { return is_too_large(program, options) || options.stop.is_due(); };
   if (is_over()) return program;
 
   // Footprint derivatives become arithmetic on derivative channels.
-  program = stages.run("derive", program, [](const Program& p) { return derive(p); });
+  program = stages.run("derive", program,
+                       [&](const Program& p) { return derive(p, {}, options.max_instructions); });
   if (is_over()) return program;
 
   // The oracle computes what was written: no contraction, functions of the C library.
@@ -130,8 +131,10 @@ Program lower(Program program, const CompileOptions& options, std::vector<StageR
   }
 
   // Transcendental functions become polynomials of the accuracy asked for.
-  program = stages.run("expand_math", program,
-                       [&](const Program& p) { return expand_math(p, options.accuracy); });
+  program = stages.run("expand_math", program, [&](const Program& p) {
+    return expand_math(p, options.accuracy, options.max_instructions);
+  });
+  if (is_over()) return program;
 
   mark_varying(program, options.all_varying);
   return program;

@@ -39,7 +39,7 @@ struct CompileOptions {
   /// Answer through the interpreter while the JIT compiles in the background.
   bool asynchronous = false;
   /// A Program with more instructions, before or after any stage, is refused.
-  std::size_t max_instructions = 2'000'000;
+  std::size_t max_instructions = 500'000;
   /// Steps that a pass of points may take. A Program that takes more whatever its loops do
   /// is refused; a run that does ends as RunStatus::too_many_steps. See runtime/program/cost.h.
   std::uint64_t max_steps = default_max_steps;

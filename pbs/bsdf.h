@@ -1,14 +1,20 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "pbs/closure_parts.h"
 #include "pbs/lobe.h"
 #include "pbs/vdf.h"
 #include "runtime/node/recorded.h"
 
 namespace nacre {
+
+class Bsdf;
+class LobeBsdf;
+using BsdfPtr = std::shared_ptr<const Bsdf>;
 
 /// A lobe with everything that stands above it multiplied out, for one view.
 struct WeightedLobe {
@@ -16,17 +22,35 @@ struct WeightedLobe {
   Color3 weight;
 };
 
-/// A node of a BSDF tree. Trees exist while recording only: kernels contain the
-/// flat sum of weighted lobes that `flatten` makes of one.
+/// What a BSDF lets pass, as `flatten` has found out; 1 where nothing is connected.
+using Throughput = std::function<Color3(const BsdfPtr&)>;
+
+/// A node of a BSDF. Nodes are shared: what is used twice is one node with two readers.
+/// They exist while recording only: kernels contain the flat sum of weighted lobes that
+/// `flatten` makes of them.
 class Bsdf : public Closure {
  public:
-  /// Appends the lobes below, each times `weight`. A lobe or branch whose
-  /// weight is a literal zero is left out.
-  virtual void flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const = 0;
-  /// What passes through to a layer underneath; in [0, 1].
-  virtual Color3 throughput(const View& view) const = 0;
+  using Parts = ClosureParts<Bsdf>;
+  explicit Bsdf(BsdfPtr first = nullptr, BsdfPtr second = nullptr)
+      : parts_(std::move(first), std::move(second)) {}
+  const Parts& parts() const { return parts_; }
+
+  /// Itself if it is a leaf, or null.
+  virtual const LobeBsdf* leaf() const { return nullptr; }
+  /// The weight of part `i` where the whole has `weight`. What stands before part `i` has
+  /// been flattened, so that `passes` may be asked about it.
+  virtual Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const = 0;
+  /// Whether part `i` has to do with what the whole lets pass.
+  virtual bool shades(std::size_t i) const { return parts_[i] != nullptr; }
+  /// What passes through to a layer underneath, in [0, 1], by what the parts let pass: 1
+  /// for those that have nothing to do with it.
+  virtual Color3 throughput(const View& view, Color3 first, Color3 second) const = 0;
+  /// Adds to view.left_out, which is not null, what of this node the kernels leave out.
+  virtual void report(const View& view) const { (void)view; }
+
+ private:
+  Parts parts_;
 };
-using BsdfPtr = std::shared_ptr<const Bsdf>;
 
 /// A leaf: a lobe times a scalar weight in [0, 1], or more where the graph says so.
 class LobeBsdf final : public Bsdf {
@@ -34,8 +58,12 @@ class LobeBsdf final : public Bsdf {
   /// `left_out` lists what the lobe does not model of its node; see View::left_out.
   LobeBsdf(LobePtr lobe, Float weight, std::vector<std::string> left_out = {})
       : lobe_(std::move(lobe)), weight_(weight), left_out_(std::move(left_out)) {}
-  void flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const override;
-  Color3 throughput(const View& view) const override;
+  const LobePtr& lobe() const { return lobe_; }
+  Float weight() const { return weight_; }
+  const LobeBsdf* leaf() const override { return this; }
+  Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
+  Color3 throughput(const View& view, Color3 first, Color3 second) const override;
+  void report(const View& view) const override;
 
  private:
   LobePtr lobe_;
@@ -48,47 +76,49 @@ class LobeBsdf final : public Bsdf {
 class LayerBsdf final : public Bsdf {
  public:
   LayerBsdf(BsdfPtr top, BsdfPtr base, VdfPtr medium = nullptr)
-      : top_(std::move(top)), base_(std::move(base)), medium_(std::move(medium)) {}
-  void flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const override;
-  Color3 throughput(const View& view) const override;
+      : Bsdf(std::move(top), std::move(base)), medium_(std::move(medium)) {}
+  Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
+  Color3 throughput(const View& view, Color3 first, Color3 second) const override;
+  void report(const View& view) const override;
 
  private:
-  BsdfPtr top_, base_;
   VdfPtr medium_;
 };
 
 /// fg in proportion mix, bg in proportion 1 - mix.
 class MixBsdf final : public Bsdf {
  public:
-  MixBsdf(BsdfPtr fg, BsdfPtr bg, Float mix) : fg_(std::move(fg)), bg_(std::move(bg)), mix_(mix) {}
-  void flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const override;
-  Color3 throughput(const View& view) const override;
+  MixBsdf(BsdfPtr fg, BsdfPtr bg, Float mix) : Bsdf(std::move(fg), std::move(bg)), mix_(mix) {}
+  Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
+  bool shades(std::size_t i) const override;
+  Color3 throughput(const View& view, Color3 first, Color3 second) const override;
 
  private:
-  BsdfPtr fg_, bg_;
   Float mix_;
 };
 
 class AddBsdf final : public Bsdf {
  public:
-  AddBsdf(BsdfPtr in1, BsdfPtr in2) : in1_(std::move(in1)), in2_(std::move(in2)) {}
-  void flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const override;
-  Color3 throughput(const View& view) const override;
-
- private:
-  BsdfPtr in1_, in2_;
+  AddBsdf(BsdfPtr in1, BsdfPtr in2) : Bsdf(std::move(in1), std::move(in2)) {}
+  Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
+  Color3 throughput(const View& view, Color3 first, Color3 second) const override;
 };
 
 class MultiplyBsdf final : public Bsdf {
  public:
-  MultiplyBsdf(BsdfPtr in1, Color3 tint) : in1_(std::move(in1)), tint_(tint) {}
-  void flatten(const View& view, Color3 weight, std::vector<WeightedLobe>& lobes) const override;
-  Color3 throughput(const View& view) const override;
+  MultiplyBsdf(BsdfPtr in1, Color3 tint) : Bsdf(std::move(in1)), tint_(tint) {}
+  Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
+  Color3 throughput(const View& view, Color3 first, Color3 second) const override;
 
  private:
-  BsdfPtr in1_;
   Color3 tint_;
 };
+
+/// The lobes that `bsdf` consists of, each once, in the order in which they are met from
+/// the top down, first parts first. Lobes and branches whose weight is a literal zero are
+/// left out. `may_go_on` is asked before each lobe; where it says no, that is the end.
+std::vector<WeightedLobe> flatten(const BsdfPtr& bsdf, const View& view,
+                                  const std::function<bool()>& may_go_on = {});
 
 /// The Bsdf that a port carries; null where nothing is connected.
 BsdfPtr as_bsdf(const ClosurePtr& closure);

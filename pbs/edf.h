@@ -2,18 +2,33 @@
 
 #include <memory>
 
+#include "pbs/closure_parts.h"
 #include "pbs/view.h"
 #include "runtime/node/recorded.h"
 
 namespace nacre {
 
-/// A node of an EDF tree.
+class Edf;
+using EdfPtr = std::shared_ptr<const Edf>;
+
+/// A node of an EDF; what is used twice is one node.
 class Edf : public Closure {
  public:
-  /// Radiance towards view.wo; at least 0.
-  virtual Color3 radiance(const View& view) const = 0;
+  using Parts = ClosureParts<Edf>;
+  explicit Edf(EdfPtr first = nullptr, EdfPtr second = nullptr)
+      : parts_(std::move(first), std::move(second)) {}
+  const Parts& parts() const { return parts_; }
+
+  /// Radiance towards view.wo, at least 0, by that of the parts: black for those that are
+  /// not connected.
+  virtual Color3 radiance(const View& view, Color3 first, Color3 second) const = 0;
+
+ private:
+  Parts parts_;
 };
-using EdfPtr = std::shared_ptr<const Edf>;
+
+/// Radiance of all of it; a literal 0 where nothing emits. Each node is asked once.
+Color3 radiance(const EdfPtr& edf, const View& view);
 
 EdfPtr as_edf(const ClosurePtr& closure);
 

@@ -23,8 +23,8 @@ struct Total {
 class SurfaceRecorder {
  public:
   SurfaceRecorder(Recorder& recorder, const Surface& surface, Accuracy accuracy,
-                  const KernelRequest& request)
-      : recorder_(recorder), surface_(surface), request_(request) {
+                  const KernelRequest& request, const std::function<bool()>& may_go_on)
+      : recorder_(recorder), surface_(surface), request_(request), ask_(may_go_on) {
     view_ = {.recorder = &recorder,
              .accuracy = accuracy,
              .wo = view_direction(recorder),
@@ -51,14 +51,20 @@ class SurfaceRecorder {
   }
 
  private:
+  bool may_go_on() {
+    kernels_.complete = kernels_.complete && (!ask_ || ask_());
+    return kernels_.complete;
+  }
+
   /// The lobes seen from `view`, with weights and probabilities. For the real
   /// view direction they are kept, and what is left out goes to the manifest.
   std::vector<Term> select_lobes(const View& view, bool from_viewer) {
-    std::vector<WeightedLobe> lobes;
-    if (surface_.bsdf != nullptr) surface_.bsdf->flatten(view, Color3(1.0f), lobes);
+    const std::vector<WeightedLobe> lobes =
+        flatten(surface_.bsdf, view, [this] { return may_go_on(); });
     std::vector<Term> terms;
     Float total = 0.0f;
     for (const WeightedLobe& each : lobes) {
+      if (!may_go_on()) break;
       if ((each.lobe->kinds() & request_.lobes) == 0) {
         if (from_viewer) note(*each.lobe, "of a kind that was not requested");
         continue;
@@ -95,6 +101,7 @@ class SurfaceRecorder {
   Total evaluate(const View& view, const std::vector<Term>& terms, Float3 wi) {
     Total total;
     for (const Term& term : terms) {
+      if (!may_go_on()) break;
       const LobeValue none{.f = Color3(0.0f), .pdf = 0.0f};
       const LobeValue value =
           if_any(term.probability > 0.0f, none, [&] { return term.lobe->evaluate(view, wi); });
@@ -130,7 +137,7 @@ class SurfaceRecorder {
     Color3 weight = Color3(1.0f);
     Float probability = 1.0f;
     Float below = 0.0f;
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
+    for (std::size_t i = 0; i < terms_.size() && may_go_on(); ++i) {
       const Term& term = terms_[i];
       const Float above = i + 1 == terms_.size() ? Float(2.0f) : below + term.probability;
       const Bool mine = (u.z >= below) & (u.z < above) & (term.probability > 0.0f);
@@ -176,20 +183,23 @@ class SurfaceRecorder {
 
   void record_albedo() {
     Color3 total = Color3(0.0f);
-    for (const Term& term : terms_) total = fma(term.weight, term.lobe->albedo(view_), total);
+    for (const Term& term : terms_) {
+      if (!may_go_on()) break;
+      total = fma(term.weight, term.lobe->albedo(view_), total);
+    }
     kernels_.albedo = {
         {"albedo.x", total.x.ref()}, {"albedo.y", total.y.ref()}, {"albedo.z", total.z.ref()}};
   }
 
   void record_emission() {
-    const Color3 radiance = surface_.edf == nullptr ? Color3(0.0f) : surface_.edf->radiance(view_);
-    if (is_zero(radiance)) {
+    const Color3 emitted = radiance(surface_.edf, view_);
+    if (is_zero(emitted)) {
       kernels_.manifest.push_back("emission: always black");
       return;
     }
-    kernels_.emission = {{"emission.x", radiance.x.ref()},
-                         {"emission.y", radiance.y.ref()},
-                         {"emission.z", radiance.z.ref()}};
+    kernels_.emission = {{"emission.x", emitted.x.ref()},
+                         {"emission.y", emitted.y.ref()},
+                         {"emission.z", emitted.z.ref()}};
   }
 
   void record_opacity() {
@@ -206,6 +216,7 @@ class SurfaceRecorder {
   Recorder& recorder_;
   const Surface& surface_;
   const KernelRequest& request_;
+  const std::function<bool()>& ask_;
   LeftOut left_out_;
   View view_;
   std::vector<Term> terms_;
@@ -215,8 +226,9 @@ class SurfaceRecorder {
 }  // namespace
 
 SurfaceKernels record_kernels(Recorder& recorder, const Surface& surface, Accuracy accuracy,
-                              const KernelRequest& request) {
-  return SurfaceRecorder(recorder, surface, accuracy, request).run();
+                              const KernelRequest& request,
+                              const std::function<bool()>& may_go_on) {
+  return SurfaceRecorder(recorder, surface, accuracy, request, may_go_on).run();
 }
 
 }  // namespace nacre

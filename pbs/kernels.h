@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct SurfaceKernels {
   std::vector<std::string> not_modelled;
   /// Names of the lobes; `lobe` counts in this order.
   std::vector<std::string> lobes;
+  bool complete = true;  ///< Else `may_go_on` said no, and the rest is of no use.
 };
 
 enum SampleFlag : std::int32_t {
@@ -48,8 +50,10 @@ enum SampleFlag : std::int32_t {
 };
 
 /// Records the kernels of `surface`. Everything in `surface` must have been
-/// recorded on `recorder`, at top level.
+/// recorded on `recorder`, at top level. `may_go_on` is asked before each lobe of each
+/// kernel: a surface may have more of them than anybody wants to compile.
 SurfaceKernels record_kernels(Recorder& recorder, const Surface& surface, Accuracy accuracy,
-                              const KernelRequest& request);
+                              const KernelRequest& request,
+                              const std::function<bool()>& may_go_on = {});
 
 }  // namespace nacre

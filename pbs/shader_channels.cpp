@@ -1,5 +1,7 @@
 #include "pbs/shader_channels.h"
 
+#include <algorithm>
+
 #include "pbs/displacement.h"
 #include "pbs/light.h"
 #include "pbs/volume.h"
@@ -38,7 +40,7 @@ std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
       if (volume != nullptr && volume->edf != nullptr) {
         const View view{
             .recorder = &recorder, .accuracy = accuracy, .wo = view_direction(recorder)};
-        emission = volume->edf->radiance(view);
+        emission = radiance(volume->edf, view);
       }
       add(channels, "emission", emission);
       break;
@@ -59,6 +61,12 @@ std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
     default: break;
   }
   return channels;
+}
+
+bool all_zero(const std::vector<SliceOutput>& channels) {
+  return std::all_of(channels.begin(), channels.end(), [](const SliceOutput& channel) {
+    return channel.name == "anisotropy" || Float(channel.value).is_constant(0.0f);
+  });
 }
 
 }  // namespace nacre

@@ -26,6 +26,14 @@ Float3 facing(Float3 n, Float3 wo) {
   return select(away, -n, n);
 }
 
+Color3 product(Color3 x, Color3 y) {
+  const auto one = [](Float a, Float b) {
+    if (a.is_constant(0.0f) || b.is_constant(0.0f)) return Float(0.0f);
+    return a * b;
+  };
+  return {one(x.x, y.x), one(x.y, y.y), one(x.z, y.z)};
+}
+
 Float keep(Recorder& recorder, Float x) { return Float(recorder.keep(x.ref())); }
 Int keep(Recorder& recorder, Int x) { return Int(recorder.keep(x.ref())); }
 Bool keep(Recorder& recorder, Bool x) { return Bool(recorder.keep(x.ref())); }

@@ -53,6 +53,10 @@ Frame make_frame(Float3 normal, Float3 tangent);
 /// The normal on the viewer's side: n or -n.
 Float3 facing(Float3 n, Float3 wo);
 
+/// x y, but nothing where either is a literal zero: a weight that is off leaves out what
+/// it weighs, and what is black stays so behind anything, infinities included.
+Color3 product(Color3 x, Color3 y);
+
 /// Keeps a value for the kernels after `begin`; see Recorder::keep. A value
 /// that is an input channel itself is read again instead.
 Float keep(Recorder& recorder, Float x);

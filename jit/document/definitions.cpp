@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "jit/document/same_content.h"
 #include "jit/document/value_text.h"
 
 namespace nacre {
@@ -21,13 +22,24 @@ Definitions::Definitions(const Document& document, const Definitions* base,
   read_structs(diagnostics);
   read_nodedefs(diagnostics);
   apply_inheritance(diagnostics);
-  read_implementations();
-  read_units();
+  read_implementations(diagnostics);
+  read_units(diagnostics);
 }
 
 void Definitions::read_structs(Diagnostics& diagnostics) {
   for (const Element& element : document_.root().children()) {
     if (element.category() != "typedef") continue;
+    if (parse_type(element.name())) {
+      if (base_ != nullptr && !is_of_base(element)) {
+        diagnostics.warning("standard-type", location(element),
+                            "a standard type has this name, and is used instead", "another name",
+                            fmt::format("'{}'", element.name()));
+      }
+      continue;
+    }
+    if (base_ != nullptr && base_->struct_type(element.name()) != nullptr) {
+      warn_of_shadow(element, "type", diagnostics);
+    }
     StructType type{element.name(), {}};
     if (!add_leaves(element, "", 0, type)) {
       // What is wrong with the members themselves is for check_declarations to say.
@@ -119,13 +131,38 @@ const StructType* Definitions::struct_type(std::string_view name) const {
 void Definitions::read_nodedefs(Diagnostics& diagnostics) {
   for (const Element& element : document_.root().children()) {
     if (element.category() == "nodedef" && !element.name().empty()) {
+      // What the library's name stands for, bodies above all, is made for its ports.
+      if (base_ != nullptr && base_->nodedef(element.name()) != nullptr) {
+        warn_of_shadow(element, "nodedef", diagnostics);
+        continue;
+      }
       NodeDef& def = nodedefs_.emplace_back(read_nodedef(element, diagnostics));
       expand_structs(def, diagnostics);
       by_name_.emplace(def.name, &def);
     } else if (element.category() == "geompropdef") {
-      geompropdefs_.emplace(element.name(), &element);
+      // Nodedefs of the library count on the type that its properties have.
+      const Element* known = base_ == nullptr ? nullptr : base_->geompropdef(element.name());
+      if (known != nullptr && known->attribute("type") != element.attribute("type")) {
+        warn_of_shadow(element, "geometric property", diagnostics);
+      } else {
+        geompropdefs_.emplace(element.name(), &element);
+      }
     }
   }
+}
+
+/// Whether the library has the same element: a document may carry copies.
+bool Definitions::is_of_base(const Element& element) const {
+  const Element* known = base_->document_.root().child(element.name());
+  return known != nullptr && same_content(*known, element);
+}
+
+void Definitions::warn_of_shadow(const Element& element, std::string_view what,
+                                 Diagnostics& diagnostics) const {
+  if (is_of_base(element)) return;
+  diagnostics.warning(fmt::format("shadowed-{}", what.substr(what.rfind(' ') + 1)),
+                      location(element),
+                      fmt::format("a library has a {} of this name, which is used instead", what));
 }
 
 void Definitions::apply_inheritance(Diagnostics& diagnostics) {
@@ -163,19 +200,19 @@ void Definitions::apply_inheritance(Diagnostics& diagnostics) {
   for (const NodeDef& def : nodedefs_) by_category_[def.category].push_back(&def);
 }
 
-void Definitions::read_implementations() {
+void Definitions::read_implementations(Diagnostics& diagnostics) {
   // Those for this target come before those for all.
   for (const bool targeted : {true, false}) {
     for (const Element& element : document_.root().children()) {
       const bool is_graph = element.category() == "nodegraph";
       if (!is_graph && element.category() != "implementation") continue;
       const std::string_view target = element.attribute("target");
-      if (target.empty() != targeted) read_implementation(element);
+      if (target.empty() != targeted) read_implementation(element, diagnostics);
     }
   }
 }
 
-void Definitions::read_implementation(const Element& element) {
+void Definitions::read_implementation(const Element& element, Diagnostics& diagnostics) {
   const std::string_view def_name = element.attribute("nodedef");
   const std::string_view targets = element.attribute("target");
   const NodeDef* def = def_name.empty() ? nullptr : resolve_nodedef(def_name, element);
@@ -194,12 +231,16 @@ void Definitions::read_implementation(const Element& element) {
   if (element.category() != "nodegraph") {
     graph = resolve(element.attribute("nodegraph"), element);
     if (graph == nullptr || graph->category() != "nodegraph") return;
+    const Element* own = document_.root().child(element.attribute("nodegraph"));
+    if (own != nullptr && own->category() == "nodegraph" && own != graph) {
+      warn_of_shadow(*own, "nodegraph", diagnostics);
+    }
   }
   implemented_.emplace(graph, def);
   if (is_for_us(targets)) graphs_.emplace(def, graph);
 }
 
-void Definitions::read_units() {
+void Definitions::read_units(Diagnostics& diagnostics) {
   for (const Element& element : document_.root().children()) {
     if (element.category() != "unitdef") continue;
     for (const Element& unit : element.children()) {
@@ -207,6 +248,11 @@ void Definitions::read_units() {
       double scale = 0;
       std::from_chars(text.data(), text.data() + text.size(), scale);
       if (unit.category() != "unit" || !(scale > 0)) continue;
+      if (base_ != nullptr && base_->unit(unit.name())) {
+        diagnostics.warning("redefined-unit", location(unit),
+                            "a library has a unit of this name, which this one replaces",
+                            "a name of its own", fmt::format("'{}'", unit.name()));
+      }
       units_.emplace(unit.name(), Unit{element.attribute("unittype"), scale});
     }
   }

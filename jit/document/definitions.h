@@ -72,9 +72,12 @@ class Definitions {
   void expand_structs(NodeDef& def, Diagnostics& diagnostics);
   void read_nodedefs(Diagnostics& diagnostics);
   void apply_inheritance(Diagnostics& diagnostics);
-  void read_implementations();
-  void read_implementation(const Element& element);
-  void read_units();
+  void read_implementations(Diagnostics& diagnostics);
+  void read_implementation(const Element& element, Diagnostics& diagnostics);
+  void read_units(Diagnostics& diagnostics);
+  bool is_of_base(const Element& element) const;
+  void warn_of_shadow(const Element& element, std::string_view what,
+                      Diagnostics& diagnostics) const;
   const NodeDef* resolve_nodedef(std::string_view name, const Element& user) const;
 
   const Document& document_;

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <optional>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "jit/document/file_roots.h"
+#include "jit/document/same_content.h"
 #include "jit/document/upgrade.h"
 #include "jit/document/xml.h"
 #include "runtime/float_environment.h"
@@ -61,7 +61,8 @@ class FileReader {
 
   /// Moves the children of an included root behind those of `root`; of one name
   /// the first stays.
-  void import(Element& root, Element& included, std::unordered_set<std::string_view>& names) {
+  using Names = std::unordered_map<std::string_view, const Element*>;
+  void import(Element& root, Element& included, Names& names) {
     Element* child = document_.take_children(included);
     while (child != nullptr) {
       Element* next = Document::next_sibling(*child);
@@ -72,8 +73,12 @@ class FileReader {
       }
       const std::string name = child->name().empty() ? "" : own_qualified_name(*child);
       if (name != child->name()) Document::set_name(*child, document_.keep(name));
-      if (child->name().empty() || names.insert(child->name()).second) {
+      const auto known = names.find(child->name());
+      if (child->name().empty() || known == names.end()) {
+        if (!child->name().empty()) names.emplace(child->name(), child);
         document_.append(root, *child);
+      } else {
+        warn_of_shadow(*child, *known->second);
       }
       child = next;
     }
@@ -169,22 +174,34 @@ class FileReader {
   void merge_includes(Element& root, const fs::path& folder) {
     Element* own = document_.take_children(root);
     keep_places(own);
-    std::unordered_set<std::string_view> names;
+    Names names;
     for (Element* child = own; child != nullptr; child = Document::next_sibling(*child)) {
       if (child->category() != "xi:include") continue;
       if (Element* included = include(*child, folder)) import(root, *included, names);
     }
     for (Element* child = own; child != nullptr;) {
       Element* next = Document::next_sibling(*child);
-      const bool kept = child->category() != "xi:include" &&
-                        (child->name().empty() || !names.contains(child->name()));
-      if (kept) {
+      const bool is_include = child->category() == "xi:include";
+      const auto known =
+          child->name().empty() || is_include ? names.end() : names.find(child->name());
+      if (known != names.end()) warn_of_shadow(*child, *known->second);
+      if (!is_include && known == names.end()) {
         document_.append(root, *child);
       } else {
         document_.move_notes(*child, next, root);
       }
       child = next;
     }
+  }
+
+  /// Of two root elements of one name the first counts, which the second may have meant.
+  void warn_of_shadow(const Element& second, const Element& first) {
+    if (same_content(second, first)) return;
+    diagnostics_.warning("shadowed-name", location(second),
+                         "a file read before has this name, which is used instead",
+                         "a name of its own",
+                         fmt::format("'{}' in {}:{}", first.name().substr(0, 100),
+                                     document_.file_of(first), document_.line_of(first)));
   }
 
   /// Notes where the includes of a file stood.
@@ -324,7 +341,7 @@ std::unique_ptr<Document> read_documents(const std::vector<fs::path>& files,
   FileReader reader(*document, options, diagnostics);
   auto empty = std::make_unique<char[]>(1);
   Element& root = document->create("materialx", document->add_file("", std::move(empty), 0), 0);
-  std::unordered_set<std::string_view> names;
+  FileReader::Names names;
   const std::size_t errors = diagnostics.error_count();
   for (const fs::path& file : files) {
     reader.add_folder(file.parent_path());

@@ -163,7 +163,8 @@ class GraphBuild {
   // A material is its shaders; nodes that pass materials on are looked through.
   void add_shaders(Source source, const Element& element) {
     Graph& graph = resolver_.graph();
-    while (source.kind == Source::Kind::link && graph.nodes[source.node].category == "dot") {
+    while (source.kind == Source::Kind::link && graph.nodes[source.node].category == "dot" &&
+           !graph.nodes[source.node].inputs.empty()) {
       Source next = graph.nodes[source.node].inputs[0].source;
       source = std::move(next);
     }

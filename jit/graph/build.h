@@ -74,7 +74,7 @@ struct GraphOptions {
   /// and elements that nothing can use.
   bool lenient = false;
   /// A graph with more nodes is refused.
-  std::size_t max_nodes = 1'000'000;
+  std::size_t max_nodes = 250'000;
   /// A node with more inputs is refused.
   std::size_t max_inputs = 1024;
   /// Ends building, or checking, early, as an error.

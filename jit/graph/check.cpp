@@ -22,16 +22,13 @@ namespace {
 
 class Checker : ElementCheck {
  public:
-  Checker(const Document& document, const Definitions& definitions, const Definitions& library,
-          bool lenient, Diagnostics& diagnostics)
-      : ElementCheck(diagnostics, lenient),
-        document_(document),
-        definitions_(definitions),
-        library_(library) {}
+  Checker(const Document& document, const Definitions& definitions, bool lenient,
+          Diagnostics& diagnostics)
+      : ElementCheck(diagnostics, lenient), document_(document), definitions_(definitions) {}
 
   void check_all() {
     check_structure(document_, definitions_, lenient_, diagnostics_);
-    check_declarations(document_, definitions_, library_, lenient_, diagnostics_);
+    check_declarations(document_, definitions_, lenient_, diagnostics_);
     check_scope(document_.root());
     for (const Element& child : document_.root().children()) {
       if (child.category() == "nodegraph") check_graph(child);
@@ -376,7 +373,6 @@ class Checker : ElementCheck {
 
   const Document& document_;
   const Definitions& definitions_;
-  const Definitions& library_;
 };
 
 }  // namespace
@@ -386,7 +382,7 @@ bool check_document(const Document& document, const Library& library, const Grap
   const ScopedDefaultFloatEnvironment environment;
   Diagnostics found;
   const Definitions definitions(document, &library.definitions(), found);
-  Checker(document, definitions, library.definitions(), options.lenient, found).check_all();
+  Checker(document, definitions, options.lenient, found).check_all();
   // Building meets the same faults again wherever something depends on them;
   // what it alone can find is worth looking for only in a sound document.
   if (!found.has_errors()) try_all_graphs(document, definitions, options, found);

@@ -18,12 +18,9 @@ namespace {
 
 class DeclarationCheck : ElementCheck {
  public:
-  DeclarationCheck(const Document& document, const Definitions& definitions,
-                   const Definitions& library, bool lenient, Diagnostics& diagnostics)
-      : ElementCheck(diagnostics, lenient),
-        document_(document),
-        definitions_(definitions),
-        library_(library) {}
+  DeclarationCheck(const Document& document, const Definitions& definitions, bool lenient,
+                   Diagnostics& diagnostics)
+      : ElementCheck(diagnostics, lenient), document_(document), definitions_(definitions) {}
 
   void run() {
     find_type_circles();
@@ -55,12 +52,8 @@ class DeclarationCheck : ElementCheck {
             in_quotes(element.attribute("node")));
     }
     const NodeDef* def = definitions_.nodedef(element.name());
-    if (def == nullptr) return;
-    if (def->element != &element) {
-      warning("shadowed-nodedef", element,
-              "a library has a nodedef of this name, which is used instead");
-      return;
-    }
+    // Of a library's name the definitions have complained.
+    if (def == nullptr || def->element != &element) return;
     if (def->outputs.empty()) {
       error("missing-output", element, "the nodedef has no output", "an <output>");
     }
@@ -242,10 +235,6 @@ class DeclarationCheck : ElementCheck {
   // -- Types, units, properties, targets --
 
   void check_typedef(const Element& element) {
-    if (parse_type(element.name())) {
-      warning("standard-type", element, "a standard type has this name, and is used instead",
-              "another name", in_quotes(element.name()));
-    }
     std::vector<const Element*> chain{&element};
     while (chain.back()->has_attribute("inherit")) {
       const std::string_view name = chain.back()->attribute("inherit");
@@ -328,11 +317,7 @@ class DeclarationCheck : ElementCheck {
     if (!scale || !(scale->floats[0] > 0)) {
       error("bad-scale", unit, "the scale of a unit is a number above 0", "scale=\"NUMBER\"",
             in_quotes(text));
-      return;
     }
-    if (!library_.unit(unit.name())) return;
-    warning("redefined-unit", unit, "a library has a unit of this name, which this one replaces",
-            "a name of its own", in_quotes(unit.name()));
   }
 
   void check_geompropdef(const Element& element) {
@@ -379,16 +364,15 @@ class DeclarationCheck : ElementCheck {
 
   const Document& document_;
   const Definitions& definitions_;
-  const Definitions& library_;
   std::unordered_map<std::string, const NodeDef*> signatures_;
   std::unordered_map<const Element*, std::size_t> circles_;  ///< Of types that hold types.
 };
 
 }  // namespace
 
-void check_declarations(const Document& document, const Definitions& definitions,
-                        const Definitions& library, bool lenient, Diagnostics& diagnostics) {
-  DeclarationCheck(document, definitions, library, lenient, diagnostics).run();
+void check_declarations(const Document& document, const Definitions& definitions, bool lenient,
+                        Diagnostics& diagnostics) {
+  DeclarationCheck(document, definitions, lenient, diagnostics).run();
 }
 
 bool is_declared_type(std::string_view name, const Element& user, const Definitions& definitions) {

@@ -51,10 +51,9 @@ class ElementCheck {
 void check_structure(const Document& document, const Definitions& definitions, bool lenient,
                      Diagnostics& diagnostics);
 
-/// What nodedefs, implementations, types, units and geometric properties declare;
-/// `library` is what the document's own definitions stand on.
-void check_declarations(const Document& document, const Definitions& definitions,
-                        const Definitions& library, bool lenient, Diagnostics& diagnostics);
+/// What nodedefs, implementations, types, units and geometric properties declare.
+void check_declarations(const Document& document, const Definitions& definitions, bool lenient,
+                        Diagnostics& diagnostics);
 
 /// Looks and what they assign: materials, collections, properties, variants.
 void check_looks(const Document& document, const Definitions& definitions,

@@ -100,7 +100,9 @@ const NodeDef* Resolver::find_transform(std::string_view from, std::string_view 
   const std::string transform = fmt::format("{}_to_{}", from, to);
   const std::string name = fmt::format("ND_{}_{}", transform, type_name(type));
   if (const NodeDef* def = definitions_.nodedef(name)) {
-    return def->inputs.empty() || def->outputs.size() != 1 ? nullptr : def;
+    const bool fits = !def->inputs.empty() && def->inputs[0].type == type &&
+                      def->outputs.size() == 1 && def->outputs[0].type == type;
+    return fits ? def : nullptr;
   }
   const auto [place, is_new] = transforms_.try_emplace(transform);
   Transform& made = place->second;

@@ -14,7 +14,7 @@ namespace nacre {
 namespace {
 
 // Graphs that implement nodes of graphs that implement nodes: deeper is a fault.
-constexpr int max_context_depth = 1024;
+constexpr int max_context_depth = 256;
 
 /// Circles are not: checking a document reports them.
 bool inherits_from_too_many(const Element& node) {
@@ -73,8 +73,7 @@ bool Resolver::runs_source(const NodeDef& def) const {
 }
 
 void Resolver::add_source(const NodeDef& def) {
-  const auto same = [&](const NodeSource& known) { return known.nodedef == def.name; };
-  if (std::any_of(graph_.sources.begin(), graph_.sources.end(), same)) return;
+  if (!with_source_.insert(def.name).second) return;
   const Transform* transform = config_transform_of(def);
   graph_.sources.push_back(transform == nullptr ? node_source(def, *definitions_.source_of(def))
                                                 : config_source(def, *transform));
@@ -130,6 +129,7 @@ const Instance* Resolver::instance_of(const Element& element, const Context* con
   instance.context = context;
   instance.path = join(context, element.name().empty() ? element.category() : element.name());
   instance.origin = &element;
+  bytes_ += instance.path.size();
   return place->second = &instance;
 }
 
@@ -138,6 +138,7 @@ Instance& Resolver::add_instance(const NodeDef& def, std::string path, const Ele
   instance.def = &def;
   instance.path = std::move(path);
   instance.origin = origin;
+  bytes_ += instance.path.size();
   return instance;
 }
 
@@ -148,6 +149,7 @@ const Context* Resolver::compound_context(const Element& graph, const Context* p
   context.graph = &graph;
   context.parent = parent;
   context.path = join(parent, graph.name());
+  bytes_ += context.path.size();
   // A graph that implements a nodedef, looked at on its own: the nodedef's
   // defaults stand for its inputs.
   if (const NodeDef* def = definitions_.implemented_by(graph)) {
@@ -162,9 +164,12 @@ const Context* Resolver::functional_context(const Instance& instance, const Elem
   if (known != functionals_.end()) return known->second;
   int depth = 0;
   for (const Context* at = instance.context; at != nullptr;) {
-    if (at->graph == &graph || ++depth > max_context_depth) {
-      error(at->graph == &graph ? "recursive-graph" : "too-deep", *instance.origin,
-            "the graph that implements the node contains the node itself", "",
+    const bool is_itself = at->graph == &graph;
+    if (is_itself || ++depth > max_context_depth) {
+      error(is_itself ? "recursive-graph" : "too-deep", *instance.origin,
+            is_itself ? "the graph that implements the node contains the node itself"
+                      : "graphs that implement nodes are nested too deeply",
+            is_itself ? "" : fmt::format("at most {} levels", max_context_depth),
             instance.path.substr(0, 200));
       functionals_.emplace(&instance, nullptr);
       return nullptr;
@@ -176,6 +181,7 @@ const Context* Resolver::functional_context(const Instance& instance, const Elem
   context.instance = &instance;
   context.def = instance.def;
   context.path = instance.path;
+  bytes_ += context.path.size();
   functionals_.emplace(&instance, &context);
   return &context;
 }
@@ -273,7 +279,8 @@ const Instance* Resolver::geomprop_instance(std::string_view name, const Element
   const NodeDef* def = definitions_.nodedef(fmt::format("ND_{}_{}", kind, type));
   const bool is_custom = def == nullptr;
   if (is_custom) def = definitions_.nodedef(fmt::format("ND_geompropvalue_{}", type));
-  if (def == nullptr) {
+  // A document may have nodedefs of such names for something else.
+  if (def == nullptr || def->outputs.size() != 1 || def->outputs[0].type_text != type) {
     error("unknown-geomprop", *geomprop, "no node gives this geometric property", "",
           fmt::format("{} of type {}", kind, type));
     return nullptr;

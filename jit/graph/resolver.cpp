@@ -9,6 +9,20 @@
 
 namespace nacre {
 
+namespace {
+
+/// Of names and values, on average, where max_nodes are used up.
+constexpr double bytes_of_node = 1024;
+
+}  // namespace
+
+std::size_t Resolver::bytes_of(const Source& source) {
+  std::size_t bytes = source.colorspace.size() + source.document.size();
+  bytes += 4 * (source.value.floats.size() + source.value.ints.size());
+  for (const std::string& text : source.value.texts) bytes += text.size();
+  return bytes;
+}
+
 std::size_t Resolver::KeyHash::operator()(const Key& key) const {
   const std::hash<const void*> hash;
   const std::size_t a = hash(key.subject);
@@ -18,22 +32,23 @@ std::size_t Resolver::KeyHash::operator()(const Key& key) const {
 
 Resolver::Result Resolver::run(Key key) {
   if (const auto known = slots_.find(key); known != slots_.end()) return known->second.result;
-  std::vector<Frame> stack;
+  std::deque<Frame> stack;
   const auto open = [&](const Key& wanted) {
-    slots_[wanted] = {};
-    stack.push_back({wanted, 0, {}, {}});
+    Slot& slot = slots_[wanted];
+    stack.push_back({wanted, &slot, slot.result, 0, {}});
   };
   open(key);
   while (!stack.empty()) {
     Frame& frame = stack.back();
     // Graphs within graphs may double at each level: stop at once.
     if (is_too_large(frame) || is_due(frame)) {
-      for (const Frame& open_frame : stack) slots_[open_frame.key] = {true, failure()};
+      for (const Frame& open_frame : stack) *open_frame.slot = {true, failure()};
       return failure();
     }
     const std::optional<Key> wanted = step(frame);
     if (!wanted) {
-      slots_[frame.key] = {true, std::move(frame.result)};
+      bytes_ += bytes_of(frame.result.source);
+      frame.slot->done = true;
       stack.pop_back();
       continue;
     }
@@ -46,7 +61,7 @@ Resolver::Result Resolver::run(Key key) {
       // failure travels back along the stack.
       report_cycle(stack, *wanted);
       frame.result.failed = true;
-      slots_[frame.key] = {true, frame.result};
+      frame.slot->done = true;
       stack.pop_back();
     }
   }
@@ -63,15 +78,22 @@ Resolver::Result Resolver::failure() {
 // nothing but other graphs.
 double Resolver::fullness() const {
   const auto limit = static_cast<double>(options_.max_nodes);
-  return std::max(static_cast<double>(graph_.nodes.size()) / limit,
-                  static_cast<double>(instances_.size()) / (2 * limit));
+  return std::max({static_cast<double>(graph_.nodes.size()) / limit,
+                   static_cast<double>(instances_.size()) / (2 * limit),
+                   static_cast<double>(bytes_) / (bytes_of_node * limit)});
 }
 
 bool Resolver::is_too_large(const Frame& frame) {
   if (fullness() <= 1) return false;
   if (!too_large_) {
-    error("too-many-nodes", where(frame), "the graph has too many nodes",
-          fmt::format("at most {}", options_.max_nodes));
+    const auto most = static_cast<double>(options_.max_nodes);
+    if (static_cast<double>(bytes_) > bytes_of_node * most) {
+      error("graph-too-large", where(frame), "the names and values in the graph take too much",
+            fmt::format("at most {:.0f} bytes", bytes_of_node * most));
+    } else {
+      error("too-many-nodes", where(frame), "the graph has too many nodes",
+            fmt::format("at most {}", options_.max_nodes));
+    }
   }
   too_large_ = true;
   return true;
@@ -99,7 +121,7 @@ std::optional<Resolver::Key> Resolver::step(Frame& frame) {
   return std::nullopt;
 }
 
-void Resolver::report_cycle(const std::vector<Frame>& stack, const Key& again) {
+void Resolver::report_cycle(const std::deque<Frame>& stack, const Key& again) {
   const auto first = std::find_if(stack.begin(), stack.end(),
                                   [&](const Frame& frame) { return frame.key == again; });
   std::string path;

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "jit/document/definitions.h"
@@ -91,25 +92,29 @@ class Resolver {
   struct KeyHash {
     std::size_t operator()(const Key& key) const;
   };
-  struct Frame {
-    Key key{};
-    std::uint32_t stage = 0;
-    Key waiting_for{};
-    Result result;
-  };
   struct Slot {
     bool done = false;
     Result result;
+  };
+  /// Chains are as long as graphs are large, and so is the stack of frames: what they
+  /// come to stands in the slot alone.
+  struct Frame {
+    Key key{};
+    Slot* slot = nullptr;
+    Result& result;
+    std::uint32_t stage = 0;
+    Key waiting_for{};
   };
 
   // The machine (resolver.cpp).
   Result run(Key key);
   std::optional<Key> step(Frame& frame);
   static Result failure();
+  static std::size_t bytes_of(const Source& source);
   bool is_too_large(const Frame& frame);
   bool is_due(const Frame& frame);
   static const Element& where(const Frame& frame);
-  void report_cycle(const std::vector<Frame>& stack, const Key& again);
+  void report_cycle(const std::deque<Frame>& stack, const Key& again);
   const Result& waited(const Frame& frame) { return slots_.at(frame.waiting_for).result; }
 
   // One step of each kind (steps.cpp): what it has to wait for, or nothing when
@@ -240,7 +245,11 @@ class Resolver {
     SourceLocation where;
   };
   std::map<std::string, Transform, std::less<>> transforms_;
-  std::unordered_map<std::string, bool> reported_;  // warnings given once
+  std::unordered_map<std::string, bool> reported_;    // warnings given once
+  std::unordered_set<std::string_view> with_source_;  ///< Nodedefs in Graph::sources.
+  /// What names and values take: paths grow with the depth of graphs, and a value is
+  /// written once and copied to wherever it goes.
+  std::size_t bytes_ = 0;
   bool too_large_ = false;
   std::size_t steps_ = 0;
   bool due_ = false;

@@ -52,8 +52,12 @@ std::optional<Resolver::Key> Resolver::step_node(Frame& frame) {
   for (std::uint32_t i = 0; i < def.inputs.size(); ++i) {
     const Result& result = slots_.at({Kind::input, i, &instance, nullptr}).result;
     if (result.failed) frame.result.failed = true;
+    bytes_ += bytes_of(result.source);
     node.inputs.push_back({std::string(def.inputs[i].name), def.inputs[i].type, result.source});
+    // Nobody else asks for it, but for what the file of a texture is said to hold.
+    if (def.inputs[i].type != Type::filename) slots_.erase({Kind::input, i, &instance, nullptr});
   }
+  bytes_ += 2 * node.path.size();
   for (const NodeDefOutput& output : def.outputs) {
     node.outputs.push_back({std::string(output.name), output.type,
                             output.has_default ? output.default_value : Value{}});
@@ -71,7 +75,11 @@ std::optional<Resolver::Key> Resolver::step_output(Frame& frame) {
   const Instance& instance = instance_in(frame.key.subject);
   switch (frame.stage) {
     case start: return start_output(frame, instance);
-    case received: return finish_native_output(frame, instance);
+    case received: {
+      const std::optional<Key> next = finish_native_output(frame, instance);
+      if (instance.def->outputs.size() == 1) slots_.erase(frame.waiting_for);
+      return next;
+    }
     case switched: {
       Result disable = waited(frame);
       if (!disable.failed) make_uniform(disable, disable_input(), *instance.origin);
@@ -206,6 +214,8 @@ std::optional<Resolver::Key> Resolver::step_input(Frame& frame) {
   if (frame.stage == start) return start_input(frame, instance, input);
   if (frame.stage == received) {
     frame.result = waited(frame);
+    const auto* port = static_cast<const Element*>(frame.waiting_for.subject);
+    if (port->parent() == instance.element) slots_.erase(frame.waiting_for);
     return check_input(frame, instance, input);
   }
   if (frame.stage == retyped) {
@@ -247,6 +257,14 @@ std::optional<Resolver::Key> Resolver::default_input(Frame& frame, const Instanc
     const Instance* geomprop = geomprop_instance(input.defaultgeomprop, *instance.origin);
     result.failed = geomprop == nullptr;
     if (geomprop == nullptr) return std::nullopt;
+    if (geomprop->def->outputs[0].type != input.type) {
+      error("type-mismatch", *instance.origin,
+            fmt::format("the geometric property '{}', which input '{}' takes, has another type",
+                        input.defaultgeomprop, input.name),
+            std::string(input.type_text), std::string(geomprop->def->outputs[0].type_text));
+      result.failed = true;
+      return std::nullopt;
+    }
     return Key{Kind::output, 0, geomprop, nullptr};
   }
   if (input.type == Type::none) {

@@ -14,6 +14,7 @@
 #include "jit/passes/tangent_plan.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/slice.h"
+#include "runtime/program/transform.h"
 
 namespace nacre {
 
@@ -54,15 +55,15 @@ Ref finite(Ref tangent) {
 /// Records a Program again with its ready ddx operations replaced.
 class Deriver {
  public:
-  Deriver(const Program& program, std::span<const std::string_view> more, bool force)
-      : program_(program), more_(more), planner_(program, more, force) {
+  Deriver(const Program& program, std::span<const std::string_view> more, bool force,
+          std::size_t most)
+      : program_(program), more_(more), most_(most), planner_(program, more, force) {
     recorder_.adopt_interface(program);
   }
 
   Program run() {
     const TangentPlan& plan = planner_.entry();
-    outline_callees(plan);
-    body(plan);
+    if (!outline_callees(plan) || !body(plan)) return too_large(most_);
     Program result = recorder_.take();
     remove_dead(result);
     mark_varying(result);
@@ -71,36 +72,45 @@ class Deriver {
   }
 
  private:
-  void outline_callees(const TangentPlan& plan) {
-    for (const TangentPlan* callee : plan.callee) {
-      if (callee != nullptr && !outlined_.contains(callee)) outline(*callee);
-    }
+  // Each of these is false once there is too much.
+
+  bool outline_callees(const TangentPlan& plan) {
+    return std::ranges::all_of(plan.callee, [&](const TangentPlan* callee) {
+      return callee == nullptr || outlined_.contains(callee) || outline(*callee);
+    });
   }
 
-  void outline(const TangentPlan& plan) {
-    outline_callees(plan);
+  bool outline(const TangentPlan& plan) {
+    if (!outline_callees(plan)) return false;
     const Function& function = program_.functions[plan.function];
     std::vector<Scalar> arguments = function.arguments;
     const std::vector<Crossing> in = crossings(plan.arguments_needed);
     arguments.insert(arguments.end(), in.size(), Scalar::f32);
     recorder_.begin_function(std::to_string(outlined_.size()), function.name, arguments);
     gives_.assign(function.results.size(), Dual{});
-    body(plan);
+    if (!body(plan)) return false;
     std::vector<Ref> results;
     for (const Dual& give : gives_) results.push_back(give.value);
     for (const auto [k, axis] : crossings(plan.results_needed)) {
       results.push_back(gives_[k].d[axis]);
     }
     outlined_.emplace(&plan, recorder_.end_function(results));
+    return true;
   }
 
-  void body(const TangentPlan& plan) {
+  bool body(const TangentPlan& plan) {
     plan_ = &plan;
     function_ = &program_.functions[plan.function];
     values_.assign(function_->code.size(), Dual{});
+    std::size_t here = 0;
     for (std::size_t i = 0; i < function_->code.size(); ++i) {
       values_[i] = again(static_cast<ValueId>(i));
+      const Ref value = values_[i].value;
+      if (!value.is_constant()) here = std::max<std::size_t>(here, value.id);
+      if (done_ + here > most_) return false;
     }
+    done_ += here;
+    return true;
   }
 
   /// f(axis) for the axes along which value id needs a tangent.
@@ -243,6 +253,8 @@ class Deriver {
 
   const Program& program_;
   std::span<const std::string_view> more_;
+  const std::size_t most_;
+  std::size_t done_ = 0;  ///< Instructions of the functions before this one.
   TangentPlanner planner_;
   Recorder recorder_;
   std::unordered_map<const TangentPlan*, std::uint32_t> outlined_;  ///< Function in the recording.
@@ -263,11 +275,11 @@ bool has_ddx(const Program& program) {
 
 }  // namespace
 
-Program derive(const Program& program, std::span<const std::string_view> more) {
+Program derive(const Program& program, std::span<const std::string_view> more, std::size_t most) {
   Program result = program;
   // Each round resolves the ddx operations that hold no other; the last one all.
   for (int order = 1; has_ddx(result) && order <= max_derivative_order; ++order) {
-    result = Deriver(result, more, order == max_derivative_order).run();
+    result = Deriver(result, more, order == max_derivative_order, most).run();
   }
   return result;
 }

@@ -25,7 +25,9 @@ inline constexpr int max_derivative_order = 3;
 /// texture_call results, and of a ddx that a loop feeds back into itself.
 ///
 /// Run it on a slice that was not cut before the ddx: across a cut at a keep
-/// ("state.<k>" channels) derivatives are 0. Run it before `expand_math`.
-Program derive(const Program& program, std::span<const std::string_view> more = {});
+/// ("state.<k>" channels) derivatives are 0. Run it before `expand_math`. Ends early as
+/// `transform` does, with more than `most` instructions.
+Program derive(const Program& program, std::span<const std::string_view> more = {},
+               std::size_t most = std::size_t{1} << 31);
 
 }  // namespace nacre

@@ -63,12 +63,13 @@ class Expander {
 
 }  // namespace
 
-Program expand_math(const Program& program, Accuracy accuracy) {
+Program expand_math(const Program& program, Accuracy accuracy, std::size_t most) {
   Expander expander(accuracy);
-  return transform(program, [&](Recorder& recorder, const Instruction& instruction,
-                                std::span<const Ref> operands) {
+  const auto expand = [&](Recorder& recorder, const Instruction& instruction,
+                          std::span<const Ref> operands) {
     return expander.expand(recorder, instruction, operands);
-  });
+  };
+  return transform(program, expand, most);
 }
 
 }  // namespace nacre

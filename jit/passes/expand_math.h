@@ -10,6 +10,7 @@ namespace nacre {
 /// so a program and a slice of it agree bit for bit. Operations of one argument
 /// share its reduction. To come after derive() and contract(): the expansions
 /// contain error-free sums and products that contraction must not touch.
-Program expand_math(const Program& program, Accuracy accuracy);
+Program expand_math(const Program& program, Accuracy accuracy,
+                    std::size_t most = std::size_t{1} << 31);
 
 }  // namespace nacre

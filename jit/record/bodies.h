@@ -13,9 +13,17 @@ namespace nacre {
 
 /// Which nodedefs of the data library run a native body: those of a category in
 /// nodes/nodes.txt or pbs/nodes.txt that have no node graph, or whose line says
-/// that the body replaces it.
+/// that the body replaces it. A body is made for the ports of the data library's own
+/// nodedefs: one of a node pack gets it only where it has the ports of one of those.
 class Bodies {
  public:
+  struct Binding {
+    const NodeBody* body = nullptr;
+    const NodeDef* def = nullptr;  ///< What declares the ports.
+    bool is_of_host = false;
+  };
+
+  /// `library` must outlive it.
   explicit Bodies(const Definitions& library);
 
   /// Adds or replaces the body of one nodedef. False if there is no such nodedef.
@@ -23,11 +31,12 @@ class Bodies {
            const Definitions& library);
 
   /// Null: no native body, use the graph.
+  const Binding* binding(std::string_view nodedef) const;
   const NodeBody* find(std::string_view nodedef) const;
-  bool contains(std::string_view nodedef) const { return find(nodedef) != nullptr; }
+  bool contains(std::string_view nodedef) const { return binding(nodedef) != nullptr; }
 
  private:
-  std::unordered_map<std::string, const NodeBody*> by_nodedef_;
+  std::unordered_map<std::string, Binding> by_nodedef_;
   std::deque<NodeBody> added_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <unordered_map>
 #include <utility>
 
 #include "jit/record/branches.h"
@@ -47,7 +48,10 @@ class GraphRecorder {
         options_(options),
         recorder_(recorder),
         diagnostics_(diagnostics),
-        plan_(options.lazy ? plan_branches(graph) : all_at_once(graph)) {}
+        plan_(options.lazy ? plan_branches(graph) : all_at_once(graph)) {
+    if (options.sources == nullptr) return;
+    for (const NodeSource& source : graph.sources) sources_.emplace(source.nodedef, &source);
+  }
 
   std::optional<std::vector<Recorded>> run() {
     outputs_.resize(graph_.nodes.size());
@@ -102,16 +106,19 @@ class GraphRecorder {
   bool record_node(std::uint32_t number) {
     const GraphNode& node = graph_.nodes[number];
     const NodeSource* source = source_of(node);
-    const NodeBody* body = source == nullptr ? bodies_.find(node.nodedef) : nullptr;
+    const Bodies::Binding* bound = source == nullptr ? bodies_.binding(node.nodedef) : nullptr;
+    const NodeBody* body = bound == nullptr ? nullptr : bound->body;
     if (source == nullptr && body == nullptr) {
       diagnostics_.error("no-implementation", node.where,
                          "nothing implements node '" + node.category + "'",
                          "a nodedef with a body, a node graph or a text", node.nodedef);
       return false;
     }
+    if (bound != nullptr && !check_ports(node, *bound->def)) return false;
     const auto [first, second] = plan_.of_node[number];
     if (first != BranchPlan::whole) {
-      if (body != nullptr) return record_choice(number, *body);
+      // A host's body is not known to choose.
+      if (body != nullptr && !bound->is_of_host) return record_choice(number, *body);
       if (!record_branch(first) || !record_branch(second)) return false;
     }
     Ports inputs;
@@ -124,7 +131,7 @@ class GraphRecorder {
     }
     if (body != nullptr) {
       outputs_[number] = record(node, *body, std::move(inputs), std::move(outputs));
-      return true;
+      return check_outputs(node, outputs_[number]);
     }
     NodeCall call = make_call(node, std::move(inputs), std::move(outputs));
     if (!options_.sources->record(*source, call, options_.stop)) return false;
@@ -133,10 +140,48 @@ class GraphRecorder {
   }
 
   const NodeSource* source_of(const GraphNode& node) const {
-    const auto found =
-        std::find_if(graph_.sources.begin(), graph_.sources.end(),
-                     [&](const NodeSource& source) { return source.nodedef == node.nodedef; });
-    return found == graph_.sources.end() || options_.sources == nullptr ? nullptr : &*found;
+    const auto found = sources_.find(node.nodedef);
+    return found == sources_.end() ? nullptr : found->second;
+  }
+
+  /// A body is made for the ports that the library declares, and reads them by name; a
+  /// Graph may come from anywhere.
+  bool check_ports(const GraphNode& node, const NodeDef& def) {
+    bool fits = node.outputs.size() == def.outputs.size();
+    for (const NodeDefInput& declared : def.inputs) {
+      const GraphInput* input = node.input(declared.name);
+      fits = fits && input != nullptr && input->type == declared.type;
+    }
+    for (std::size_t i = 0; fits && i < def.outputs.size(); ++i) {
+      fits = node.outputs[i].name == def.outputs[i].name &&
+             node.outputs[i].type == def.outputs[i].type;
+    }
+    if (fits) return true;
+    diagnostics_.error("port-mismatch", node.where,
+                       "the ports of this node are not those of the nodedef that it names",
+                       "inputs and outputs as the library declares them", node.nodedef);
+    return false;
+  }
+
+  /// What readers of the node count on.
+  bool check_outputs(const GraphNode& node, const Ports& outputs) {
+    if (misfit_) return false;
+    for (const NodeCall::Port& output : outputs) {
+      const Type type = output.value.type;
+      if (!is_numeric(type)) continue;
+      const Scalar scalar = scalar_of(type);
+      const bool fits =
+          output.value.parts.size() == static_cast<std::size_t>(component_count(type)) &&
+          std::all_of(output.value.parts.begin(), output.value.parts.end(),
+                      [&](Ref part) { return part.type == scalar; });
+      if (fits) continue;
+      diagnostics_.error("port-mismatch", node.where,
+                         "the body of '" + node.nodedef + "' does not set output '" + output.name +
+                             "' to a value of its type",
+                         std::string(type_name(type)));
+      return false;
+    }
+    return true;
   }
 
   /// The condition alone, and then the branches: a side that a constant excludes not at
@@ -231,7 +276,11 @@ class GraphRecorder {
 
   Ports record(const GraphNode& node, const NodeBody& body, Ports inputs, Ports outputs) {
     NodeCall call = make_call(node, std::move(inputs), std::move(outputs));
+    const auto before = static_cast<std::ptrdiff_t>(diagnostics_.all().size());
     body.record(call);
+    // What the body asked for in vain, NodeCall has said.
+    misfit_ = std::any_of(diagnostics_.all().begin() + before, diagnostics_.all().end(),
+                          [](const Diagnostic& one) { return one.code == "port-mismatch"; });
     return call.outputs();
   }
 
@@ -290,9 +339,11 @@ class GraphRecorder {
   Recorder& recorder_;
   Diagnostics& diagnostics_;
   BranchPlan plan_;
-  std::vector<Ports> outputs_;  ///< By node.
-  std::vector<double> once_;    ///< By function: steps, each loop counted for one round.
-  std::size_t counted_ = 0;     ///< Of the entry's instructions.
+  bool misfit_ = false;  ///< The last body asked for ports that are not there.
+  std::unordered_map<std::string_view, const NodeSource*> sources_;  ///< By nodedef.
+  std::vector<Ports> outputs_;                                       ///< By node.
+  std::vector<double> once_;  ///< By function: steps, each loop counted for one round.
+  std::size_t counted_ = 0;   ///< Of the entry's instructions.
   double steps_ = 0;
 };
 

@@ -38,7 +38,7 @@ struct RecordOptions {
   /// Told which node is recorded next; may be null.
   std::function<void(const GraphNode& node)> before_node = {};
   /// A graph that leads to more is refused.
-  std::size_t max_instructions = 2'000'000;
+  std::size_t max_instructions = 500'000;
   /// A graph that takes more for each pass of points, every loop counted for one round, is
   /// refused; see runtime/program/cost.h.
   std::uint64_t max_steps = default_max_steps;

@@ -1,5 +1,7 @@
 #include "jit/shading/compilation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -10,6 +12,7 @@
 #include "pbs/shader_channels.h"
 #include "pbs/sides.h"
 #include "runtime/program/fix_inputs.h"
+#include "runtime/report_stop.h"
 
 namespace nacre {
 
@@ -75,20 +78,7 @@ Compilation::Compilation(const ShaderOptions& options, const Bodies& bodies, Sou
       textures_(std::make_shared<RecordedTextures>(store, recorder_, diagnostics,
                                                    options.max_anisotropy)) {}
 
-/// Complaints about a whole graph are about what its first output comes from.
-void Compilation::tell(const Diagnostics& said) {
-  for (Diagnostic one : said.all()) {
-    if (one.where.file.empty()) one.where = place_;
-    diagnostics_.add(std::move(one));
-  }
-}
-
 std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
-  for (const GraphOutput& output : graph.outputs) {
-    if (output.source.kind != Source::Kind::link) continue;
-    place_ = graph.nodes[output.source.node].where;
-    break;
-  }
   const FileRoots roots = options_.files_anywhere
                               ? FileRoots{}
                               : image_roots(graph, options_.search_paths, sources_.roots());
@@ -107,7 +97,28 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
             return find_image(name, document, options_.search_paths, roots);
           },
       .stop = options_.compile.stop};
+  if (!graph.outputs.empty()) where_ = graph.outputs.front().where;
   return record_graph(graph, bodies_, record, recorder_, diagnostics_);
+}
+
+bool Compilation::may_go_on() {
+  if (report_if_due(options_.compile.stop, "recording the kernels", where_, diagnostics_)) {
+    return false;
+  }
+  std::size_t count = 0;
+  for (const Function& function : recorder_.program().functions) count += function.code.size();
+  const std::size_t most = options_.compile.max_instructions;
+  if (count <= most) return true;
+  diagnostics_.error("program-too-large", where_, "the surface leads to too large a kernel",
+                     fmt::format("{} instructions at most", most));
+  return false;
+}
+
+void Compilation::add_located(const Diagnostics& said) {
+  for (Diagnostic one : said.all()) {
+    if (one.where.file.empty() && one.where.path.empty()) one.where = where_;
+    diagnostics_.add(std::move(one));
+  }
 }
 
 Program Compilation::entry(const char* name, const std::vector<SliceOutput>& outputs,
@@ -122,7 +133,7 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
   std::vector<std::vector<StageReport>> reports;
   Diagnostics said;
   auto compiled = compile_all(std::move(programs), options_.compile, service_, said, &reports);
-  tell(said);
+  add_located(said);
   std::vector<std::optional<BoundKernel>> kernels(compiled.size());
   for (std::size_t i = 0; i < compiled.size(); ++i) {
     for (StageReport& report : reports[i]) {
@@ -139,7 +150,7 @@ void Compilation::try_stages(std::vector<Program> programs) {
   options.backend = Backend::interpreter;
   Diagnostics said;
   compile_all(std::move(programs), options, nullptr, said);
-  tell(said);
+  add_located(said);
 }
 
 std::optional<RecordedOutputs> record_outputs(Compilation& compilation, const Graph& graph,
@@ -197,9 +208,11 @@ std::optional<RecordedMaterial> record_material(Compilation& compilation, const 
     return std::nullopt;
   }
   const SurfaceKernels surface_kernels =
-      surface == nullptr ? SurfaceKernels{}
-                         : record_kernels(compilation.recorder(), *surface,
-                                          options.compile.accuracy, options.kernels);
+      surface == nullptr
+          ? SurfaceKernels{}
+          : record_kernels(compilation.recorder(), *surface, options.compile.accuracy,
+                           options.kernels, [&] { return compilation.may_go_on(); });
+  if (!surface_kernels.complete) return std::nullopt;
   RecordedMaterial recorded;
   MaterialKernels& kernels = recorded.kernels;
   kernels.has_surface = surface != nullptr;
@@ -232,10 +245,14 @@ std::optional<RecordedMaterial> record_material(Compilation& compilation, const 
   for (const Recorded& value : *values) {
     const bool is_displacement = value.type == Type::displacementshader;
     if (!is_displacement && value.type != Type::volumeshader) continue;
-    add_entry(is_displacement ? &MaterialKernels::displacement : &MaterialKernels::volume,
-              is_displacement ? "displacement" : "volume",
-              shader_channels(compilation.recorder(), options.compile.accuracy, value),
-              Keeps::pass);
+    const char* name = is_displacement ? "displacement" : "volume";
+    const auto list = shader_channels(compilation.recorder(), options.compile.accuracy, value);
+    if (all_zero(list)) {
+      kernels.manifest.push_back(std::string(name) + ": always nothing");
+      continue;
+    }
+    add_entry(is_displacement ? &MaterialKernels::displacement : &MaterialKernels::volume, name,
+              list, Keeps::pass);
   }
   add_entry(&MaterialKernels::begin, "begin", state_outputs(compilation.recorder(), kernels.state),
             Keeps::pass);

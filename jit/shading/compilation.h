@@ -30,20 +30,24 @@ class Compilation {
   /// Every stage of `compile` before machine code, for its diagnostics.
   void try_stages(std::vector<Program> programs);
 
+  /// Whether there is time and room for more; false, with an error, once there is not.
+  bool may_go_on();
+
   Recorder& recorder() { return recorder_; }
   std::size_t image_errors() const { return textures_->error_count(); }
 
  private:
-  void tell(const Diagnostics& said);
+  /// Who compiles Programs does not know what document they come from.
+  void add_located(const Diagnostics& said);
 
   const ShaderOptions& options_;
   const Bodies& bodies_;
   SourceBodies& sources_;
   CompileService* service_;
   Diagnostics& diagnostics_;
-  SourceLocation place_;  ///< For what is said of a graph and names no place.
   Recorder recorder_;
   std::shared_ptr<RecordedTextures> textures_;
+  SourceLocation where_;  ///< Of what is compiled.
 };
 
 /// What compile_outputs makes a kernel of: the channels of every output, in order.

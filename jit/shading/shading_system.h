@@ -75,7 +75,7 @@ struct OutputKernel {
     std::string name;  ///< "NG_marble/out"
     Type type = Type::none;
     std::size_t first_channel = 0;
-    std::size_t channels = 0;  ///< component_count(type) of a numeric type.
+    std::size_t channels = 0;   ///< component_count(type) of a numeric type.
     SourceLocation where = {};  ///< Of the node that it is of.
   };
   BoundKernel kernel;

@@ -12,7 +12,8 @@ class ConicalEdf final : public Edf {
   ConicalEdf(Color3 color, Float3 normal, Float inner, Float outer)
       : color_(color), normal_(normal), inner_(inner), outer_(outer) {}
 
-  Color3 radiance(const View& view) const override {
+  Color3 radiance(const View& view, Color3, Color3) const override {
+    if (is_zero(color_)) return color_;
     const Float cosine = dot(normal_, view.wo);
     const Float t = saturate((cosine - outer_) / (inner_ - outer_));
     const Float soft = t * t * fma(-2.0f, t, 3.0f);

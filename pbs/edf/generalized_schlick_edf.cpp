@@ -10,18 +10,17 @@ namespace {
 class GeneralizedSchlickEdf final : public Edf {
  public:
   GeneralizedSchlickEdf(EdfPtr base, Color3 color0, Color3 color90, Float exponent)
-      : base_(std::move(base)), color0_(color0), color90_(color90), exponent_(exponent) {}
+      : Edf(std::move(base)), color0_(color0), color90_(color90), exponent_(exponent) {}
 
-  Color3 radiance(const View& view) const override {
-    if (base_ == nullptr) return Color3(0.0f);
+  Color3 radiance(const View& view, Color3 base, Color3) const override {
+    if (is_zero(base)) return base;
     const Float3 n = normal(*view.recorder, Space::world);
     const Float flat = 1.0f - min(abs(dot(n, view.wo)), 1.0f);
     // pow(0, 0) is 1: with exponent 0 color90 holds at normal incidence as well.
-    return base_->radiance(view) * lerp(color0_, color90_, pow(max(flat, 0.0f), exponent_));
+    return product(base, lerp(color0_, color90_, pow(max(flat, 0.0f), exponent_)));
   }
 
  private:
-  EdfPtr base_;
   Color3 color0_, color90_;
   Float exponent_;
 };

@@ -8,7 +8,7 @@ namespace {
 class UniformEdf final : public Edf {
  public:
   explicit UniformEdf(Color3 color) : color_(color) {}
-  Color3 radiance(const View&) const override { return color_; }
+  Color3 radiance(const View&, Color3, Color3) const override { return color_; }
 
  private:
   Color3 color_;

@@ -11,17 +11,25 @@ namespace {
 
 class MixEdf final : public Edf {
  public:
-  MixEdf(EdfPtr fg, EdfPtr bg, Float mix) : fg_(std::move(fg)), bg_(std::move(bg)), mix_(mix) {}
-  Color3 radiance(const View& view) const override {
-    const Color3 fg = fg_ == nullptr ? Color3(0.0f) : fg_->radiance(view);
-    const Color3 bg = bg_ == nullptr ? Color3(0.0f) : bg_->radiance(view);
-    return weigh(mix_, fg) + weigh(1.0f - mix_, bg);
+  MixEdf(EdfPtr fg, EdfPtr bg, Float mix) : Edf(std::move(fg), std::move(bg)), mix_(mix) {}
+  Color3 radiance(const View&, Color3 fg, Color3 bg) const override {
+    return product(fg, Color3(mix_)) + product(bg, Color3(1.0f - mix_));
   }
 
  private:
-  EdfPtr fg_, bg_;
   Float mix_;
 };
+
+/// As lerp; of two equal literals that literal, whatever the mix: what is opaque or flat
+/// on both sides is so everywhere.
+Float between(Float a, Float b, Float mix) {
+  const bool same = a.is_constant() && b.is_constant() && a.constant() == b.constant();
+  return same ? a : lerp(a, b, mix);
+}
+
+Float3 between(Float3 a, Float3 b, Float mix) {
+  return {between(a.x, b.x, mix), between(a.y, b.y, mix), between(a.z, b.z, mix)};
+}
 
 /// An unconnected shader: present, black.
 SurfacePtr or_black(SurfacePtr surface) {
@@ -34,8 +42,8 @@ std::shared_ptr<Surface> mix_surfaces(SurfacePtr fg, SurfacePtr bg, Float mix) {
   if (fg->edf != nullptr || bg->edf != nullptr) {
     surface->edf = std::make_shared<MixEdf>(fg->edf, bg->edf, mix);
   }
-  surface->opacity = lerp(bg->opacity, fg->opacity, mix);
-  surface->transmission = lerp(bg->transmission, fg->transmission, mix);
+  surface->opacity = between(bg->opacity, fg->opacity, mix);
+  surface->transmission = between(bg->transmission, fg->transmission, mix);
   // PBS 1.39, "Surfaces": if either is thin-walled, both are.
   surface->thin_walled = fg->thin_walled | bg->thin_walled;
   return surface;
@@ -59,7 +67,7 @@ std::shared_ptr<Displacement> mix_displacements(const DisplacementPtr& fg,
   const Float3 a = fg == nullptr ? Float3(0.0f) : fg->offset;
   const Float3 b = bg == nullptr ? Float3(0.0f) : bg->offset;
   auto displacement = std::make_shared<Displacement>();
-  displacement->offset = lerp(b, a, mix);
+  displacement->offset = between(b, a, mix);
   return displacement;
 }
 

@@ -9,13 +9,10 @@ namespace {
 
 class MultiplyEdf final : public Edf {
  public:
-  MultiplyEdf(EdfPtr in1, Color3 tint) : in1_(std::move(in1)), tint_(tint) {}
-  Color3 radiance(const View& view) const override {
-    return in1_ == nullptr || is_zero(tint_) ? Color3(0.0f) : in1_->radiance(view) * tint_;
-  }
+  MultiplyEdf(EdfPtr in1, Color3 tint) : Edf(std::move(in1)), tint_(tint) {}
+  Color3 radiance(const View&, Color3 in1, Color3) const override { return product(in1, tint_); }
 
  private:
-  EdfPtr in1_;
   Color3 tint_;
 };
 

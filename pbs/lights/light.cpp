@@ -32,7 +32,7 @@ void record_closure_light(NodeCall& call) {
     const View view{
         .recorder = &recorder, .accuracy = call.accuracy(), .wo = view_direction(recorder)};
     const Float factor = max(call.number("intensity") * exp2(call.number("exposure")), 0.0f);
-    light->intensity = edf->radiance(view) * Color3(factor);
+    light->intensity = product(radiance(edf, view), Color3(factor));
   }
   call.set(std::move(light));
 }

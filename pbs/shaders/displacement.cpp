@@ -1,5 +1,7 @@
 #include "pbs/displacement.h"
 
+#include <algorithm>
+
 #include "runtime/node/geometry.h"
 #include "runtime/node/node_call.h"
 
@@ -18,7 +20,12 @@ void record_closure_displacement(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Float3 n = normal(recorder, Space::world);
   auto result = std::make_shared<Displacement>();
-  if (call.type("displacement") == Type::float_) {
+  const Recorded& by = call.in("displacement");
+  const bool is_flat = std::all_of(by.parts.begin(), by.parts.end(),
+                                   [](Ref part) { return Float(part).is_constant(0.0f); });
+  if (is_flat || call.number("scale").is_constant(0.0f)) {
+    // Nothing moves: no kernel, whatever the frame is.
+  } else if (by.type == Type::float_) {
     result->offset = n * (call.number("displacement") * call.number("scale"));
   } else {
     const Float3 d = call.vector3("displacement") * Float3(call.number("scale"));

@@ -9,7 +9,7 @@ namespace {
 class FlatEdf final : public Edf {
  public:
   explicit FlatEdf(Color3 radiance) : radiance_(radiance) {}
-  Color3 radiance(const View&) const override { return radiance_; }
+  Color3 radiance(const View&, Color3, Color3) const override { return radiance_; }
 
  private:
   Color3 radiance_;

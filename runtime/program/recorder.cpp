@@ -45,6 +45,21 @@ Instruction leaf(Op op, Scalar type, std::uint32_t imm) {
   return {.op = op, .type = type, .imm = imm, .operands = {no_value, no_value, no_value}};
 }
 
+/// Whether max(x, limit) is `limit`, a literal that is not negative, for what x is: a product
+/// with a literal 0 is a zero, or NaN where the other factor is not finite. So a colour
+/// that is clamped from below is black where its weight is off, whatever the colour is.
+bool is_limit(const std::vector<Instruction>& code, Ref x, Ref limit) {
+  if (x.is_constant() || !limit.is_constant() || 0.0f > std::bit_cast<float>(limit.id)) {
+    return false;
+  }
+  const Instruction& product = code[x.id];
+  if (product.op != Op::mul) return false;
+  const auto is_zero = [&](ValueId factor) {
+    return code[factor].op == Op::constant && (code[factor].imm & 0x7fffffffu) == 0;
+  };
+  return is_zero(product.operands[0]) || is_zero(product.operands[1]);
+}
+
 }  // namespace
 
 std::size_t Recorder::KeyHash::operator()(const Instruction& key) const {
@@ -117,6 +132,7 @@ Ref Recorder::emit(Op op, std::span<const Ref> operands, std::uint32_t imm) {
   assert(!is_structural(op) && operands.size() <= 3);
   if (const std::optional<Ref> literal = fold_literals(op, operands, imm)) return *literal;
   if (const std::optional<Ref> equal = simplify(op, operands)) return *equal;
+  if (op == Op::max && is_limit(code().code, operands[0], operands[1])) return operands[1];
   Instruction instruction = leaf(op, result_type(op, operands), imm);
   instruction.count = static_cast<std::uint8_t>(operands.size());
   bool varying = false;

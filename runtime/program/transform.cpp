@@ -1,5 +1,6 @@
 #include "runtime/program/transform.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 #include <vector>
@@ -12,15 +13,17 @@ namespace {
 
 class Transformer {
  public:
-  Transformer(const Program& program, const Replacement& replace)
-      : program_(program), replace_(replace), functions_(program.functions.size(), 0) {
+  Transformer(const Program& program, const Replacement& replace, std::size_t most)
+      : program_(program), replace_(replace), most_(most), functions_(program.functions.size(), 0) {
     recorder_.adopt_interface(program);
   }
 
   Program run() {
     // Callees stand before their callers; the entry is first but comes last.
-    for (std::size_t i = 1; i < program_.functions.size(); ++i) outlined(i);
-    body(program_.entry());
+    for (std::size_t i = 1; i < program_.functions.size(); ++i) {
+      if (!outlined(i)) return too_large(most_);
+    }
+    if (!body(program_.entry())) return too_large(most_);
     Program result = recorder_.take();
     remove_dead(result);
     mark_varying(result);
@@ -29,18 +32,21 @@ class Transformer {
   }
 
  private:
-  void outlined(std::size_t index) {
+  bool outlined(std::size_t index) {
     const Function& function = program_.functions[index];
     recorder_.begin_function(std::to_string(index) + '/' + function.name, function.name,
                              function.arguments);
     std::vector<Ref> results(function.results.size());
     gives_ = &results;
-    body(function);
+    if (!body(function)) return false;
     gives_ = nullptr;
     functions_[index] = recorder_.end_function(results);
+    return true;
   }
 
-  void body(const Function& function) {
+  /// False once there is too much.
+  bool body(const Function& function) {
+    std::size_t here = 0;
     values_.assign(function.code.size(), Ref{});
     for (std::size_t i = 0; i < function.code.size(); ++i) {
       const Instruction& instruction = function.code[i];
@@ -49,7 +55,11 @@ class Transformer {
         operands.push_back(values_[operand]);
       }
       values_[i] = again(instruction, operands);
+      if (!values_[i].is_constant()) here = std::max<std::size_t>(here, values_[i].id);
+      if (done_ + here > most_) return false;
     }
+    done_ += here;
+    return true;
   }
 
   Ref again(const Instruction& instruction, std::span<const Ref> operands) {
@@ -91,6 +101,8 @@ class Transformer {
 
   const Program& program_;
   const Replacement& replace_;
+  const std::size_t most_;
+  std::size_t done_ = 0;  ///< Instructions of the functions before this one.
   Recorder recorder_;
   std::vector<std::uint32_t> functions_;  ///< Old index to new.
   std::vector<Ref> values_;               ///< Old value to new, in this function.
@@ -100,8 +112,14 @@ class Transformer {
 
 }  // namespace
 
-Program transform(const Program& program, const Replacement& replace) {
-  return Transformer(program, replace).run();
+Program transform(const Program& program, const Replacement& replace, std::size_t most) {
+  return Transformer(program, replace, most).run();
+}
+
+Program too_large(std::size_t most) {
+  Program result;
+  result.entry().code.resize(most + 1);
+  return result;
 }
 
 }  // namespace nacre

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -19,7 +20,13 @@ using Replacement = std::function<std::optional<Ref>(
 /// Records a Program again, instruction by instruction, with some replaced.
 /// Folding, simplification and sharing happen on the way; what becomes unused
 /// is removed and varying marked. Channels, slots and textures keep their
-/// order. This is the frame of most passes.
-Program transform(const Program& program, const Replacement& replace);
+/// order. This is the frame of most passes. Ends early, with as many instructions and one
+/// that no engine is to run, once there are more than `most`.
+Program transform(const Program& program, const Replacement& replace,
+                  std::size_t most = std::size_t{1} << 31);
+
+/// What a pass gives that would make more than `most` instructions: so many and one more,
+/// which mean nothing.
+Program too_large(std::size_t most);
 
 }  // namespace nacre

@@ -9,8 +9,10 @@ namespace {
 
 class NoBsdf final : public Bsdf {
  public:
-  void flatten(const View&, Color3, std::vector<WeightedLobe>&) const override {}
-  Color3 throughput(const View&) const override { return Color3(1.0f); }
+  Color3 part_weight(std::size_t, Color3 weight, const Throughput&) const override {
+    return weight;
+  }
+  Color3 throughput(const View&, Color3, Color3) const override { return Color3(1.0f); }
 };
 
 SurfacePtr surface(bool scatters, bool thin) {

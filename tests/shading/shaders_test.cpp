@@ -152,7 +152,8 @@ TEST_P(Shaders, AMaterialHasThemAsKernels) {
       <surfacematerial name="M" type="material">
         <input name="surfaceshader" type="surfaceshader" nodename="s"/>
         <input name="displacementshader" type="displacementshader" nodename="d"/></surfacematerial>
-      <absorption_vdf name="a" type="VDF"/>
+      <absorption_vdf name="a" type="VDF">
+        <input name="absorption" type="vector3" value="1, 0, 0"/></absorption_vdf>
       <volume name="v" type="volumeshader"><input name="vdf" type="VDF" nodename="a"/></volume>
       <volumematerial name="V" type="material">
         <input name="volumeshader" type="volumeshader" nodename="v"/></volumematerial>

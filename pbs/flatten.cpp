@@ -1,0 +1,148 @@
+#include <optional>
+#include <unordered_map>
+
+#include "pbs/bsdf.h"
+
+namespace nacre {
+
+namespace {
+
+/// Goes from a node to its parts once all its readers have said how much they see of it.
+/// In a tree that is depth first; what is shared waits for its last reader, so that n
+/// nodes take n steps and not one for each way that leads to them.
+class Flattener {
+ public:
+  Flattener(const View& view, const std::function<bool()>& may_go_on)
+      : view_(view),
+        may_go_on_(may_go_on),
+        passes_([this](const BsdfPtr& bsdf) { return throughput(bsdf.get()); }) {}
+
+  std::vector<WeightedLobe> run(const Bsdf& root) {
+    count_readers(root);
+    states_.at(&root).readers = 1;
+    see(&root, Color3(1.0f));
+    while (!open_.empty() && !ended_) {
+      Open& at = open_.back();
+      if (at.part == Bsdf::Parts::count) {
+        open_.pop_back();
+        continue;
+      }
+      if (at.part == 1 && view_.left_out != nullptr && !is_zero(states_.at(at.bsdf).weight)) {
+        at.bsdf->report(view_);
+      }
+      const std::size_t i = at.part++;
+      const Bsdf* part = at.bsdf->parts()[i].get();
+      if (part == nullptr) continue;
+      const Color3 weight = states_.at(at.bsdf).weight;
+      // What is not seen at all still has to say so to its parts.
+      see(part, is_zero(weight) ? weight : at.bsdf->part_weight(i, weight, passes_));
+    }
+    return std::move(lobes_);
+  }
+
+ private:
+  struct State {
+    std::size_t readers = 0;  ///< That have not yet said what they see of it.
+    Color3 weight = Color3(0.0f);
+    std::optional<Color3> throughput;
+  };
+  struct Open {
+    const Bsdf* bsdf;
+    std::size_t part = 0;
+  };
+
+  void count_readers(const Bsdf& root) {
+    std::vector<const Bsdf*> found{&root};
+    states_.try_emplace(&root);
+    while (!found.empty()) {
+      const Bsdf* bsdf = found.back();
+      found.pop_back();
+      for (std::size_t i = 0; i < Bsdf::Parts::count; ++i) {
+        const Bsdf* part = bsdf->parts()[i].get();
+        if (part == nullptr) continue;
+        const auto [place, is_new] = states_.try_emplace(part);
+        ++place->second.readers;
+        if (is_new) found.push_back(part);
+      }
+    }
+  }
+
+  /// One reader of `bsdf` sees `weight` of it.
+  void see(const Bsdf* bsdf, Color3 weight) {
+    State& state = states_.at(bsdf);
+    state.weight = is_zero(state.weight) ? weight
+                   : is_zero(weight)     ? state.weight
+                                         : state.weight + weight;
+    if (--state.readers > 0) return;
+    const LobeBsdf* leaf = bsdf->leaf();
+    if (leaf == nullptr) {
+      open_.push_back({bsdf});
+    } else if (!is_zero(state.weight)) {
+      add(*leaf, state.weight);
+    }
+  }
+
+  void add(const LobeBsdf& leaf, Color3 weight) {
+    const Color3 total = product(weight, Color3(leaf.weight()));
+    if (is_zero(total)) return;
+    ended_ = may_go_on_ && !may_go_on_();
+    if (ended_) return;
+    if (view_.left_out != nullptr) leaf.report(view_);
+    leaf.lobe()->prepare(view_, max_component(total) > 0.0f);
+    lobes_.push_back({leaf.lobe(), total});
+  }
+
+  /// Of the parts first, without recursion; each node is asked once.
+  Color3 throughput(const Bsdf* root) {
+    if (root == nullptr) return Color3(1.0f);
+    std::vector<const Bsdf*> wanted{root};
+    while (!wanted.empty()) {
+      const Bsdf* bsdf = wanted.back();
+      State& state = states_.at(bsdf);
+      if (state.throughput) {
+        wanted.pop_back();
+        continue;
+      }
+      Color3 of_part[2] = {Color3(1.0f), Color3(1.0f)};
+      bool waits = false;
+      for (std::size_t i = 0; i < Bsdf::Parts::count; ++i) {
+        if (!bsdf->shades(i)) continue;
+        const Bsdf* part = bsdf->parts()[i].get();
+        const std::optional<Color3>& known = states_.at(part).throughput;
+        if (known) {
+          of_part[i] = *known;
+        } else {
+          wanted.push_back(part);
+          waits = true;
+        }
+      }
+      if (waits) continue;
+      // A lobe that has readers to come: in which lanes it counts is not known yet.
+      const LobeBsdf* leaf = bsdf->leaf();
+      if (state.readers > 0 && leaf != nullptr && !leaf->lobe()->is_opaque()) {
+        leaf->lobe()->prepare(view_, Bool(true));
+      }
+      state.throughput = bsdf->throughput(view_, of_part[0], of_part[1]);
+      wanted.pop_back();
+    }
+    return *states_.at(root).throughput;
+  }
+
+  const View& view_;
+  const std::function<bool()>& may_go_on_;
+  const Throughput passes_;
+  std::unordered_map<const Bsdf*, State> states_;
+  std::vector<Open> open_;
+  std::vector<WeightedLobe> lobes_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+std::vector<WeightedLobe> flatten(const BsdfPtr& bsdf, const View& view,
+                                  const std::function<bool()>& may_go_on) {
+  if (bsdf == nullptr) return {};
+  return Flattener(view, may_go_on).run(*bsdf);
+}
+
+}  // namespace nacre
