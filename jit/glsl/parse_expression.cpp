@@ -12,7 +12,7 @@ namespace nacre::glsl {
 namespace {
 
 // Binary operators, the loosest first.
-constexpr std::string_view precedence[][4] = {
+constexpr std::string_view binary_operators[][4] = {
     {"||"},       {"^^"},     {"&&"},         {"|"},
     {"^"},        {"&"},      {"==", "!="},   {"<", ">", "<=", ">="},
     {"<<", ">>"}, {"+", "-"}, {"*", "/", "%"}};
@@ -20,8 +20,8 @@ constexpr std::string_view precedence[][4] = {
 /// How tightly a token binds as a binary operator; -1 if it is none.
 int precedence_of(const Token& token) {
   if (token.kind != Token::Kind::punctuation || token.text.empty()) return -1;
-  for (std::size_t level = 0; level < std::size(precedence); ++level) {
-    if (contains(precedence[level], token.text)) return static_cast<int>(level);
+  for (std::size_t level = 0; level < std::size(binary_operators); ++level) {
+    if (contains(binary_operators[level], token.text)) return static_cast<int>(level);
   }
   return -1;
 }
