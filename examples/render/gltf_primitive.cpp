@@ -86,8 +86,8 @@ bool GltfPrimitives::open_attributes(const GltfValue& attributes, std::vector<At
   std::erase_if(names, [](const std::string& name) {  // Of skins, which are not rendered.
     return name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
   });
-  std::stable_partition(names.begin(), names.end(),
-                        [](const std::string& name) { return name == "POSITION"; });
+  const auto position = std::ranges::find(names, "POSITION");
+  if (position != names.end()) std::rotate(names.begin(), position, position + 1);
   for (std::string& name : names) {
     const GltfValue index = attributes[name.c_str()];
     const auto accessor = accessors_.attribute(index, least_components(name));

@@ -1,5 +1,7 @@
 #include "tests/conformance/sweep.h"
 
+#include <gtest/gtest.h>
+
 #include <bit>
 #include <limits>
 

@@ -45,7 +45,7 @@ class Resources : public Tool {
 };
 
 TEST_F(Resources, StandardOutputThatIsFullOrClosed) {
-  for (const std::string command :
+  for (const std::string& command :
        {bake("--size 4"), " inspect " + document_, " inspect --json " + document_,
         " check " + document_, " convert " + document_ + " --out " + file("b.mtlx"),
         std::string(" --help"), std::string(" bake --help"), std::string(" --version")}) {
