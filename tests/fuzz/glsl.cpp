@@ -16,7 +16,7 @@ namespace {
 using namespace nacre;
 
 /// Small enough that one input costs milliseconds.
-constexpr glsl::RecordLimits limits{.loop_iterations = 16, .operations = 20'000, .steps = 50'000};
+const glsl::RecordLimits limits{.loop_iterations = 16, .operations = 20'000, .steps = 50'000};
 
 void run(const Recorder& recorder, const std::vector<Ref>& parts) {
   std::vector<SliceOutput> outputs;
