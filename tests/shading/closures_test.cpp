@@ -86,7 +86,7 @@ float albedo(const MaterialKernels& kernels) {
   std::vector<float> results(program.outputs.size());
   std::vector<void*> out;
   for (float& result : results) out.push_back(&result);
-  kernels.albedo->run(in, out, 1);
+  EXPECT_EQ(kernels.albedo->run(in, out, 1), RunStatus::done);
   return results[0];
 }
 
