@@ -129,7 +129,7 @@ TEST(GlslLoops, HonestNestsAreNotCounted) {
   }
   return s; })");
   EXPECT_FALSE(StepLimit(program, default_max_steps).is_counted());
-  EXPECT_EQ(run_points(*make_interpreter(program), {0.5f}).status, RunStatus::done);
+  EXPECT_EQ(run_points(*make_reference(program), {0.5f}).status, RunStatus::done);
 }
 
 TEST(GlslLoops, CostsOfCallTrees) {
