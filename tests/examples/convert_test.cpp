@@ -143,7 +143,7 @@ TEST_F(Convert, WhatFailsLeavesNoFile) {
   EXPECT_EQ(run("convert " + bad), 2);
   EXPECT_EQ(run("convert --help"), 0);
   const std::string good = write("good.mtlx", "<materialx version=\"1.38\"/>");
-  EXPECT_EQ(run("convert " + good + " --out " + file("no/such/folder.mtlx")), 1);
+  EXPECT_EQ(run("convert " + good + " --out " + file("good.mtlx/folder.mtlx")), 1);
 }
 
 TEST_F(Convert, SaysWhenFilesCountFromAnotherFolder) {

@@ -64,7 +64,7 @@ TEST_F(OcioTool, BakesInTheSpacesOfTheConfiguration) {
   ASSERT_EQ(as_written.size(), 3u);
   EXPECT_EQ(as_written[0], -1.0f);
   // Without the configuration there is no such space.
-  EXPECT_EQ(run(bake), 1);
+  EXPECT_EQ(run(bake + " --strict"), 1);
   EXPECT_NE(errors_.find("document.mtlx:4:"), std::string::npos) << errors_;
   EXPECT_NE(errors_.find("'film'"), std::string::npos) << errors_;
 }
