@@ -12,6 +12,7 @@
 #include <iostream>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include "examples/common/partial_file.h"
 #include "examples/tool/options.h"
@@ -45,6 +46,9 @@ void say(const char* text) {
 /// For what a thread throws that is not ours, TBB's or OpenImageIO's, or a function throws
 /// that must not. Whatever is a fault of our own aborts as it always does.
 void terminated() {
+  // What is done here may run out of memory too.
+  static bool is_ending = false;
+  if (std::exchange(is_ending, true)) std::_Exit(status_problems);
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
