@@ -220,7 +220,13 @@ void try_all_graphs(const Document& document, const Definitions& definitions,
     }
     return *build;
   };
-  const auto is_hopeless = [&] { return build && (build->fullness() > 1 || done > most); };
+  // Graphs of graphs meet the same fault once for each that stands on the faulty one.
+  constexpr std::size_t most_errors = 200;
+  const std::size_t errors = diagnostics.error_count();
+  const auto is_hopeless = [&] {
+    return build && (build->fullness() > 1 || done > most ||
+                     diagnostics.error_count() - errors > most_errors);
+  };
   for (const FoundMaterial& material : find_materials(document)) {
     if (is_hopeless()) return;
     renewed().add_material(material.name);
@@ -236,6 +242,11 @@ void try_all_graphs(const Document& document, const Definitions& definitions,
       if (child.category() == "nodegraph") scopes.push_back(&child);
     }
     std::reverse(scopes.begin() + static_cast<std::ptrdiff_t>(first), scopes.end());
+  }
+  if (diagnostics.error_count() - errors > most_errors) {
+    diagnostics.warning("too-many-errors", location(document.root()),
+                        "there are so many errors that the rest of the graphs is not looked at",
+                        fmt::format("at most {}", most_errors));
   }
   if (done > most) {
     diagnostics.error("too-many-nodes", location(document.root()),

@@ -79,7 +79,7 @@ Resolver::Result Resolver::failure() {
 double Resolver::fullness() const {
   const auto limit = static_cast<double>(options_.max_nodes);
   return std::max({static_cast<double>(graph_.nodes.size()) / limit,
-                   static_cast<double>(instances_.size()) / (2 * limit),
+                   static_cast<double>(instances_.size()) / (1.5 * limit),
                    static_cast<double>(bytes_) / (bytes_of_node * limit)});
 }
 
