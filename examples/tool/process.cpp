@@ -43,6 +43,15 @@ void say(const char* text) {
   (void)!::write(STDERR_FILENO, text, size);
 }
 
+/// Leaves no partial file behind, as far as there is memory to find them.
+[[noreturn]] void end_with_problems() {
+  try {
+    host::abandon_partial_files();
+  } catch (...) {
+  }
+  std::_Exit(status_problems);
+}
+
 /// For what a thread throws that is not ours, TBB's or OpenImageIO's, or a function throws
 /// that must not. Whatever is a fault of our own aborts as it always does.
 void terminated() {
@@ -53,14 +62,12 @@ void terminated() {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
     say("error: this needs more memory than there is [out-of-memory]\n");
-    host::abandon_partial_files();
-    std::_Exit(status_problems);
+    end_with_problems();
   } catch (const std::system_error& error) {
     say("error: the system refuses; found ");
     say(error.what());
     say(" [system]\n");
-    host::abandon_partial_files();
-    std::_Exit(status_problems);
+    end_with_problems();
   } catch (...) {
   }
   std::abort();

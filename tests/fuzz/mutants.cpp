@@ -25,8 +25,9 @@ constexpr const char* usage =
     "       mutants --minimize FILE [--agreeing]\n"
     "       mutants [--agreeing] FILE...\n"
     "\n"
-    "Runs documents number FROM and on; what fails is kept in FOLDER (mutants) with what was\n"
-    "said. One in N (--jit, default 97, 0: none) goes through LLVM, the others through the\n"
+    "Runs documents number FROM and on; what fails is kept in FOLDER (kept-mutants) with\n"
+    "what was said. One in N (--jit, default 97, 0: none) goes through LLVM, the others through "
+    "the\n"
     "interpreter. --agreeing: what checking finds nothing wrong with must compile. --print shows\n"
     "a document; --minimize leaves out of one what is not needed to fail alike, and prints the\n"
     "rest. FILEs are run in this process instead.\n";
@@ -37,7 +38,7 @@ struct Arguments {
   int jobs = 1;
   std::uint64_t jit = 97;
   bool agreeing = false;
-  std::string keep = "mutants";
+  std::string keep = "kept-mutants";
   long long print = -1;
   std::string minimize;
   std::vector<std::string> files;

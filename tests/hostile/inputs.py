@@ -58,6 +58,8 @@ def with_file(path, out):
 
 
 def judge(outcome, share):
+    if "[no-data-library]" in outcome.said:
+        return "found no data library, and so tried nothing; set NACRE_MATERIALX_LIBRARIES"
     if outcome.status not in (0, 1):
         return f"ended with {outcome.status}"
     if outcome.busy > SECONDS * share:

@@ -278,7 +278,7 @@ TEST(MicrofacetLobe, AnyBitsGiveFiniteResults) {
   const char* names[] = {"ax",   "ay",     "index", "n",   "k",   "c0",  "c82", "c90", "e",
                          "film", "film_n", "N.x",   "N.y", "N.z", "T.x", "T.y", "T.z", "tint"};
   for (const auto& [node, mode] : nodes) {
-    const Scattering lobe([&, node = node, mode = mode](Recorder& r) {
+    const Scattering lobe([&](Recorder& r) {
       Ports in{{"roughness", roughness(input(r, "ax"), input(r, "ay"))},
                {"color0", colour(input(r, "c0"))},
                {"color82", colour(input(r, "c82"))},

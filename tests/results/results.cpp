@@ -28,7 +28,7 @@ using namespace nacre;
 constexpr std::uint32_t points = 67;
 
 /// Its x * x + x rounds up to the least normal number, 0x80800000. Where results below that
-/// are flushed, x86 rounds first (Intel SDM vol. 1, 10.2.3.3) and QEMU 7.2 does not.
+/// are flushed, x86 rounds first (Intel SDM vol. 1, 10.2.3.3) and QEMU, up to 10.0, does not.
 constexpr std::uint64_t beyond_qemu = 2;
 
 struct Subject {
