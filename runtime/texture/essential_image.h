@@ -15,8 +15,9 @@ namespace nacre {
 // never much larger than the pixels. A problem is returned for what is damaged or too large.
 
 /// PNG: the chunks IHDR, PLTE, tRNS, IDAT, IEND, in order, with every checksum right (PNG
-/// Specification, Third Edition, 5). libpng writes its complaints to stderr, which a
-/// library must not: damaged files are sorted out before it sees them.
+/// Specification, Third Edition, 5), and pixels that can be unpacked. libpng writes its
+/// complaints to stderr, which a library must not: damaged files are sorted out before it
+/// sees them.
 std::optional<Diagnostic> essential_png(const ImageFile& file, const ImageLimits& limits,
                                         std::string& bytes);
 

@@ -25,12 +25,6 @@ std::uint32_t crc(const std::string& bytes) {
   return ~c;
 }
 
-void put_chunk(std::string& bytes, const std::string& type, const std::string& data) {
-  put_big(bytes, static_cast<std::uint32_t>(data.size()));
-  bytes += type + data;
-  put_big(bytes, crc(type + data));
-}
-
 /// The bits that say that there is a colour table, and how large it is.
 char table_flags(const std::string& table) {
   if (table.empty()) return 0;
@@ -80,16 +74,49 @@ std::string tiff(std::uint32_t width, std::uint32_t height, const std::vector<Ti
   return bytes + texts;
 }
 
-std::string png_of_noise(std::uint32_t width, std::uint32_t height, std::size_t packed) {
-  std::string bytes = "\x89PNG\r\n\x1a\n", header, noise;
-  put_big(header, width);
-  put_big(header, height);
-  header += std::string("\x08\0\0\0\0", 5);
-  for (std::size_t i = 0; i < packed; ++i) noise += static_cast<char>(i * i >> 3);
-  put_chunk(bytes, "IHDR", header);
-  put_chunk(bytes, "IDAT", noise);
-  put_chunk(bytes, "IEND", "");
+std::string png_chunk(const std::string& type, const std::string& data) {
+  std::string bytes;
+  put_big(bytes, static_cast<std::uint32_t>(data.size()));
+  bytes += type + data;
+  put_big(bytes, crc(type + data));
   return bytes;
+}
+
+std::string png_start(const PngFields& fields) {
+  std::string header;
+  put_big(header, fields.width);
+  put_big(header, fields.height);
+  for (const int each :
+       {fields.depth, fields.color_type, fields.compression, fields.filter, fields.interlacing}) {
+    header += static_cast<char>(each);
+  }
+  return "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header);
+}
+
+std::string zlib_stored(const std::string& bytes) {
+  std::string stream("\x78\x01");
+  for (std::size_t at = 0; at == 0 || at < bytes.size(); at += 65535) {
+    const std::string block = bytes.substr(at, 65535);
+    stream += at + 65535 >= bytes.size() ? '\1' : '\0';
+    put(stream, static_cast<std::uint32_t>(block.size()), 2);
+    put(stream, ~static_cast<std::uint32_t>(block.size()), 2);
+    stream += block;
+  }
+  // Adler-32, RFC 1950.
+  std::uint32_t low = 1, high = 0;
+  for (const char byte : bytes) {
+    low = (low + static_cast<unsigned char>(byte)) % 65521;
+    high = (high + low) % 65521;
+  }
+  put_big(stream, high << 16 | low);
+  return stream;
+}
+
+std::string png_of_noise(std::uint32_t width, std::uint32_t height, std::size_t packed) {
+  std::string noise;
+  for (std::size_t i = 0; i < packed; ++i) noise += static_cast<char>(i * i >> 3);
+  return png_start({.width = width, .height = height}) + png_chunk("IDAT", noise) +
+         png_chunk("IEND", "");
 }
 
 std::string tga_header(int width, int height, int kind, int bits) {

@@ -22,6 +22,21 @@ struct TiffEntry {
 std::string tiff(std::uint32_t width, std::uint32_t height, const std::vector<TiffEntry>& more = {},
                  std::uint32_t next = 0);
 
+/// A PNG's signature and IHDR.
+struct PngFields {
+  std::uint32_t width = 1;
+  std::uint32_t height = 1;
+  int depth = 8;
+  int color_type = 0;
+  int compression = 0;
+  int filter = 0;
+  int interlacing = 0;
+};
+std::string png_start(const PngFields& fields);
+std::string png_chunk(const std::string& type, const std::string& data);
+/// A zlib stream of those bytes as they are.
+std::string zlib_stored(const std::string& bytes);
+
 /// A PNG of 8-bit grey whose data, of `packed` bytes, are nothing that can be unpacked; the
 /// checksums are right.
 std::string png_of_noise(std::uint32_t width, std::uint32_t height, std::size_t packed);
