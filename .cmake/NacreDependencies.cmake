@@ -5,6 +5,7 @@ find_package(fmt REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(TBB REQUIRED)
 find_package(xsimd REQUIRED)
+find_package(ZLIB REQUIRED)
 # Debian's target asks to link `-lxtl`, a header-only library that only complex numbers
 # need and that the package does not bring.
 set_target_properties(xsimd PROPERTIES INTERFACE_LINK_LIBRARIES "")

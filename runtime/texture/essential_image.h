@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,8 +15,9 @@ namespace nacre {
 // never much larger than the pixels. A problem is returned for what is damaged or too large.
 
 /// PNG: the chunks IHDR, PLTE, tRNS, IDAT, IEND, in order, with every checksum right (PNG
-/// Specification, Third Edition, 5). libpng writes its complaints to stderr, which a
-/// library must not: damaged files are sorted out before it sees them.
+/// Specification, Third Edition, 5), and pixels that can be unpacked. libpng writes its
+/// complaints to stderr, which a library must not: damaged files are sorted out before it
+/// sees them.
 std::optional<Diagnostic> essential_png(const ImageFile& file, const ImageLimits& limits,
                                         std::string& bytes);
 
@@ -30,8 +32,31 @@ std::optional<Diagnostic> essential_jpeg(const ImageFile& file, const ImageLimit
 std::optional<Diagnostic> essential_tga(const ImageFile& file, const ImageLimits& limits,
                                         std::string& bytes);
 
+/// GIF: the first image alone, for a texture does not move; its colours, its transparency
+/// and its codes, in canonical form (GIF89a Specification). Comments, applications' blocks
+/// and further frames are left out, and what follows the image is not looked at.
+std::optional<Diagnostic> essential_gif(const ImageFile& file, const ImageLimits& limits,
+                                        std::string& bytes);
+
+/// BMP: size, depth, masks, palette and pixels behind a header of Windows' third version,
+/// whatever the file has (Microsoft, "Bitmap Storage"); runs are written out. Of 32 bits
+/// the fourth byte is alpha, even where the documentation says that it is nothing.
+std::optional<Diagnostic> essential_bmp(const ImageFile& file, const ImageLimits& limits,
+                                        std::string& bytes);
+
 /// A size outside the limits, as all readers say it; nothing for one inside.
 std::optional<Diagnostic> check_image_size(const std::string& path, std::int64_t width,
                                            std::int64_t height, const ImageLimits& limits);
+
+/// Bytes that the pixels of an image take.
+struct PixelBytes {
+  std::uint64_t decoded = 0;    ///< Unpacked in the reader or of what is kept, whichever is more.
+  std::uint64_t kept = 0;       ///< Of the pixels that the file has, of channels that are read.
+  std::uint64_t in_memory = 0;  ///< As texels.
+};
+
+/// What the pixels take against the limits and what the file has.
+std::optional<Diagnostic> check_image_bytes(const ImageFile& file, const PixelBytes& bytes,
+                                            const ImageLimits& limits);
 
 }  // namespace nacre

@@ -1,9 +1,12 @@
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
 
 #include "runtime/texture/essential_image.h"
+#include "runtime/texture/png_data.h"
 
 namespace nacre {
 
@@ -14,21 +17,10 @@ constexpr std::uint64_t frame_size = 12;  // Length, type and checksum around th
 constexpr std::uint32_t most_of_palette = 768;
 constexpr std::array<std::string_view, 5> needed{"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
 
-/// ISO 3309 CRC-32, reflected; PNG Specification, annex D.
-constexpr std::array<std::uint32_t, 256> make_crc_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t n = 0; n < 256; ++n) {
-    std::uint32_t c = n;
-    for (int bit = 0; bit < 8; ++bit) c = (c & 1u) ? 0xedb88320u ^ c >> 1 : c >> 1;
-    table[n] = c;
-  }
-  return table;
-}
-
-std::uint32_t continue_crc(std::uint32_t c, std::string_view bytes) {
-  static constexpr auto table = make_crc_table();
-  for (const char byte : bytes) c = table[(c ^ static_cast<unsigned char>(byte)) & 0xffu] ^ c >> 8;
-  return c;
+/// ISO 3309 CRC-32 (PNG, annex D) of what `crc` is of and more.
+std::uint32_t continue_crc(std::uint32_t crc, std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      ::crc32(crc, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
 /// Four bytes, the most significant first.
@@ -39,10 +31,9 @@ std::uint32_t number(std::string_view bytes) {
 }
 
 /// More than the pixels of such a header can be packed into, by any encoder that tries.
-std::uint64_t most_packed_bytes(std::string_view header) {
-  const auto bits = static_cast<unsigned char>(header[8]);
-  const std::uint64_t pixel_bytes = bits > 8 ? 8 : 4;
-  return 2 * pixel_bytes * (number(header) + std::uint64_t{16}) * number(header.substr(4)) +
+std::uint64_t most_packed_bytes(const PngHeader& header) {
+  const std::uint64_t pixel_bytes = header.depth > 8 ? 8 : 4;
+  return 2 * pixel_bytes * (header.width + std::uint64_t{16}) * header.height +
          (std::uint64_t{1} << 20);
 }
 
@@ -64,29 +55,34 @@ class PngReader {
         return broken("the first chunk, and no other, must be IHDR");
       }
       if (auto problem = check_chunk(head, type)) return problem;
-      const bool is_needed = std::find(needed.begin(), needed.end(), type) != needed.end();
+      const bool is_data = type == "IDAT";
+      // What comes behind the first pixels says nothing about them any more.
+      const bool is_late = data_ && (type == "PLTE" || type == "tRNS");
+      const bool is_needed =
+          !is_late && std::find(needed.begin(), needed.end(), type) != needed.end();
+      if (is_data && !data_) data_.emplace(*header_);
       const std::size_t start = bytes_.size();
       if (is_needed) bytes_ += head;
-      std::uint32_t crc = continue_crc(0xffffffffu, type);
+      std::uint32_t crc = continue_crc(0, type);
       for (std::uint32_t left = number(head); left > 0;) {
         const std::uint32_t count = std::min(left, 1u << 16);
         if (!cursor_.take(count, piece)) return broken("the file ends inside a chunk");
         crc = continue_crc(crc, piece);
         if (is_needed) bytes_ += piece;
+        if (is_data && !data_->take(piece)) return broken("the pixels are damaged");
         left -= count;
       }
-      if (!cursor_.take(4, sum) || ~crc != number(sum)) {
+      if (!cursor_.take(4, sum) || crc != number(sum)) {
         return broken("a chunk has the wrong checksum");
       }
       if (is_needed) bytes_ += sum;
       if (is_first) {
-        header_ = bytes_.substr(start + 8, 13);
-        if (auto problem = check_image_size(file_.path(), number(header_),
-                                            number(std::string_view(header_).substr(4)), limits_)) {
-          return problem;
-        }
+        header_.emplace(std::string_view(bytes_).substr(start + 8, 13));
+        if (auto problem = check_header()) return problem;
       }
-      if (type == "IEND") return std::nullopt;
+      if (type != "IEND") continue;
+      if (!data_ || !data_->is_whole()) return broken("the file ends before the image does");
+      return std::nullopt;
     }
   }
 
@@ -95,15 +91,39 @@ class PngReader {
     return broken_image(file_.path(), std::move(reason));
   }
 
-  /// The length of a chunk against what it may hold.
+  /// Before anything is unpacked. Transparency may add a channel, which the reader counts.
+  std::optional<Diagnostic> check_header() const {
+    const PngHeader& header = *header_;
+    if (auto problem = check_image_size(file_.path(), header.width, header.height, limits_)) {
+      return problem;
+    }
+    if (!header.is_valid()) return broken("the header makes no sense");
+    const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
+    const std::uint64_t channels = header.has_palette() ? 3 : header.samples();
+    const std::uint64_t sample = header.depth == 16 ? 2 : 1;
+    const std::uint64_t bytes = pixels * channels * sample;
+    return check_image_bytes(
+        file_,
+        {.decoded = bytes, .kept = bytes, .in_memory = pixels * 4 * (channels == 1 ? 1 : sample)},
+        limits_);
+  }
+
+  /// A chunk's place, and its length against what it may hold.
   std::optional<Diagnostic> check_chunk(std::string_view head, std::string_view type) {
     const std::uint32_t length = number(head);
     if (type == "IHDR" && length != 13) return broken("IHDR has the wrong length");
     if ((type == "PLTE" || type == "tRNS") && length > most_of_palette) {
       return broken("the palette is too long");
     }
-    if (type == "IDAT") packed_ += length;
-    if (packed_ > 0 && packed_ > most_packed_bytes(header_)) {
+    if (type == "PLTE" && !data_) {
+      if (has_palette_) return broken("there are two palettes");
+      if (length == 0 || length % 3 != 0) return broken("the palette has the wrong length");
+      has_palette_ = true;
+    }
+    if (type != "IDAT") return std::nullopt;
+    if (header_->has_palette() && !has_palette_) return broken("there is no palette");
+    packed_ += length;
+    if (packed_ > most_packed_bytes(*header_)) {
       return broken("there is more data than the pixels need");
     }
     return std::nullopt;
@@ -113,7 +133,9 @@ class PngReader {
   const ImageLimits& limits_;
   FileCursor cursor_;
   std::string& bytes_;
-  std::string header_;
+  std::optional<PngHeader> header_;
+  std::optional<PngData> data_;  ///< From the first chunk of them.
+  bool has_palette_ = false;
   std::uint64_t packed_ = 0;
 };
 

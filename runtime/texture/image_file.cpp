@@ -81,7 +81,7 @@ std::shared_ptr<const ImageFile> ImageFile::open(const std::string& path, const 
   const auto format = recognise_image(std::span(first).first(count));
   if (!format) {
     error = image_error("unsupported-image", path, "the image is of no supported format",
-                        "exr, png, jpeg, tiff, tx, hdr or tga without palette",
+                        "exr, png, jpeg, tiff, tx, hdr, bmp, gif or tga without palette",
                         fmt::format("a file beginning with bytes {:02x} {:02x} {:02x} {:02x}",
                                     first[0], first[1], first[2], first[3]));
     return nullptr;

@@ -24,6 +24,8 @@ constexpr std::array signatures{
     Signature{"MM\0+"sv, ImageFormat::tiff},
     Signature{"#?RADIANCE"sv, ImageFormat::hdr},
     Signature{"#?RGBE"sv, ImageFormat::hdr},
+    Signature{"GIF87a"sv, ImageFormat::gif},
+    Signature{"GIF89a"sv, ImageFormat::gif},
 };
 
 /// No palette, which would be five numbers more; true colour or grey, packed or not.
@@ -40,7 +42,21 @@ bool is_tga(std::span<const unsigned char> header) {
   return (is_color || is_grey) && (header[17] & 0xc0) == 0;
 }
 
+/// The letters, four bytes that must be zero, and the size of the header that follows.
+bool is_bmp(std::span<const unsigned char> header) {
+  if (header.size() < image_signature_bytes || header[0] != 'B' || header[1] != 'M') return false;
+  if (std::any_of(header.begin() + 6, header.begin() + 10, [](auto byte) { return byte != 0; })) {
+    return false;
+  }
+  return header[15] == 0 && header[16] == 0 && header[17] == 0 && is_bmp_header_size(header[14]);
+}
+
 }  // namespace
+
+bool is_bmp_header_size(std::uint32_t bytes) {
+  constexpr std::array<std::uint32_t, 6> sizes{12, 40, 52, 56, 108, 124};
+  return std::find(sizes.begin(), sizes.end(), bytes) != sizes.end();
+}
 
 std::string_view reader_name(ImageFormat format) {
   switch (format) {
@@ -50,6 +66,8 @@ std::string_view reader_name(ImageFormat format) {
     case ImageFormat::tiff: return "tiff";
     case ImageFormat::hdr: return "hdr";
     case ImageFormat::tga: return "targa";
+    case ImageFormat::bmp: return "bmp";
+    case ImageFormat::gif: return "gif";
   }
   return "";
 }
@@ -62,6 +80,7 @@ std::optional<ImageFormat> recognise_image(std::span<const unsigned char> first_
       return signature.format;
     }
   }
+  if (is_bmp(first_bytes)) return ImageFormat::bmp;
   if (is_tga(first_bytes)) return ImageFormat::tga;
   return std::nullopt;
 }

@@ -62,6 +62,8 @@ Essence essence_of(ImageFormat format) {
     case ImageFormat::png: return essential_png;
     case ImageFormat::jpeg: return essential_jpeg;
     case ImageFormat::tga: return essential_tga;
+    case ImageFormat::bmp: return essential_bmp;
+    case ImageFormat::gif: return essential_gif;
     default: return nullptr;
   }
 }
@@ -100,7 +102,6 @@ std::optional<Diagnostic> check_tiles(const OIIO::ImageSpec& spec, const ImageFi
                    fmt::format("{} x {}", spec.tile_width, spec.tile_height));
 }
 
-/// What the pixels take against what the file has.
 std::optional<Diagnostic> check_bytes(const OIIO::ImageSpec& spec, const ImageFile& file,
                                       int channels, const ImageLimits& limits) {
   const std::uint64_t sample = spec.format.basesize();
@@ -110,24 +111,11 @@ std::optional<Diagnostic> check_bytes(const OIIO::ImageSpec& spec, const ImageFi
   const auto decoded = reads_all ? static_cast<std::uint64_t>(spec.nchannels) : kept;
   const std::uint64_t pixels = area(spec.width, spec.height);
   const std::uint64_t shown = std::max(pixels, area(spec.full_width, spec.full_height));
-  const std::uint64_t bytes = std::max(pixels * decoded, shown * kept) * sample;
-  if (bytes > limits.max_bytes) {
-    return too_large(file, "the image is too large",
-                     fmt::format("at most {} bytes of pixels", limits.max_bytes),
-                     fmt::format("{}", bytes));
-  }
-  if (pixels * kept * sample / no_coder_packs > file.bytes()) {
-    return broken_image(file.path(), "the header promises more than the file can hold");
-  }
-  const std::uint64_t in_memory = shown * 4 * (kept == 1 ? 1 : sample);
-  if (in_memory > always_taken &&
-      bytes / std::max<std::uint64_t>(1, limits.max_expansion) > file.bytes()) {
-    return too_large(
-        file, "a large image comes from a file that is too small for it",
-        fmt::format("at most {} bytes of pixels for each byte of the file", limits.max_expansion),
-        fmt::format("{}", bytes / file.bytes()));
-  }
-  return std::nullopt;
+  return check_image_bytes(file,
+                           {.decoded = std::max(pixels * decoded, shown * kept) * sample,
+                            .kept = pixels * kept * sample,
+                            .in_memory = shown * 4 * (kept == 1 ? 1 : sample)},
+                           limits);
 }
 
 }  // namespace
@@ -140,6 +128,32 @@ std::optional<Diagnostic> check_image_size(const std::string& path, std::int64_t
   return image_error("image-too-large", path, "the size of the image is outside the limits",
                      fmt::format("1 to {} on either side", limits.max_size),
                      fmt::format("{} x {}", width, height));
+}
+
+std::optional<Diagnostic> check_image_bytes(const ImageFile& file, const PixelBytes& bytes,
+                                            const ImageLimits& limits) {
+  if (bytes.decoded > limits.max_bytes) {
+    return too_large(file, "the image is too large",
+                     fmt::format("at most {} bytes of pixels", limits.max_bytes),
+                     fmt::format("{}", bytes.decoded));
+  }
+  if (bytes.kept / no_coder_packs > file.bytes()) {
+    return broken_image(file.path(), "the header promises more than the file can hold");
+  }
+  if (bytes.in_memory > always_taken &&
+      bytes.decoded / std::max<std::uint64_t>(1, limits.max_expansion) > file.bytes()) {
+    return too_large(
+        file, "a large image comes from a file that is too small for it",
+        fmt::format("at most {} bytes of pixels for each byte of the file", limits.max_expansion),
+        fmt::format("{}", bytes.decoded / file.bytes()));
+  }
+  return std::nullopt;
+}
+
+bool GuardedInput::seek(int subimage, int level) {
+  const bool has_one = essence_of(file->format()) != nullptr;
+  if (has_one && (subimage != 0 || level != 0)) return false;
+  return reader->seek_subimage(subimage, level);
 }
 
 std::optional<Diagnostic> open_input(std::shared_ptr<const ImageFile> file,
@@ -174,8 +188,11 @@ std::optional<Diagnostic> open_input(std::shared_ptr<const ImageFile> file,
   if (!input.reader) return broken(OIIO::geterror());
   OIIO::ImageSpec options, ignored;
   options["oiio:UnassociatedAlpha"] = 1;
-  input.reader->set_ioproxy(input.source.get());
-  if (!input.reader->open(from.path(), ignored, options)) {
+  // Readers that go back to an earlier row open again what these say, and without it the
+  // file itself, past all that was looked at. With a slash behind it, it cannot be opened.
+  OIIO::Filesystem::IOProxy* source = input.source.get();
+  options.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &source);
+  if (!input.reader->open(from.path() + '/', ignored, options)) {
     return broken(input.reader->geterror());
   }
   return std::nullopt;

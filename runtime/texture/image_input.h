@@ -21,6 +21,10 @@ struct GuardedInput {
   std::unique_ptr<OIIO::Filesystem::IOProxy> source;
   std::unique_ptr<OIIO::ImageInput> reader;
 
+  /// Moves the reader to a part, page or level. Of formats that have one image it is not even
+  /// asked for another: the one for GIF would then open the file itself.
+  bool seek(int subimage, int level);
+
   /// The reader goes first, as it does when all of it goes.
   void close() {
     reader.reset();

@@ -50,16 +50,15 @@ int run_length(const OIIO::ImageSpec& spec, int first) {
 }
 
 /// The subimage, after the names of subimages and channels, that a layer name means.
-bool find_layer(OIIO::ImageInput& input, const std::string& layer, int max_layers,
-                ImageInfo& info) {
-  for (int i = 0; i < max_layers && input.seek_subimage(i, 0); ++i) {
-    if (layer.empty() || subimage_name(input.spec()) == layer) {
+bool find_layer(GuardedInput& input, const std::string& layer, int max_layers, ImageInfo& info) {
+  for (int i = 0; i < max_layers && input.seek(i, 0); ++i) {
+    if (layer.empty() || subimage_name(input.reader->spec()) == layer) {
       info.subimage = i;
       return true;
     }
   }
-  for (int i = 0; i < max_layers && input.seek_subimage(i, 0); ++i) {
-    const auto& names = input.spec().channelnames;
+  for (int i = 0; i < max_layers && input.seek(i, 0); ++i) {
+    const auto& names = input.reader->spec().channelnames;
     const auto found = std::find_if(names.begin(), names.end(),
                                     [&](const std::string& n) { return layer_of(n) == layer; });
     if (found != names.end()) {
@@ -72,19 +71,18 @@ bool find_layer(OIIO::ImageInput& input, const std::string& layer, int max_layer
   const char* end = layer.data() + layer.size();
   const auto parsed = std::from_chars(layer.data(), end, number);
   if (parsed.ec != std::errc() || parsed.ptr != end || number < 0) return false;
-  if (number >= max_layers || !input.seek_subimage(number, 0)) return false;
+  if (number >= max_layers || !input.seek(number, 0)) return false;
   info.subimage = number;
   return true;
 }
 
 /// Moves `input` to the image a layer name means; true if there is one. The search goes
 /// past the last subimage, which some readers take for an error of what is read next.
-bool select_layer(OIIO::ImageInput& input, const std::string& layer, int max_layers,
-                  ImageInfo& info) {
+bool select_layer(GuardedInput& input, const std::string& layer, int max_layers, ImageInfo& info) {
   const bool found = find_layer(input, layer, max_layers, info);
   if (!found && layer.empty()) return false;
-  input.geterror();
-  return found && input.seek_subimage(info.subimage, 0);
+  input.reader->geterror();
+  return found && input.seek(info.subimage, 0);
 }
 
 /// Rows that are decoded together: a row of tiles, or as many as is worth it.
@@ -141,7 +139,7 @@ std::optional<Diagnostic> ImageReader::open_image(const std::string& layer,
   auto opened = std::make_unique<Open>();
   if (auto problem = open_input(std::move(file), limits, stop_, opened->input)) return problem;
   OIIO::ImageInput& input = *opened->input.reader;
-  if (!select_layer(input, layer, limits.max_layers, info_)) {
+  if (!select_layer(opened->input, layer, limits.max_layers, info_)) {
     if (layer.empty()) return broken_image(path_, input.geterror());
     return image_error("unknown-image-layer", path_, "the image has no such layer",
                        "the name of a subimage, of a group of channels, or a page number", layer);

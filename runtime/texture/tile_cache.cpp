@@ -54,7 +54,7 @@ class CachedInput final : public OIIO::ImageInput {
   int current_subimage() const override { return input_.reader->current_subimage(); }
   int current_miplevel() const override { return input_.reader->current_miplevel(); }
   bool seek_subimage(int subimage, int level) override {
-    return take(input_.reader->seek_subimage(subimage, level));
+    return take(input_.seek(subimage, level));
   }
   bool read_native_scanline(int subimage, int level, int y, int z, void* data) override {
     return take(input_.reader->read_native_scanline(subimage, level, y, z, data));

@@ -116,11 +116,9 @@ TEST_F(Corpus, EveryNumericOutputIsFiniteAndTheSameOnBothEngines) {
       EXPECT_TRUE(std::ranges::all_of(compiled, [](float x) { return std::isfinite(x); })) << place;
       for (const Diagnostic& problem : problems.all()) {
         // Images of the repository that are not among the reference material, and a
-        // matrix that has "0.5.0" among its numbers. BMP and GIF are not read.
+        // matrix that has "0.5.0" among its numbers.
         const bool known =
             problem.code == "missing-image" ||
-            (problem.code == "unsupported-image" &&
-             (output.name.ends_with("_bmp") || output.name.ends_with("_gif"))) ||
             (problem.code == "number-leftover" && output.name.starts_with("determinant_matrix44"));
         EXPECT_TRUE(known) << place << problem.to_string();
       }

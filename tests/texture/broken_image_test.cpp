@@ -51,9 +51,10 @@ TEST_F(BrokenImage, TruncatedAtEveryKilobyteIsReportedOrSound) {
     /// that nobody needs.
     std::size_t found_below;
   };
-  for (const Case& one : {Case{"a.png", "uint8", all}, Case{"b.exr", "half", all},
-                          Case{"c.tif", "float", all}, Case{"d.jpg", "uint8", all},
-                          Case{"e.tga", "uint8", 64 * 48 * 3}, Case{"g.hdr", "float", all}}) {
+  for (const Case& one :
+       {Case{"a.png", "uint8", all}, Case{"b.exr", "half", all}, Case{"c.tif", "float", all},
+        Case{"d.jpg", "uint8", all}, Case{"e.tga", "uint8", 64 * 48 * 3},
+        Case{"f.bmp", "uint8", all}, Case{"g.hdr", "float", all}}) {
     WriteOptions options;
     options.type = one.type;
     ASSERT_TRUE(write_image(file(one.name), random_image(64, 48, 3, 255), options)) << one.name;
