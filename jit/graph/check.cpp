@@ -13,6 +13,7 @@
 #include "jit/graph/check_parts.h"
 #include "jit/graph/connection.h"
 #include "jit/graph/find.h"
+#include "jit/graph/inheritance.h"
 #include "jit/graph/lenient.h"
 #include "runtime/float_environment.h"
 
@@ -81,7 +82,7 @@ class Checker : ElementCheck {
       const NodeDefInput* input = def == nullptr ? nullptr : def->input(child.name());
       if (input != nullptr) check_enum(child, *input);
     }
-    check_instance_inheritance(node);
+    if (auto fault = inheritance_fault(node)) diagnostics_.add(std::move(*fault));
     if (node.attribute("type") == "material" && node.category() == "surfacematerial" &&
         node.child_count() == 0 && !node.has_attribute("inherit")) {
       diagnostics_.warning("empty-material", location(node), "the material has no shader",
@@ -105,29 +106,6 @@ class Checker : ElementCheck {
       if (!is_doubled) diagnostics_.add(one);
     }
     return def;
-  }
-
-  void check_instance_inheritance(const Element& node) {
-    std::vector<const Element*> chain{&node};
-    while (chain.back()->has_attribute("inherit")) {
-      const std::string_view name = chain.back()->attribute("inherit");
-      const Element* base = node.parent()->child(name);
-      if (base == nullptr || base->category() != node.category()) {
-        error("unknown-nodename", *chain.back(), "there is no such node to inherit from",
-              fmt::format("the name of a <{}>", node.category()), fmt::format("'{}'", name));
-        return;
-      }
-      if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
-        error("inherit-cycle", node, "the node inherits from itself, directly or not");
-        return;
-      }
-      if (chain.size() >= node.document().max_inheritance()) {
-        error("inherit-depth", node, "the node inherits over too many levels",
-              fmt::format("at most {}", node.document().max_inheritance()));
-        return;
-      }
-      chain.push_back(base);
-    }
   }
 
   void check_enum(const Element& port, const NodeDefInput& input) {

@@ -5,6 +5,7 @@
 
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
+#include "jit/graph/inheritance.h"
 #include "jit/graph/lenient.h"
 #include "jit/graph/node_source.h"
 #include "jit/graph/resolver.h"
@@ -15,18 +16,6 @@ namespace {
 
 // Graphs that implement nodes of graphs that implement nodes: deeper is a fault.
 constexpr int max_context_depth = 256;
-
-/// Circles are not: checking a document reports them.
-bool inherits_from_too_many(const Element& node) {
-  std::vector<const Element*> chain{&node};
-  while (chain.back()->has_attribute("inherit")) {
-    const Element* base = node.parent()->child(chain.back()->attribute("inherit"));
-    if (base == nullptr || std::find(chain.begin(), chain.end(), base) != chain.end()) return false;
-    if (chain.size() >= node.document().max_inheritance()) return true;
-    chain.push_back(base);
-  }
-  return false;
-}
 
 bool says_something(const Element& input) {
   for (const Attribute& attribute : input.attributes()) {
@@ -109,9 +98,8 @@ const NodeDef* Resolver::nodedef_of(const Element& node) {
     error("missing-name", child, "the input has no name", "name=\"NAME\"");
     def = nullptr;
   }
-  if (def != nullptr && inherits_from_too_many(node)) {
-    error("inherit-depth", node, "the node inherits over too many levels",
-          fmt::format("at most {}", node.document().max_inheritance()));
+  if (auto fault = inheritance_fault(node)) {
+    diagnostics_.add(std::move(*fault));
     def = nullptr;
   }
   nodedefs_.emplace(&node, def);

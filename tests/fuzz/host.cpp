@@ -96,28 +96,6 @@ class Shading {
     }
   }
 
-  /// What compiles has no node in which checking alone finds an error. Elements that no
-  /// node can have are not part of it.
-  void judge_errors(const GraphRequest& request, const Diagnostics& compiling) const {
-    if (!agreeing_ || shaded_.clean) return;
-    Diagnostics ignored;
-    const auto graph =
-        build_graph(document_, host().library(), request, host().graph_options(options_), ignored);
-    if (!graph) return;
-    std::set<Key> said;
-    for (const Diagnostic& one : compiling.all()) said.insert(key_of(one));
-    std::set<std::string> paths;
-    for (const GraphNode& node : graph->nodes) paths.insert(node.where.path);
-    for (const Diagnostic& one : checked_.all()) {
-      if (one.severity != Severity::error || one.where.path.empty()) continue;
-      if (one.code == "misplaced-element" || said.contains(key_of(one))) continue;
-      const std::string owner = one.where.path.substr(0, one.where.path.rfind('/'));
-      if (paths.contains(one.where.path) || paths.contains(owner)) {
-        fail("this compiles, but checking says\n" + one.to_string());
-      }
-    }
-  }
-
   void shade(const BoundKernel& kernel, Channels& channels) {
     run(kernel, channels);
     ++shaded_.kernels;
@@ -127,7 +105,6 @@ class Shading {
     Diagnostics diagnostics;
     const auto shader = host().compile_outputs(document_, {name}, options_, diagnostics);
     judge(name, shader != nullptr, diagnostics);
-    if (shader != nullptr) judge_errors({.outputs = {name}, .material = {}}, diagnostics);
     Channels channels;
     if (shader != nullptr) shade(shader->kernel, channels);
   }
@@ -137,7 +114,6 @@ class Shading {
     const auto kernels = host().compile_material(document_, name, options_, diagnostics);
     judge(name, kernels != nullptr, diagnostics);
     if (kernels == nullptr) return;
-    judge_errors({.outputs = {}, .material = name}, diagnostics);
     Channels channels;  // begin's outputs are what the others read
     for (const auto* kernel :
          {&kernels->begin, &kernels->sample, &kernels->evaluate, &kernels->albedo,
