@@ -30,11 +30,6 @@ def dds(width, height, depth, caps2, data=1 << 18):
     return head + struct.pack("<5I", 0x1008, caps2, 0, 0, 0) + bytes(range(256)) * (data // 256)
 
 
-def gif(width, height):
-    return (b"GIF89a" + struct.pack("<HHBBB", width, height, 0x80, 0, 0) + bytes(6) +
-            b"," + struct.pack("<HHHHB", 0, 0, width, height, 0) + b"\x02\x02L\x01\0;")
-
-
 def psd(width, height, channels=3):
     return (b"8BPS" + struct.pack(">H6xHIIHH", 1, channels, height, width, 8, 3) + bytes(12) + b"\0\1" + bytes(64))
 
@@ -73,11 +68,20 @@ IMAGES = [
     file("vol2.dds", dds(4, 4, 65535, 0x200000, 1024)),
     file("large.dds", dds(65535, 65535, 1, 0)),
     file("zero.dds", dds(0, 0, 0, 0x200000)),
-    file("gif.gif", gif(0xFFFF, 0xFFFF)),
-    file("small.gif", gif(1, 1)),
-    file("empty.gif", gif(0, 0)),
-    file("cut.gif", gif(100, 100)[:20]),
-    file("gif_as.png", gif(30000, 3)),
+    file("gif.gif", images.gif(0xFFFF, 0xFFFF)),
+    file("small.gif", images.gif(1, 1)),
+    file("empty.gif", images.gif(0, 0)),
+    file("cut.gif", images.gif(100, 100)[:20]),
+    file("gif_as.png", images.gif(30000, 3)),
+    file("screen.gif", images.gif(16384, 16384)),
+    file("codes.gif", lambda: images.gif(12000, 12000, bytes(4 << 20))),
+    file("blocks.gif", lambda: images.gif(1, 1)[:19] + b"\x21\xfe" + b"\x01\x01" * (30 << 20)),
+    file("small.bmp", images.bmp(3, 3)),
+    file("wide.bmp", images.bmp(3, 3, (2**31 - 1, 1))),
+    file("high.bmp", images.bmp(3, 3, (1, -2**31))),
+    file("square.bmp", images.bmp(3, 3, (16384, 16384), 32)),
+    file("runs.bmp", lambda: images.bmp(1000, 1000, (16384, 16384), 8, 1)),
+    file("cut.bmp", images.bmp(64, 64)[:-1]),
     file("tiny.psd", psd(1, 1)),
     file("wide.psd", psd(30000, 30000)),
     file("channels.psd", psd(16, 16, 56)),

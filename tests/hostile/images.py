@@ -30,6 +30,24 @@ def exr(width, height, claimed=None, shown=None):
     return head + offsets + b"".join(struct.pack("<ii", y, len(line)) + line for y in range(height))
 
 
+def bmp(width, height, claimed=None, bits=24, packing=0):
+    """Plain rows; `claimed`: the size the header gives instead."""
+    claims = claimed or (width, height)
+    head = struct.pack("<IiiHHIIiiII", 40, *claims, 1, bits, packing, 0, 0, 0, 0, 0)
+    palette = bytes(range(256)) * 4 if bits <= 8 else b""
+    at = 14 + len(head) + len(palette)
+    row = (width * bits + 31) // 32 * 4
+    return b"BM" + struct.pack("<IHHI", 0, 0, 0, at) + head + palette + b"\x80" * (row * height)
+
+
+def gif(width, height, data=b"L\x01"):
+    """One image of those codes, of black and white."""
+    table = bytes(3) + b"\xff" * 3
+    blocks = b"".join(bytes([len(data[at:at + 255])]) + data[at:at + 255] for at in range(0, len(data), 255))
+    return (b"GIF89a" + struct.pack("<HHBBB", width, height, 0x80, 0, 0) + table +
+            b"," + struct.pack("<HHHHB", 0, 0, width, height, 0) + b"\x02" + blocks + b"\0;")
+
+
 def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
