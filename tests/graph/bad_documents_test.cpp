@@ -3,7 +3,8 @@
 //
 //   severity code file:line:column path | text
 //
-// where `path` is "-" if there is none and `text` is part of what is said.
+// where `path` is "-" if there is none and `text` is part of what is said. Checking leniently
+// finds no error in those that lenient.txt names.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +64,35 @@ TEST_P(BadDocument, IsReportedWhereItIsWrong) {
     const std::string text = expected[i].substr(head.size());
     EXPECT_NE(one.to_string().find(text), std::string::npos) << text << "\n" << one.to_string();
   }
+}
+
+/// Whether something is said of that place.
+bool is_said_at(const Diagnostics& diagnostics, const SourceLocation& where) {
+  const auto& all = diagnostics.all();
+  return std::any_of(all.begin(), all.end(), [&](const Diagnostic& one) {
+    return one.where.file == where.file && one.where.line == where.line &&
+           one.where.path == where.path;
+  });
+}
+
+// What is tolerated is still said where it stands.
+TEST_P(BadDocument, IsToleratedWithAWarningOnly) {
+  const fs::path folder = source_folder() / "tests/documents/bad";
+  const fs::path file = folder / (GetParam() + ".mtlx");
+  Diagnostics strict, lenient;
+  const auto document = read_document(file, {}, strict);
+  GraphOptions options;
+  options.lenient = true;
+  if (document == nullptr) return;
+  check_document(*document, standard_library(), {}, strict);
+  read_document(file, {}, lenient);
+  check_document(*document, standard_library(), options, lenient);
+  for (const Diagnostic& one : strict.all()) {
+    EXPECT_TRUE(is_said_at(lenient, one.where)) << one.to_string() << "\n" << lenient.to_string();
+  }
+  const std::vector<std::string> tolerated = lines_of(folder / "lenient.txt");
+  const bool is_listed = std::binary_search(tolerated.begin(), tolerated.end(), GetParam());
+  EXPECT_EQ(is_listed, strict.has_errors() && !lenient.has_errors()) << lenient.to_string();
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadDocument, ::testing::ValuesIn(bad_documents()),
