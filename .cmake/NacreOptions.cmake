@@ -11,6 +11,9 @@ target_compile_options(nacre_flags INTERFACE
   -fno-semantic-interposition
   $<$<BOOL:${NACRE_WERROR}>:-Werror>)
 
+string(FIND "${CMAKE_CXX_FLAGS}" -fsanitize= NACRE_SANITIZED)
+math(EXPR NACRE_SANITIZED "${NACRE_SANITIZED} + 1")
+
 # What a sanitizer takes itself, as a factor: tests that bound time or memory allow it.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,-]*address")
   set(NACRE_SANITIZER_SHARE 4)

@@ -26,7 +26,9 @@ set_target_properties(nacre PROPERTIES
 # The version script decides what a host can link against; see there.
 target_link_options(nacre PRIVATE
   "LINKER:--version-script=${PROJECT_SOURCE_DIR}/.cmake/nacre.map"
-  LINKER:-Bsymbolic-functions LINKER:--no-undefined)
+  LINKER:-Bsymbolic-functions
+  # What Clang's sanitizers call is in the program.
+  $<$<NOT:$<BOOL:${NACRE_SANITIZED}>>:LINKER:--no-undefined>)
 
 install(TARGETS nacre EXPORT nacre
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}

@@ -219,6 +219,7 @@ void Definitions::read_implementation(const Element& element, Diagnostics& diagn
   if (def == nullptr) return;
   if (element.has_attribute("file") || element.has_attribute("sourcecode")) {
     if (!is_for_us(targets) && !is_for_us(targets, source_target)) return;
+    own_implementations_[def].push_back(&element);
     // One made for us goes before one made for GLSL, then the first.
     const auto [place, is_new] = sources_.emplace(def, &element);
     const bool is_ours = !targets.empty() && is_for_us(targets);
@@ -237,7 +238,9 @@ void Definitions::read_implementation(const Element& element, Diagnostics& diagn
     }
   }
   implemented_.emplace(graph, def);
-  if (is_for_us(targets)) graphs_.emplace(def, graph);
+  if (!is_for_us(targets)) return;
+  own_implementations_[def].push_back(&element);
+  graphs_.emplace(def, graph);
 }
 
 void Definitions::read_units(Diagnostics& diagnostics) {
@@ -297,6 +300,12 @@ const Element* Definitions::source_of(const NodeDef& def) const {
   }
   const auto found = sources_.find(&def);
   return found == sources_.end() ? nullptr : found->second;
+}
+
+std::span<const Element* const> Definitions::own_implementations(const NodeDef& def) const {
+  const auto found = own_implementations_.find(&def);
+  if (found == own_implementations_.end()) return {};
+  return found->second;
 }
 
 const NodeDef* Definitions::implemented_by(const Element& graph) const {

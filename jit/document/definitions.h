@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -43,6 +44,10 @@ class Definitions {
   /// a function of the GLSL subset, or `sourcecode`, for our target, for none, or
   /// for MaterialX's own GLSL generator. Null if there is none.
   const Element* source_of(const NodeDef& def) const;
+
+  /// What this document itself, without the library, has to implement a nodedef here:
+  /// graphs, and <implementation>s that name one or have a text.
+  std::span<const Element* const> own_implementations(const NodeDef& def) const;
 
   /// The nodedef that a <nodegraph> implements, named by it or by an <implementation>,
   /// for whatever target; null for a compound graph.
@@ -89,6 +94,7 @@ class Definitions {
   std::unordered_map<std::string_view, std::vector<const NodeDef*>> by_category_;
   std::unordered_map<const NodeDef*, const Element*> graphs_;
   std::unordered_map<const NodeDef*, const Element*> sources_;
+  std::unordered_map<const NodeDef*, std::vector<const Element*>> own_implementations_;
   std::unordered_map<const Element*, const NodeDef*> implemented_;
   std::unordered_map<std::string_view, const Element*> geompropdefs_;
   std::unordered_map<std::string_view, Unit> units_;

@@ -68,6 +68,21 @@ void Resolver::add_source(const NodeDef& def) {
                                                 : config_source(def, *transform));
 }
 
+// A nodedef of the library keeps the library's implementation, and ours.
+void Resolver::say_unused_implementations(const NodeDef& def) {
+  for (const Element* own : definitions_.own_implementations(def)) {
+    if (&own->document() == &def.element->document()) return;
+    const Element* used = runs_source(def) ? definitions_.source_of(def)
+                          : is_native(def) ? nullptr
+                                           : graph_of(def);
+    if (used != nullptr && &used->document() == &own->document()) return;
+    warning("ambiguous-implementation", *own,
+            fmt::format("'{}' has another implementation, which is used instead", def.name),
+            "a nodedef of its own",
+            used == nullptr ? "a native node" : fmt::format("'{}'", used->name()));
+  }
+}
+
 // Colour transforms made here have definitions of their own.
 const Definitions& Resolver::definitions_of(const Element& element) const {
   for (const auto& [name, transform] : transforms_) {
