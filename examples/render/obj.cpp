@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <string_view>
@@ -58,11 +60,21 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
+/// The finalizer of SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number
+/// Generators, 2014) after each index, from a number that no file can know: corners that
+/// were chosen to fall into one bucket do not.
 struct CornerHash {
+  std::uint64_t secret = (std::uint64_t{std::random_device()()} << 32) | std::random_device()();
+
   std::size_t operator()(const Corner& c) const {
-    std::size_t h = static_cast<std::size_t>(c.v) * 0x9e3779b97f4a7c15u;
-    h = (h ^ static_cast<std::size_t>(c.vt)) * 0xbf58476d1ce4e5b9u;
-    return (h ^ static_cast<std::size_t>(c.vn)) * 0x94d049bb133111ebu;
+    std::uint64_t h = secret;
+    for (const long long index : {c.v, c.vt, c.vn}) {
+      h ^= static_cast<std::uint64_t>(index);
+      h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9u;
+      h = (h ^ h >> 27) * 0x94d049bb133111ebu;
+      h ^= h >> 31;
+    }
+    return static_cast<std::size_t>(h);
   }
 };
 
