@@ -7,17 +7,17 @@
 
 #include "jit/shading/shading_system.h"
 #include "tests/document/standard_library.h"
+#include "tests/support/sanitizer.h"
 
 namespace nacre {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::size_t stack_bytes = std::size_t{2} << 20;  // Their frames are several times larger.
-#elif defined(NDEBUG)
-constexpr std::size_t stack_bytes = std::size_t{256} << 10;
+#if defined(NDEBUG)
+constexpr std::size_t plain_stack_bytes = std::size_t{256} << 10;
 #else
-constexpr std::size_t stack_bytes = std::size_t{1} << 20;
+constexpr std::size_t plain_stack_bytes = std::size_t{1} << 20;
 #endif
+constexpr std::size_t stack_bytes = is_sanitized ? std::size_t{2} << 20 : plain_stack_bytes;
 
 /// The data library is read once for all tests, on the stack of the first.
 ShadingSystem& standard_system() {
