@@ -34,7 +34,8 @@ help: ## This list
 	  | awk -F ':.*## ' '{ printf "  make %-15s %s\n", $$1, $$2 }'
 	@echo "Variables: PRESET=release|debug|ci|clang|asan|tsan  BUILD=folder  OUT=folder  JOBS=n"
 
-demo: build ## Render and bake the examples into out/demo
+demo: configure ## Render and bake the examples into out/demo
+	cmake --build "$(BUILD)" --parallel $(JOBS) --target nacre_tool
 	examples/demo.sh "$(BUILD)" "$(OUT)/demo"
 
 test: ## What CI runs; with PRESET=release (say) the tests in that build alone

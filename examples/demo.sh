@@ -8,6 +8,7 @@ out=${2:?usage: demo.sh BUILD OUT}
 here=$(dirname "$0")
 size=${DEMO_SIZE:-384}
 spp=${DEMO_SPP:-64}
+baked=${DEMO_BAKED:-512}
 # Matplotlib comes from Debian, so Debian's Python it is.
 python=${PYTHON:-/usr/bin/python3}
 
@@ -24,7 +25,7 @@ for document in "$here"/documents/*.mtlx; do
   "$nacre" render "$document" --spp "$spp" --size "$size" --out "$out/rendered/$name.png"
   # Documents without a graph output have nothing to bake.
   if grep -q '<output ' "$document"; then
-    "$nacre" bake "$document" --size 512 --format png --out "$out/baked/$name"
+    "$nacre" bake "$document" --size "$baked" --format png --out "$out/baked/$name"
   fi
 done
 

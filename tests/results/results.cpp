@@ -36,7 +36,7 @@ struct Subject {
   const char* output;
 };
 constexpr Subject subjects[]{{"examples/documents/marble.mtlx", "NG_marble/base_color"},
-                             {"examples/documents/cobbles.mtlx", "NG_cobbles/normal"},
+                             {"examples/documents/cobbles.mtlx", "bumped"},
                              {"bench/documents/chain.mtlx", "NG_chain/out"}};
 
 using Outputs = std::vector<std::vector<std::uint32_t>>;
