@@ -15,6 +15,7 @@
 #include "jit/service/compile_service.h"
 #include "tests/jit/small_program.h"
 #include "tests/support/random_program.h"
+#include "tests/support/sanitizer.h"
 
 namespace nacre {
 namespace {
@@ -197,6 +198,7 @@ TEST(Service, InterpretsWhereMemoryMayNotBecomeExecutable) {
 }
 
 TEST(Service, InterpretsWhereThereIsNoMemoryForCode) {
+  if (is_sanitized) GTEST_SKIP() << "a sanitizer needs mappings of its own";
   const pid_t child = fork();
   if (child == 0) interpret_without_memory_for_code();
   int status = 0;
