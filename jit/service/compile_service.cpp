@@ -12,6 +12,7 @@
 #include "jit/service/threads.h"
 #include "runtime/interpreter/interpreter.h"
 #include "runtime/process.h"
+#include "runtime/program/recorder.h"
 #include "runtime/report_stop.h"
 
 namespace nacre {
@@ -196,10 +197,20 @@ class Service final : public CompileService {
   std::atomic<Workshop*> workshop_;
 };
 
+/// What requests look at and what is made once in a process (names of this build and this
+/// CPU, OpenSSL's algorithms, the interpreter's operations) is made now: a child of fork()
+/// would wait for ever for what another thread was about to make.
+void make_what_is_made_once() {
+  const Program nothing = Recorder().take();
+  (void)code_key(nothing, CodegenOptions());
+  (void)make_interpreter(nothing);
+}
+
 }  // namespace
 
 std::unique_ptr<CompileService> CompileService::create(const ServiceOptions& options,
                                                        Diagnostics& diagnostics) {
+  make_what_is_made_once();
   Diagnostics refused;
   std::shared_ptr<JitSession> session = JitSession::create(options.session, refused);
   if (session == nullptr) {

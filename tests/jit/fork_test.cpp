@@ -109,6 +109,30 @@ TEST(Fork, InTheMiddleOfCompilingTheChildInterprets) {
 }
 
 /// Many threads fork while many compile: whatever is held at that moment.
+// What a process makes once was made with the service, so that no thread is just making it.
+TEST(Fork, WhileTheFirstThreadBegins) {
+  for (int k = 0; k < 20; ++k) {
+    const int status = in_child([&] {
+      const auto one = service(1);
+      std::atomic<bool> begins = false;
+      std::thread asking([&] {
+        begins = true;
+        Diagnostics said;
+        const auto kernel = one->request(small_program(1.0f), quick(), said);
+      });
+      while (!begins) std::this_thread::yield();
+      const int grandchild = in_child([&] {
+        Diagnostics said;
+        const auto kernel = one->request(small_program(2.0f), quick(), said);
+        return kernel != nullptr && run_small(*kernel, 2.0f) == 6.0f ? 0 : 1;
+      });
+      asking.join();
+      return grandchild == 0 ? 0 : 1;
+    });
+    EXPECT_EQ(status, 0) << k;
+  }
+}
+
 TEST(Fork, AtAnyMoment) {
   const auto one = service(2);
   std::atomic<bool> done = false;
