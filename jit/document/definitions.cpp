@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/same_content.h"
 #include "jit/document/value_text.h"
 
@@ -169,32 +170,19 @@ void Definitions::apply_inheritance(Diagnostics& diagnostics) {
   // A nodedef's own ports, before any are merged, are what its heirs see of it
   // only after the whole chain above; so merge along the chain, nearest first.
   for (NodeDef& def : nodedefs_) {
-    std::vector<const Element*> seen{def.element};
-    std::string_view parent = def.element->attribute("inherit");
-    const Element* user = def.element;
-    while (!parent.empty()) {
-      const NodeDef* base = resolve_nodedef(parent, *user);
-      if (base == nullptr) {
-        diagnostics.error("unknown-nodedef", location(*user),
-                          "the nodedef to inherit from does not exist", "the name of a nodedef",
-                          fmt::format("'{}'", parent));
-        break;
-      }
-      if (std::find(seen.begin(), seen.end(), base->element) != seen.end()) {
-        diagnostics.error("inherit-cycle", location(*def.element),
-                          "the nodedef inherits from itself, directly or not");
-        break;
-      }
-      if (seen.size() >= def.element->document().max_inheritance()) {
-        diagnostics.error("inherit-depth", location(*def.element),
-                          "the nodedef inherits over too many levels",
-                          fmt::format("at most {}", def.element->document().max_inheritance()));
-        break;
-      }
-      inherit_ports(def, *base);
-      seen.push_back(base->element);
-      user = base->element;
-      parent = base->element->attribute("inherit");
+    const auto base_of = [&](const Element& heir) -> const Element* {
+      const std::string_view name = heir.attribute("inherit");
+      if (name.empty()) return nullptr;
+      const NodeDef* base = resolve_nodedef(name, heir);
+      if (base != nullptr) return base->element;
+      diagnostics.error("unknown-nodedef", location(heir),
+                        "the nodedef to inherit from does not exist", "the name of a nodedef",
+                        fmt::format("'{}'", name));
+      return nullptr;
+    };
+    const auto chain = inheritance_chain(*def.element, "nodedef", base_of, diagnostics);
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      inherit_ports(def, *nodedef(chain[i]->name()));
     }
   }
   for (const NodeDef& def : nodedefs_) by_category_[def.category].push_back(&def);
@@ -219,7 +207,7 @@ void Definitions::read_implementation(const Element& element, Diagnostics& diagn
   if (def == nullptr) return;
   if (element.has_attribute("file") || element.has_attribute("sourcecode")) {
     if (!is_for_us(targets) && !is_for_us(targets, source_target)) return;
-    own_implementations_[def].push_back(&element);
+    note_replacement(*def, element);
     // One made for us goes before one made for GLSL, then the first.
     const auto [place, is_new] = sources_.emplace(def, &element);
     const bool is_ours = !targets.empty() && is_for_us(targets);
@@ -239,7 +227,7 @@ void Definitions::read_implementation(const Element& element, Diagnostics& diagn
   }
   implemented_.emplace(graph, def);
   if (!is_for_us(targets)) return;
-  own_implementations_[def].push_back(&element);
+  note_replacement(*def, element);
   graphs_.emplace(def, graph);
 }
 
@@ -302,9 +290,13 @@ const Element* Definitions::source_of(const NodeDef& def) const {
   return found == sources_.end() ? nullptr : found->second;
 }
 
-std::span<const Element* const> Definitions::own_implementations(const NodeDef& def) const {
-  const auto found = own_implementations_.find(&def);
-  if (found == own_implementations_.end()) return {};
+void Definitions::note_replacement(const NodeDef& def, const Element& implementation) {
+  if (&def.element->document() != &document_) replacements_[&def].push_back(&implementation);
+}
+
+std::span<const Element* const> Definitions::replacements(const NodeDef& def) const {
+  const auto found = replacements_.find(&def);
+  if (found == replacements_.end()) return {};
   return found->second;
 }
 

@@ -45,9 +45,9 @@ class Definitions {
   /// for MaterialX's own GLSL generator. Null if there is none.
   const Element* source_of(const NodeDef& def) const;
 
-  /// What this document itself, without the library, has to implement a nodedef here:
-  /// graphs, and <implementation>s that name one or have a text.
-  std::span<const Element* const> own_implementations(const NodeDef& def) const;
+  /// What the document has to implement a nodedef of the library here: graphs, and
+  /// <implementation>s that name one or have a text. The library's own go before them.
+  std::span<const Element* const> replacements(const NodeDef& def) const;
 
   /// The nodedef that a <nodegraph> implements, named by it or by an <implementation>,
   /// for whatever target; null for a compound graph.
@@ -79,6 +79,7 @@ class Definitions {
   void apply_inheritance(Diagnostics& diagnostics);
   void read_implementations(Diagnostics& diagnostics);
   void read_implementation(const Element& element, Diagnostics& diagnostics);
+  void note_replacement(const NodeDef& def, const Element& implementation);
   void read_units(Diagnostics& diagnostics);
   bool is_of_base(const Element& element) const;
   void warn_of_shadow(const Element& element, std::string_view what,
@@ -94,7 +95,7 @@ class Definitions {
   std::unordered_map<std::string_view, std::vector<const NodeDef*>> by_category_;
   std::unordered_map<const NodeDef*, const Element*> graphs_;
   std::unordered_map<const NodeDef*, const Element*> sources_;
-  std::unordered_map<const NodeDef*, std::vector<const Element*>> own_implementations_;
+  std::unordered_map<const NodeDef*, std::vector<const Element*>> replacements_;
   std::unordered_map<const Element*, const NodeDef*> implemented_;
   std::unordered_map<std::string_view, const Element*> geompropdefs_;
   std::unordered_map<std::string_view, Unit> units_;

@@ -7,13 +7,13 @@
 #include <tuple>
 #include <vector>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/read.h"
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/check_parts.h"
 #include "jit/graph/connection.h"
 #include "jit/graph/find.h"
-#include "jit/graph/inheritance.h"
 #include "jit/graph/lenient.h"
 #include "runtime/float_environment.h"
 
@@ -82,7 +82,7 @@ class Checker : ElementCheck {
       const NodeDefInput* input = def == nullptr ? nullptr : def->input(child.name());
       if (input != nullptr) check_enum(child, *input);
     }
-    if (auto fault = inheritance_fault(node)) diagnostics_.add(std::move(*fault));
+    node_inheritance(node, diagnostics_);
     if (node.attribute("type") == "material" && node.category() == "surfacematerial" &&
         node.child_count() == 0 && !node.has_attribute("inherit")) {
       diagnostics_.warning("empty-material", location(node), "the material has no shader",

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/read.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/check_parts.h"
@@ -235,24 +236,18 @@ class DeclarationCheck : ElementCheck {
   // -- Types, units, properties, targets --
 
   void check_typedef(const Element& element) {
-    std::vector<const Element*> chain{&element};
-    while (chain.back()->has_attribute("inherit")) {
-      const std::string_view name = chain.back()->attribute("inherit");
-      if (parse_type(name)) break;
+    const std::size_t errors = diagnostics_.error_count();
+    const auto base_of = [&](const Element& heir) -> const Element* {
+      const std::string_view name = heir.attribute("inherit");
+      if (!heir.has_attribute("inherit") || parse_type(name)) return nullptr;
       const Element* base = definitions_.resolve(name, element);
-      if (base == nullptr || base->category() != "typedef") {
-        return error("unknown-type", *chain.back(), "the type to inherit from does not exist",
-                     "the name of a type", in_quotes(name));
-      }
-      if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
-        return error("inherit-cycle", element, "the type inherits from itself, directly or not");
-      }
-      if (chain.size() >= element.document().max_inheritance()) {
-        return error("inherit-depth", element, "the type inherits over too many levels",
-                     fmt::format("at most {}", element.document().max_inheritance()));
-      }
-      chain.push_back(base);
-    }
+      if (base != nullptr && base->category() == "typedef") return base;
+      error("unknown-type", heir, "the type to inherit from does not exist", "the name of a type",
+            in_quotes(name));
+      return nullptr;
+    };
+    inheritance_chain(element, "type", base_of, diagnostics_);
+    if (diagnostics_.error_count() != errors) return;
     for (const Element& member : element.children()) {
       if (member.category() == "member") check_member(element, member);
     }
@@ -346,20 +341,12 @@ class DeclarationCheck : ElementCheck {
   }
 
   void check_targetdef(const Element& element) {
-    std::vector<const Element*> chain{&element};
-    while (chain.back()->has_attribute("inherit")) {
-      const std::string_view name = chain.back()->attribute("inherit");
-      const Element* base = document_.root().child(name);
-      if (base == nullptr || base->category() != "targetdef") return;  // of a library, perhaps
-      if (std::find(chain.begin(), chain.end(), base) != chain.end()) {
-        return error("inherit-cycle", element, "the target inherits from itself, directly or not");
-      }
-      if (chain.size() >= element.document().max_inheritance()) {
-        return error("inherit-depth", element, "the target inherits over too many levels",
-                     fmt::format("at most {}", element.document().max_inheritance()));
-      }
-      chain.push_back(base);
-    }
+    const auto base_of = [&](const Element& heir) -> const Element* {
+      const Element* base = document_.root().child(heir.attribute("inherit"));
+      // Of a library, perhaps.
+      return base == nullptr || base->category() != "targetdef" ? nullptr : base;
+    };
+    inheritance_chain(element, "target", base_of, diagnostics_);
   }
 
   const Document& document_;

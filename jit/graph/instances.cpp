@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/inheritance.h"
 #include "jit/graph/lenient.h"
 #include "jit/graph/node_source.h"
 #include "jit/graph/resolver.h"
@@ -69,9 +69,8 @@ void Resolver::add_source(const NodeDef& def) {
 }
 
 // A nodedef of the library keeps the library's implementation, and ours.
-void Resolver::say_unused_implementations(const NodeDef& def) {
-  for (const Element* own : definitions_.own_implementations(def)) {
-    if (&own->document() == &def.element->document()) return;
+void Resolver::say_unused_replacements(const NodeDef& def) {
+  for (const Element* own : definitions_.replacements(def)) {
     const Element* used = runs_source(def) ? definitions_.source_of(def)
                           : is_native(def) ? nullptr
                                            : graph_of(def);
@@ -113,10 +112,9 @@ const NodeDef* Resolver::nodedef_of(const Element& node) {
     error("missing-name", child, "the input has no name", "name=\"NAME\"");
     def = nullptr;
   }
-  if (auto fault = inheritance_fault(node)) {
-    diagnostics_.add(std::move(*fault));
-    def = nullptr;
-  }
+  const std::size_t errors = diagnostics_.error_count();
+  node_inheritance(node, diagnostics_);
+  if (diagnostics_.error_count() != errors) def = nullptr;
   nodedefs_.emplace(&node, def);
   return def;
 }

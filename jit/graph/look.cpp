@@ -6,6 +6,7 @@
 #include <ranges>
 #include <unordered_set>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/nodedef.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/geometry_names.h"
@@ -85,28 +86,17 @@ void add_contents(const Element& element, Look& look) {
 // The look and those it inherits from, nearest first.
 std::vector<const Element*> inheritance(const Element& look, Diagnostics& diagnostics) {
   const Element& root = look.document().root();
-  std::vector<const Element*> chain{&look};
-  while (chain.back()->has_attribute("inherit")) {
-    const Element& last = *chain.back();
-    const std::string_view name = last.attribute("inherit");
-    const Element* base = root.child(qualified_name(last, name));
+  const auto base_of = [&](const Element& heir) -> const Element* {
+    if (!heir.has_attribute("inherit")) return nullptr;
+    const std::string_view name = heir.attribute("inherit");
+    const Element* base = root.child(qualified_name(heir, name));
     if (base == nullptr) base = root.child(name);
-    const bool is_look = base != nullptr && base->category() == "look";
-    if (!is_look || std::find(chain.begin(), chain.end(), base) != chain.end()) {
-      diagnostics.error(is_look ? "inherit-cycle" : "unknown-look", location(last),
-                        is_look ? "the look inherits from itself, directly or not"
-                                : "the look to inherit from does not exist",
-                        "the name of another look", fmt::format("'{}'", name));
-      break;
-    }
-    if (chain.size() >= look.document().max_inheritance()) {
-      diagnostics.error("inherit-depth", location(look), "the look inherits over too many levels",
-                        fmt::format("at most {}", look.document().max_inheritance()));
-      break;
-    }
-    chain.push_back(base);
-  }
-  return chain;
+    if (base != nullptr && base->category() == "look") return base;
+    diagnostics.error("unknown-look", location(heir), "the look to inherit from does not exist",
+                      "the name of another look", fmt::format("'{}'", name));
+    return nullptr;
+  };
+  return inheritance_chain(look, "look", base_of, diagnostics);
 }
 
 void add_group_looks(const Element& group, std::unordered_set<const Element*>& seen,

@@ -150,7 +150,7 @@ class Resolver {
   bool has_body(const NodeDef& def) const;
   bool runs_source(const NodeDef& def) const;
   void add_source(const NodeDef& def);
-  void say_unused_implementations(const NodeDef& def);
+  void say_unused_replacements(const NodeDef& def);
   const Definitions& definitions_of(const Element& element) const;
   const Element* graph_of(const NodeDef& def) const;
 

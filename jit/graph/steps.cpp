@@ -120,7 +120,7 @@ std::optional<Resolver::Key> Resolver::start_enabled_output(Frame& frame,
   const NodeDef& def = *instance.def;
   const NodeDefOutput& output = def.outputs[frame.key.index];
   const Element* graph = graph_of(def);
-  say_unused_implementations(def);
+  say_unused_replacements(def);
   if (is_native(def)) {
     frame.stage = received;
     return Key{Kind::node, 0, &instance, nullptr};
