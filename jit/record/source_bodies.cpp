@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -16,55 +14,6 @@
 namespace nacre {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr std::uintmax_t max_file_bytes = std::uintmax_t{4} << 20;
-
-bool is_below(const fs::path& path, const fs::path& folder) {
-  std::error_code error;
-  const fs::path inner = fs::weakly_canonical(path, error);
-  const fs::path outer = fs::weakly_canonical(folder.empty() ? "." : folder, error);
-  const auto [end, ignored] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
-  return end == outer.end();
-}
-
-std::optional<std::string> read_file(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > max_file_bytes) {
-    return std::nullopt;
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
-
-/// Looks for `name` in the folders, in order, and reads it; only below `allowed`.
-std::optional<glsl::Sources::File> find_source(const std::string& name,
-                                               const std::vector<fs::path>& folders,
-                                               const std::vector<fs::path>& allowed) {
-  for (const fs::path& folder : folders) {
-    const fs::path path = (folder / name).lexically_normal();
-    const bool may_read = std::any_of(allowed.begin(), allowed.end(),
-                                      [&](const fs::path& root) { return is_below(path, root); });
-    if (!may_read) continue;
-    if (std::optional<std::string> text = read_file(path)) {
-      return glsl::Sources::File{path.string(), std::move(*text)};
-    }
-  }
-  return std::nullopt;
-}
-
-/// "{{in1}}" as the name "__in1__", of one length, so that columns stay right.
-std::string with_names(std::string text) {
-  for (std::size_t at = text.find("{{"); at != std::string::npos; at = text.find("{{", at)) {
-    const std::size_t end = text.find("}}", at);
-    if (end == std::string::npos) break;
-    text.replace(at, 2, "__");
-    text.replace(end, 2, "__");
-  }
-  return text;
-}
 
 /// Reads the tables that come with a text.
 class Tables {
@@ -246,13 +195,10 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
 
 }  // namespace
 
-SourceBodies::SourceBodies(std::vector<fs::path> roots)
-    : roots_(std::move(roots)), prelude_(glsl::Prelude::read()) {}
-
 bool SourceBodies::record(const NodeSource& source, NodeCall& call, const Stop& stop) {
   Diagnostics found;
   const glsl::RecordLimits limits{.stop = stop};
-  const std::shared_ptr<const glsl::Module> module = module_of(source, found, stop);
+  const std::shared_ptr<const glsl::Module> module = modules_.find(source, found, stop);
   const bool done =
       module != nullptr &&
       (source.function.empty() ? record_expression(source, *module, call, limits, found)
@@ -284,55 +230,6 @@ bool SourceBodies::check(const NodeSource& source, const NodeDef& def, Diagnosti
   NodeCall call(recorder, def.category, def.name, std::move(inputs), std::move(outputs),
                 Accuracy::standard, nullptr, diagnostics, source.where);
   return record(source, call, stop);
-}
-
-std::shared_ptr<const glsl::Module> SourceBodies::module_of(const NodeSource& source,
-                                                            Diagnostics& diagnostics,
-                                                            const Stop& stop) {
-  const std::string key = source.document + '\n' + source.file + '\n' + source.text;
-  const std::lock_guard lock(mutex_);
-  const auto found = modules_.find(key);
-  if (found != modules_.end()) return found->second;
-  std::shared_ptr<const glsl::Module> module = read(source, diagnostics, stop);
-  // A faulty text is read again, to complain again.
-  if (module != nullptr) modules_.emplace(key, module);
-  return module;
-}
-
-std::shared_ptr<const glsl::Module> SourceBodies::read(const NodeSource& source,
-                                                       Diagnostics& diagnostics, const Stop& stop) {
-  const fs::path home = fs::path(source.document).parent_path();
-  std::vector<fs::path> allowed{home};
-  allowed.insert(allowed.end(), roots_.begin(), roots_.end());
-  glsl::PreprocessOptions options;
-  options.stop = stop;
-  options.find_include = [&](const std::string& name, const std::string& from) {
-    std::vector<fs::path> folders{fs::path(from).parent_path()};
-    folders.insert(folders.end(), allowed.begin(), allowed.end());
-    return find_source(name, folders, allowed);
-  };
-  const std::string& where = source.where.file;
-  const int line = source.where.line;
-  if (source.file.empty()) {
-    if (source.function.empty()) {
-      return glsl::Module::read_expression(prelude_, {where, with_names(source.text), line},
-                                           diagnostics, stop);
-    }
-    return glsl::Module::read(prelude_, {where, source.text, line}, options, diagnostics);
-  }
-  if (source.function.empty()) {
-    misfit(source, diagnostics, "the implementation names a file but no function",
-           "an attribute 'function'", "none");
-    return nullptr;
-  }
-  std::optional<glsl::Sources::File> file = find_source(source.file, allowed, allowed);
-  if (!file) {
-    diagnostics.error("missing-source", source.where,
-                      "the file of the implementation was not found",
-                      "a file below the document's folder or a library's", source.file);
-    return nullptr;
-  }
-  return glsl::Module::read(prelude_, std::move(*file), options, diagnostics);
 }
 
 }  // namespace nacre

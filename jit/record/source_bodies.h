@@ -1,22 +1,18 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <memory>
-#include <mutex>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "jit/document/nodedef.h"
-#include "jit/glsl/module.h"
 #include "jit/graph/graph.h"
+#include "jit/record/source_modules.h"
 #include "runtime/node/node_call.h"
 #include "runtime/stop.h"
 
 namespace nacre {
 
-/// Runs nodes whose implementation is a text of the GLSL subset. Each text is
-/// read once; may be used from any thread.
+/// Runs nodes whose implementation is a text of the GLSL subset. May be used from any thread.
 ///
 /// How a node becomes a call follows MaterialX's GLSL generator: the inputs in
 /// the nodedef's order, then the outputs; colours and vectors as vecN, matrices
@@ -25,11 +21,10 @@ namespace nacre {
 /// is one that the text declares, of any name, with the same members in the same order.
 class SourceBodies {
  public:
-  /// `roots`: folders in which included files are looked for after the folder of
-  /// the including file and that of the document. Nothing outside the roots and
-  /// the document's folder is read.
-  explicit SourceBodies(std::vector<std::filesystem::path> roots = {});
-  const std::vector<std::filesystem::path>& roots() const { return roots_; }
+  /// `roots` as in SourceModules.
+  explicit SourceBodies(std::vector<std::filesystem::path> roots = {})
+      : modules_(std::move(roots)) {}
+  const std::vector<std::filesystem::path>& roots() const { return modules_.roots(); }
 
   /// Records the node and sets its outputs. False, with a diagnostic, for a
   /// text that cannot be read or does not fit the node: it says the file, line and column
@@ -42,15 +37,7 @@ class SourceBodies {
              const Stop& stop = {});
 
  private:
-  std::shared_ptr<const glsl::Module> module_of(const NodeSource& source, Diagnostics& diagnostics,
-                                                const Stop& stop);
-  std::shared_ptr<const glsl::Module> read(const NodeSource& source, Diagnostics& diagnostics,
-                                           const Stop& stop);
-
-  std::vector<std::filesystem::path> roots_;
-  std::shared_ptr<const glsl::Prelude> prelude_;
-  std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<const glsl::Module>> modules_;
+  SourceModules modules_;
 };
 
 }  // namespace nacre

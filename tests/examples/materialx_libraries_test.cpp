@@ -6,27 +6,23 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/temporary_folder.h"
+
 namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that goes away with the test.
 class MaterialXLibraries : public testing::Test {
  protected:
-  MaterialXLibraries() {
-    std::string name = (fs::temp_directory_path() / "nacre-XXXXXX").string();
-    root_ = mkdtemp(name.data());
-  }
-  ~MaterialXLibraries() override { fs::remove_all(root_); }
-
   fs::path make_library(const fs::path& folder) {
     fs::create_directories(root_ / folder / "stdlib");
     std::ofstream(root_ / folder / "stdlib" / "stdlib_defs.mtlx") << "<materialx/>\n";
     return root_ / folder;
   }
 
-  fs::path root_;
+  const TemporaryFolder folder_;
+  const fs::path root_ = folder_.path();
 };
 
 TEST_F(MaterialXLibraries, InstalledOneWinsOverBuildTree) {

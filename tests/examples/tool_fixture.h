@@ -16,7 +16,7 @@
 #include "jit/document/read.h"
 #include "jit/graph/find.h"
 #include "jit/shading/shading_system.h"
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre {
 
@@ -84,7 +84,7 @@ class Tool : public ::testing::Test {
     return host::bake_image(*kernel, 0, {.width = size, .height = size, .threads = 1});
   }
 
-  host::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::unique_ptr<ShadingSystem> system_;
   std::string errors_;
   std::string printed_;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "jit/shading/shading_system.h"
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre {
 
@@ -48,7 +48,7 @@ class Config : public ::testing::Test {
   void expect_agreement(const std::vector<Rgba>& colors, const std::string& from,
                         const std::string& to, double error);
 
-  host::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   Diagnostics diagnostics_;
   std::unique_ptr<ShadingSystem> system_;
   OCIO_NAMESPACE::ConstConfigRcPtr config_;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre::host {
 namespace {

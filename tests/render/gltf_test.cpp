@@ -6,7 +6,7 @@
 
 #include "examples/render/load_scene.h"
 #include "tests/render/scene_samples.h"
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre::host {
 namespace {

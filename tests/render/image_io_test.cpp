@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre::host {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "examples/render/load_scene.h"
-#include "tests/render/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre::host {
 namespace {

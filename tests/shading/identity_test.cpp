@@ -7,7 +7,6 @@
 #include <bit>
 #include <cfenv>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
 #include "runtime/program/digest.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre {
 namespace {
@@ -39,14 +39,13 @@ std::vector<std::vector<std::uint32_t>> outputs_of(const BoundKernel& kernel) {
 
 /// The first 22 constants of these differ, but not the 128 bits that once stood for them.
 TEST(Identity, DocumentsMadeToCollideHaveTheirOwnKernels) {
-  std::string folder = (fs::temp_directory_path() / "nacre-collision-XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const TemporaryFolder folder;
   Diagnostics diagnostics;
   std::vector<std::vector<std::vector<std::uint32_t>>> found;
   // The second round has both from the cache.
   for (const char* name : {"a", "b", "a", "b"}) {
     const auto system = ShadingSystem::create(
-        {.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}, .cache = fs::path(folder) / "kernels"},
+        {.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}, .cache = folder.path() / "kernels"},
         diagnostics);
     ASSERT_NE(system, nullptr) << diagnostics.to_string();
     const auto document = read_document(
@@ -64,7 +63,6 @@ TEST(Identity, DocumentsMadeToCollideHaveTheirOwnKernels) {
   }
   EXPECT_NE(found[0], found[1]);
   EXPECT_EQ(diagnostics.to_string(), "");
-  fs::remove_all(folder);
 }
 
 /// Decimals that no float has, colours of other spaces, units, functions of constants.

@@ -9,6 +9,7 @@
 #include "jit/shading/shading_system.h"
 #include "tests/document/standard_library.h"
 #include "tests/support/run_kernel.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre {
 namespace {
@@ -280,6 +281,45 @@ TEST_F(Sources, FaultsAreNamedWhereTheyStand) {
             "source-misfit test.mtlx:3:2");
   EXPECT_EQ(complaint(head + "file=\"nodes/weave.glsl\" function=\"pack_weave\"/>"),
             "source-misfit test.mtlx:3:2");
+}
+
+/// What is kept of an earlier document answers no other question than the one that was asked.
+TEST_F(Sources, AFileThatIsKnownNeedsItsFunctionStill) {
+  open();
+  const std::string head =
+      "<implementation name=\"I\" nodedef=\"ND_own\" file=\"nodes/weave.glsl\"";
+  EXPECT_EQ(complaint(head + " function=\"g\"/>"), "source-misfit test.mtlx:3:2");
+  EXPECT_EQ(complaint(head + "/>"), "source-misfit test.mtlx:3:2");
+}
+
+TEST_F(Sources, TheSameTextInAnotherPlaceIsSaidThere) {
+  open();
+  const std::string text =
+      "<implementation name=\"I\" nodedef=\"ND_own\" sourcecode=\"{{in}} * q\"/>";
+  EXPECT_EQ(complaint(text), "glsl-undefined test.mtlx:3:10");
+  EXPECT_EQ(complaint("\n\n" + text), "glsl-undefined test.mtlx:5:10");
+}
+
+/// Somebody edits a text, or what it includes, while the host runs.
+TEST_F(Sources, AFileThatChangedIsReadAgain) {
+  open();
+  const TemporaryFolder folder;
+  const auto value = [&] {
+    const auto made = read_document_text(R"mtlx(<materialx version="1.39">
+      <nodedef name="ND_own" node="own"><output name="out" type="float"/></nodedef>
+      <implementation name="I" nodedef="ND_own" file="own.glsl" function="own"/>
+      <own name="n" type="float"/><output name="out" type="float" nodename="n"/>
+    </materialx>)mtlx",
+                                         folder.file("own.mtlx"), {}, diagnostics_);
+    return run_output(*made, "out", Backend::interpreter).at("out").front();
+  };
+  folder.write("scale.glsl", "#define SCALE 10.0\n");
+  folder.write("own.glsl", "#include \"scale.glsl\"\nvoid own(out float x) { x = SCALE * 2.0; }");
+  EXPECT_EQ(value(), 20.0f);
+  folder.write("own.glsl", "#include \"scale.glsl\"\nvoid own(out float x) { x = SCALE * 3.0; }");
+  EXPECT_EQ(value(), 30.0f);
+  folder.write("scale.glsl", "#define SCALE 100.0\n");
+  EXPECT_EQ(value(), 300.0f);
 }
 
 }  // namespace

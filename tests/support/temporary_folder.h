@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace nacre::host {
+namespace nacre {
 
 /// A folder that goes away with its test.
 class TemporaryFolder {
@@ -34,4 +34,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace nacre::host
+}  // namespace nacre
