@@ -3,7 +3,6 @@ find_package(Threads REQUIRED)
 find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(fmt REQUIRED)
 find_package(pugixml REQUIRED)
-find_package(TBB REQUIRED)
 find_package(xsimd REQUIRED)
 find_package(ZLIB REQUIRED)
 # Debian's target asks to link `-lxtl`, a header-only library that only complex numbers

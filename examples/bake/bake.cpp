@@ -1,15 +1,12 @@
 #include "examples/bake/bake.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
 
 #include "examples/bake/plane.h"
+#include "examples/common/run_on_threads.h"
 
 namespace nacre::host {
 
@@ -86,13 +83,6 @@ class Baker {
 BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
                 const std::function<bool(const BakedRows&)>& sink, const BakeControl& control) {
   const Baker baker(kernel, output, settings);
-  // More threads than cores are had only by those who say so.
-  const auto threads = static_cast<std::size_t>(std::max(settings.threads, 1));
-  const tbb::global_control allowed(
-      tbb::global_control::max_allowed_parallelism,
-      std::max(threads,
-               tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
-  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
   const auto row_texels =
       static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(baker.components());
   // A strip is what one call of the kernel gets: enough points to be worth it.
@@ -111,17 +101,22 @@ BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettin
     band.rows = std::min(band_rows, settings.height - first);
     band.texels.resize(static_cast<std::size_t>(band.rows) * row_texels);
     const int strips = (band.rows + strip_rows - 1) / strip_rows;
-    arena.execute([&] {
-      tbb::parallel_for(0, strips, [&](int strip) {
-        const int begin = strip * strip_rows;
-        if (ends != 0) return;
-        const RunStatus status =
-            baker.strip(first + begin, std::min(strip_rows, band.rows - begin),
-                        band.texels.data() + static_cast<std::size_t>(begin) * row_texels, ends);
-        if (status != RunStatus::too_many_steps) return;
-        too_many_steps = true;
+    std::atomic<int> next_strip = 0;
+    run_on_threads(std::min(settings.threads, strips), [&] {
+      try {
+        for (int strip = next_strip++; strip < strips && ends == 0; strip = next_strip++) {
+          const int begin = strip * strip_rows;
+          const RunStatus status =
+              baker.strip(first + begin, std::min(strip_rows, band.rows - begin),
+                          band.texels.data() + static_cast<std::size_t>(begin) * row_texels, ends);
+          if (status != RunStatus::too_many_steps) continue;
+          too_many_steps = true;
+          ends = 1;
+        }
+      } catch (...) {
         ends = 1;
-      });
+        throw;
+      }
     });
     if (too_many_steps) return BakeResult::too_many_steps;
     if (ends != 0) return BakeResult::stopped;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <mutex>
 #include <new>
-#include <system_error>
 #include <thread>
 
+#include "examples/common/run_on_threads.h"
 #include "examples/render/camera.h"
 #include "examples/render/render_context.h"
 #include "examples/render/wavefront.h"
@@ -95,7 +94,6 @@ struct Shared {
   std::mutex mutex;  ///< Guards what follows.
   std::size_t done = 0;
   RenderStatistics statistics;
-  std::exception_ptr failure;
 };
 
 void add(RenderStatistics& sum, const RenderStatistics& s) {
@@ -141,30 +139,17 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
   const std::vector<Tile> tiles = make_tiles(settings);
   Film film(settings.width, settings.height, context.any_matte);
   Shared shared;
-  const auto run = [&] {
+  const auto wanted = static_cast<int>(std::min<std::size_t>(
+      tiles.size(), settings.threads > 0 ? static_cast<std::size_t>(settings.threads)
+                                         : std::max(1u, std::thread::hardware_concurrency())));
+  run_on_threads(wanted, [&] {
     try {
       work(context, tiles, control, shared, film);
     } catch (...) {
-      const std::lock_guard lock(shared.mutex);
-      shared.failure = std::current_exception();
       shared.next_tile = tiles.size();
+      throw;
     }
-  };
-  {
-    const unsigned wanted = settings.threads > 0
-                                ? static_cast<unsigned>(settings.threads)
-                                : std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::jthread> threads;
-    for (unsigned i = 0; i < std::min<std::size_t>(wanted, tiles.size()); ++i) {
-      try {
-        threads.emplace_back(run);
-      } catch (const std::system_error&) {
-        break;  // No more to be had: those there are do it all.
-      }
-    }
-    if (threads.empty()) run();
-  }
-  if (shared.failure) std::rethrow_exception(shared.failure);
+  });
   if (statistics != nullptr) *statistics = shared.statistics;
   if (shared.done != tiles.size()) return {};
   return film;

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -56,8 +57,11 @@ void say(const char* text) {
 /// that must not. Whatever is a fault of our own aborts as it always does.
 void terminated() {
   // What is done here may run out of memory too.
-  static bool is_ending = false;
-  if (std::exchange(is_ending, true)) std::_Exit(status_problems);
+  thread_local bool is_ending_here = false;
+  if (std::exchange(is_ending_here, true)) std::_Exit(status_problems);
+  // Another thread that has come here ends the process once it has said why.
+  static std::atomic_flag is_ending = ATOMIC_FLAG_INIT;
+  while (is_ending.test_and_set()) ::pause();
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {

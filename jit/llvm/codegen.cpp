@@ -8,12 +8,14 @@
 #include <llvm/IR/DiagnosticInfo.h>
 #include <llvm/IR/DiagnosticPrinter.h>
 #include <llvm/IR/LegacyPassManager.h>
+#include <llvm/IR/PassManager.h>
 #include <llvm/IR/Verifier.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cctype>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <utility>
 
@@ -66,29 +68,48 @@ struct CollectDiagnostics final : llvm::DiagnosticHandler {
   return verify(program).empty();
 }
 
-/// One compile: a context of its own, so that compiles run side by side.
+/// What LLVM works on: a context for each compile, so that they run side by side.
+struct Work {
+  std::string error;
+  llvm::LLVMContext context;
+  std::unique_ptr<llvm::TargetMachine> machine;
+  std::unique_ptr<llvm::Module> module;
+  llvm::FunctionAnalysisManager analyses;
+  std::unique_ptr<llvm::legacy::PassManager> passes;  ///< While they run.
+};
+
+/// One compile.
 class Job {
  public:
   Job(const Program& program, const CodegenOptions& options, CompileStats& stats)
       : program_(program), options_(options), stats_(stats) {
-    context_.setDiagnosticHandler(std::make_unique<CollectDiagnostics>(error_));
+    work_->context.setDiagnosticHandler(std::make_unique<CollectDiagnostics>(work_->error));
   }
+
+  /// Where memory runs out in LLVM the exception leaves its frames without a clean-up, for
+  /// it is compiled without exceptions: its objects are as they were in the middle of
+  /// something, and must not be looked at again, not even to free them.
+  ~Job() {
+    if (std::uncaught_exceptions() > exceptions_) (void)work_.release();
+  }
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
 
   bool make_ir() {
     assert(compilable(program_));
     if (!is_lane_count(options_.lanes)) {
-      error_ = fmt::format("{} lanes; 1, 4, 8 or 16 are possible", options_.lanes);
+      work_->error = fmt::format("{} lanes; 1, 4, 8 or 16 are possible", options_.lanes);
       return false;
     }
-    machine_ = codegen::make_target_machine(options_, error_);
-    if (machine_ == nullptr) return false;
+    work_->machine = codegen::make_target_machine(options_, work_->error);
+    if (work_->machine == nullptr) return false;
     Stopwatch clock;
-    module_ = std::make_unique<llvm::Module>("nacre", context_);
-    module_->setTargetTriple(machine_->getTargetTriple().str());
-    module_->setDataLayout(machine_->createDataLayout());
-    const codegen::Features features = codegen::features_of(*machine_);
+    work_->module = std::make_unique<llvm::Module>("nacre", work_->context);
+    work_->module->setTargetTriple(work_->machine->getTargetTriple().str());
+    work_->module->setDataLayout(work_->machine->createDataLayout());
+    const codegen::Features features = codegen::features_of(*work_->machine);
     symbol_ = entry_symbol(program_, options_);
-    codegen::ModuleEmitter(program_, options_, features, *module_).emit(symbol_);
+    codegen::ModuleEmitter(program_, options_, features, *work_->module).emit(symbol_);
     stats_.emit = clock.lap();
     assert(is_valid());
     return true;
@@ -96,7 +117,7 @@ class Job {
 
   void optimize() {
     Stopwatch clock;
-    codegen::optimize(*module_, *machine_, options_.tier);
+    codegen::optimize(*work_->module, *work_->machine, options_.tier, work_->analyses);
     stats_.optimize = clock.lap();
   }
 
@@ -105,29 +126,30 @@ class Job {
   std::string ir() const {
     std::string text;
     llvm::raw_string_ostream stream(text);
-    module_->print(stream, nullptr);
+    work_->module->print(stream, nullptr);
     return stream.str();
   }
 
   bool generate(llvm::CodeGenFileType type, llvm::SmallVectorImpl<char>& bytes) {
     Stopwatch clock;
     llvm::raw_svector_ostream stream(bytes);
-    llvm::legacy::PassManager passes;
-    if (!add_passes(passes, stream, type)) {
-      error_ = "the target can't emit code";
+    work_->passes = std::make_unique<llvm::legacy::PassManager>();
+    if (!add_passes(*work_->passes, stream, type)) {
+      work_->error = "the target can't emit code";
       return false;
     }
     // LLVM 19's FastISel copies scalar b1 into mask registers by instructions that
     // do not exist ("Cannot emit physreg copy instruction"), and leaves vectors to
     // the other selector anyway. Adding the passes has switched it on.
-    machine_->setFastISel(false);
-    passes.run(*module_);
+    work_->machine->setFastISel(false);
+    work_->passes->run(*work_->module);
+    work_->passes.reset();  // They know the stream.
     stats_.codegen = clock.lap();
-    return error_.empty();
+    return work_->error.empty();
   }
 
   void report(Diagnostics& diagnostics) const {
-    diagnostics.error("codegen", {}, "can't compile a kernel: " + error_, {}, program_.name);
+    diagnostics.error("codegen", {}, "can't compile a kernel: " + work_->error, {}, program_.name);
   }
 
  private:
@@ -135,7 +157,7 @@ class Job {
   /// allocation: a twelfth of the time, and no gain on a CPU that reorders.
   bool add_passes(llvm::legacy::PassManager& passes, llvm::raw_pwrite_stream& stream,
                   llvm::CodeGenFileType type) {
-    auto& machine = static_cast<llvm::LLVMTargetMachine&>(*machine_);
+    auto& machine = static_cast<llvm::LLVMTargetMachine&>(*work_->machine);
     llvm::TargetPassConfig* config = machine.createPassConfig(passes);
     config->setDisableVerify(true);
     config->disablePass(&llvm::PostRASchedulerID);
@@ -152,19 +174,17 @@ class Job {
   }
 
   bool is_valid() {
-    llvm::raw_string_ostream stream(error_);
-    return !llvm::verifyModule(*module_, &stream);
+    llvm::raw_string_ostream stream(work_->error);
+    return !llvm::verifyModule(*work_->module, &stream);
   }
 
   const Program& program_;
   const CodegenOptions& options_;
   CompileStats& stats_;
   const ScopedDefaultFloatEnvironment environment_;  ///< LLVM folds constants too.
-  std::string error_;
   std::string symbol_;
-  llvm::LLVMContext context_;
-  std::unique_ptr<llvm::TargetMachine> machine_;
-  std::unique_ptr<llvm::Module> module_;
+  std::unique_ptr<Work> work_ = std::make_unique<Work>();
+  const int exceptions_ = std::uncaught_exceptions();
 };
 
 }  // namespace

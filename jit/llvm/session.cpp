@@ -54,6 +54,16 @@ bool may_make_code() {
   return may;
 }
 
+/// LLVM's linker and what it keeps.
+struct Linker {
+  explicit Linker(std::unique_ptr<orc::SelfExecutorProcessControl> control)
+      : session(std::move(control)), layer(session, memory) {}
+
+  orc::ExecutionSession session;
+  CodeMemory memory;
+  orc::ObjectLinkingLayer layer;
+};
+
 /// The ORC session; handles share it, so it goes when the last of all goes.
 class Core {
  public:
@@ -76,7 +86,13 @@ class Core {
     return core;
   }
 
-  ~Core() { llvm::consumeError(session_.endSession()); }
+  ~Core() {
+    if (is_broken_) {
+      (void)linker_.release();
+    } else {
+      llvm::consumeError(linker_->session.endSession());
+    }
+  }
 
   orc::JITDylib* load(const ObjectCode& object, orc::ExecutorAddr& entry, std::string& error,
                       bool& no_memory) {
@@ -85,14 +101,43 @@ class Core {
       return nullptr;
     }
     const std::scoped_lock lock(mutex_);
+    if (is_broken_) {
+      error = "memory was short while another was loaded";
+      no_memory = true;
+      return nullptr;
+    }
+    // LLVM's frames are left without a clean-up (see compile_object), its locks held.
+    is_broken_ = true;
+    orc::JITDylib* library = load_locked(object, entry, error, no_memory);
+    is_broken_ = false;
+    return library;
+  }
+
+  void remove(orc::JITDylib& library) {
+    if (keeps_code_ || !process_.is_this()) return;
+    const std::scoped_lock lock(mutex_);
+    if (!is_broken_) remove_locked(library);
+  }
+
+ private:
+  explicit Core(std::unique_ptr<orc::SelfExecutorProcessControl> control)
+      : linker_(std::make_unique<Linker>(std::move(control))) {
+    // ORC prints by default. It reports on the thread that asked.
+    linker_->session.setErrorReporter(
+        [this](llvm::Error error) { reported_ += "; " + llvm::toString(std::move(error)); });
+  }
+
+  orc::JITDylib* load_locked(const ObjectCode& object, orc::ExecutorAddr& entry, std::string& error,
+                             bool& no_memory) {
+    orc::ExecutionSession& session = linker_->session;
     reported_.clear();
-    orc::JITDylib& library = session_.createBareJITDylib(fmt::format("kernel.{}", number_++));
+    orc::JITDylib& library = session.createBareJITDylib(fmt::format("kernel.{}", number_++));
     library.addToLinkOrder(*functions_);
     auto buffer = llvm::MemoryBuffer::getMemBufferCopy(
         llvm::StringRef(object.bytes.data(), object.bytes.size()), object.symbol);
-    llvm::Error failed = layer_.add(library, std::move(buffer));
+    llvm::Error failed = linker_->layer.add(library, std::move(buffer));
     if (!failed) {
-      auto found = session_.lookup({&library}, object.symbol);
+      auto found = session.lookup({&library}, object.symbol);
       if (found) {
         entry = found->getAddress();
         return &library;
@@ -100,38 +145,26 @@ class Core {
       failed = found.takeError();
     }
     error = llvm::toString(std::move(failed)) + reported_;
-    no_memory = memory_.has_run_out();
+    no_memory = linker_->memory.has_run_out();
     remove_locked(library);
     return nullptr;
   }
 
-  void remove(orc::JITDylib& library) {
-    if (keeps_code_ || !process_.is_this()) return;
-    const std::scoped_lock lock(mutex_);
-    remove_locked(library);
-  }
-
- private:
-  explicit Core(std::unique_ptr<orc::SelfExecutorProcessControl> control)
-      : session_(std::move(control)), layer_(session_, memory_) {
-    // ORC prints by default. It reports on the thread that asked.
-    session_.setErrorReporter(
-        [this](llvm::Error error) { reported_ += "; " + llvm::toString(std::move(error)); });
-  }
-
   llvm::Error prepare(const SessionOptions& options) {
     keeps_code_ = options.debugger;
-    functions_ = &session_.createBareJITDylib("functions");
-    if (auto failed = functions_->define(orc::absoluteSymbols(library_functions(session_)))) {
+    orc::ExecutionSession& session = linker_->session;
+    functions_ = &session.createBareJITDylib("functions");
+    if (auto failed = functions_->define(orc::absoluteSymbols(library_functions(session)))) {
       return failed;
     }
-    return add_observers(session_, layer_, *functions_, options);
+    return add_observers(session, linker_->layer, *functions_, options);
   }
 
   void remove_locked(orc::JITDylib& library) {
-    llvm::consumeError(session_.removeJITDylib(library));
+    orc::ExecutionSession& session = linker_->session;
+    llvm::consumeError(session.removeJITDylib(library));
     // Names are unique, so they would pile up.
-    session_.getSymbolStringPool()->clearDeadEntries();
+    session.getSymbolStringPool()->clearDeadEntries();
   }
 
   // Loading and unloading take a tenth of a millisecond: one at a time.
@@ -140,9 +173,10 @@ class Core {
   std::string reported_;
   std::uint64_t number_ = 0;
   bool keeps_code_ = false;
-  orc::ExecutionSession session_;
-  CodeMemory memory_;
-  orc::ObjectLinkingLayer layer_;
+  std::unique_ptr<Linker> linker_;
+  /// Memory ran out within LLVM: nothing is loaded or unloaded any more, and what was is
+  /// left where it is.
+  bool is_broken_ = false;
   orc::JITDylib* functions_ = nullptr;
 };
 

@@ -28,6 +28,14 @@ class Resources : public Tool {
     return " bake " + document_ + " --no-cache --output G/o --out " + file("out") + " " + options;
   }
 
+  std::string write_plain_material() const {
+    return write("m.mtlx", R"(<materialx version="1.39">
+      <standard_surface name="S" type="surfaceshader"/>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S"/>
+      </surfacematerial></materialx>)");
+  }
+
   /// It is there and can be read to its end.
   static bool is_whole(const std::string& path) {
     const auto in = OIIO::ImageInput::open(path);
@@ -100,11 +108,7 @@ TEST_F(Resources, FilesThatMayNotGrow) {
 }
 
 TEST_F(Resources, RendersThatMayNotGrow) {
-  const std::string scene = write("m.mtlx", R"(<materialx version="1.39">
-    <standard_surface name="S" type="surfaceshader"/>
-    <surfacematerial name="M" type="material">
-      <input name="surfaceshader" type="surfaceshader" nodename="S"/>
-    </surfacematerial></materialx>)");
+  const std::string scene = write_plain_material();
   for (const std::string name : {"a.png", "a.exr"}) {
     EXPECT_EQ(shell("(ulimit -f 4; $NACRE render " + scene +
                     " --no-cache --spp 1 --size 64 --out " + file(name) + ")"),
@@ -145,6 +149,29 @@ TEST_F(Resources, Memory) {
         << kilobytes << '\n'
         << errors_;
     EXPECT_TRUE(names_in(file("out")).empty());
+  }
+  EXPECT_GT(failed, 0);
+}
+
+TEST_F(Resources, MemoryOfRenders) {
+  if (is_sanitized) GTEST_SKIP() << "a sanitizer's own memory does not fit";
+  const bool all = std::getenv("NACRE_TEST_FULL") != nullptr;
+  const std::string material = write_plain_material();
+  int failed = 0;
+  for (long kilobytes = 500'000; kilobytes <= 1'300'000; kilobytes += all ? 20'000 : 100'000) {
+    std::filesystem::remove(file("a.png"));
+    const int status =
+        shell("(ulimit -c 0; ulimit -v " + std::to_string(kilobytes) + "; $NACRE render " +
+              material + " --no-cache --spp 1 --size 256 --threads 3 --out " + file("a.png") + ")");
+    if (status == 127 || says("GnuTLS")) continue;
+    if (status == 0) {
+      EXPECT_TRUE(is_whole(file("a.png")));
+      continue;
+    }
+    ++failed;
+    EXPECT_EQ(status, 1) << kilobytes << '\n' << errors_;
+    EXPECT_NE(errors_, "") << kilobytes;
+    EXPECT_FALSE(std::filesystem::exists(file("a.png")));
   }
   EXPECT_GT(failed, 0);
 }
