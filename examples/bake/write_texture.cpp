@@ -17,7 +17,7 @@
 #include "examples/common/atomic_file.h"
 #include "examples/common/checked_file.h"
 #include "examples/common/srgb.h"
-#include "jit/graph/colorspace.h"
+#include "jit/graph/color/colorspace.h"
 
 namespace nacre::host {
 

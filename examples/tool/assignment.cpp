@@ -6,7 +6,7 @@
 #include <set>
 
 #include "jit/graph/find.h"
-#include "jit/graph/geometry_names.h"
+#include "jit/graph/look/geometry_names.h"
 
 namespace nacre::tool {
 

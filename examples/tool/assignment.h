@@ -8,7 +8,7 @@
 
 #include "examples/render/scene.h"
 #include "jit/document/document.h"
-#include "jit/graph/look.h"
+#include "jit/graph/look/look.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::tool {

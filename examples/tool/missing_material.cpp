@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "jit/graph/check.h"
+#include "jit/graph/check/check.h"
 
 namespace nacre::tool {
 

@@ -6,10 +6,10 @@
 #include <ranges>
 
 #include "jit/document/select.h"
-#include "jit/graph/check_parts.h"
+#include "jit/graph/check/parts.h"
 #include "jit/graph/find.h"
 #include "jit/graph/prune.h"
-#include "jit/graph/resolver.h"
+#include "jit/graph/resolve/resolver.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {
@@ -58,7 +58,7 @@ class GraphBuild {
         }
         return;
       }
-      const Resolver::Result found = resolver_.resolve_port(*element, context_around(*element));
+      const Resolved found = resolver_.resolve_port(*element, context_around(*element));
       add(name, resolver_.in_output_space(found, name, *element), *element);
     } else if (is_node(*element) && element->parent() == &document_.root()) {
       add_node(name, *element);
@@ -76,9 +76,9 @@ class GraphBuild {
                          fmt::format("'{}'", name));
       return;
     }
-    const Resolver::Result result = element->category() == "output"
-                                        ? resolver_.resolve_port(*element, context_around(*element))
-                                        : resolver_.resolve_node(*element, "");
+    const Resolved result = element->category() == "output"
+                                ? resolver_.resolve_port(*element, context_around(*element))
+                                : resolver_.resolve_node(*element, "");
     if (result.failed) return;
     if (result.type != Type::material) {
       diagnostics_.error("not-a-material", location(*element), "this is not a material",
@@ -102,8 +102,7 @@ class GraphBuild {
   }
 
   const Context* context_of(const Element& graph) {
-    return graph.parent() == nullptr ? nullptr
-                                     : resolver_.compound_context(graph, context_around(graph));
+    return graph.parent() == nullptr ? nullptr : resolver_.compound(graph, context_around(graph));
   }
 
   double fullness() const { return resolver_.fullness(); }
@@ -122,7 +121,7 @@ class GraphBuild {
     }
     const Context* context = nullptr;
     for (const Element* graph : std::views::reverse(graphs)) {
-      context = resolver_.compound_context(*graph, context);
+      context = resolver_.compound(*graph, context);
     }
     return context;
   }
@@ -144,7 +143,7 @@ class GraphBuild {
                        "the graph has several outputs and none is named", "GRAPH/NAME");
   }
 
-  void add(const std::string& name, const Resolver::Result& result, const Element& element) {
+  void add(const std::string& name, const Resolved& result, const Element& element) {
     if (result.failed) return;
     resolver_.graph().outputs.push_back({name, result.type, result.source, location(element)});
   }

@@ -6,7 +6,7 @@
 
 #include "jit/document/definitions.h"
 #include "jit/document/document.h"
-#include "jit/graph/look.h"
+#include "jit/graph/look/look.h"
 #include "runtime/diagnostic.h"
 #include "runtime/type.h"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "jit/graph/color_config.h"
+#include "jit/graph/color/color_config.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre {

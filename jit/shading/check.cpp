@@ -1,12 +1,12 @@
 // ShadingSystem::check: what compiling would say, without machine code.
-#include "jit/graph/check.h"
+#include "jit/graph/check/check.h"
 
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "jit/graph/find.h"
-#include "jit/graph/node_source.h"
+#include "jit/graph/resolve/node_source.h"
 #include "jit/record/source_bodies.h"
 #include "jit/shading/compilation.h"
 #include "runtime/float_environment.h"

@@ -6,7 +6,7 @@ namespace nacre {
 /// runtime/texture/sampling.h says what the filters and address modes mean. Channels that
 /// the file lacks are zero, so a one-channel file on a color3 output is (r, 0, 0); the
 /// alpha it lacks is one. Which file of a sequence is read (`framerange`, `frameoffset`,
-/// `frameendaction`) is settled in the graph already: jit/graph/filename.h.
+/// `frameendaction`) is settled in the graph already: jit/graph/resolve/filename.h.
 void record_image(NodeCall& call) {
   const TextureModes modes{.filter = parse_filter(call, "filtertype"),
                            .u = parse_address_mode(call, "uaddressmode"),

@@ -1,4 +1,4 @@
-#include "jit/graph/colorspace.h"
+#include "jit/graph/color/colorspace.h"
 
 #include <gtest/gtest.h>
 

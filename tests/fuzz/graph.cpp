@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "jit/document/read.h"
-#include "jit/graph/check.h"
+#include "jit/graph/check/check.h"
 #include "tests/fuzz/host.h"
 #include "tests/fuzz/random_document.h"
 

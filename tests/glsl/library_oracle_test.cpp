@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-#include "jit/graph/node_source.h"
+#include "jit/graph/resolve/node_source.h"
 #include "jit/passes/derive.h"
 #include "jit/record/bodies.h"
 #include "jit/record/source_bodies.h"

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "jit/graph/check.h"
+#include "jit/graph/check/check.h"
 #include "tests/document/standard_library.h"
 
 namespace nacre {

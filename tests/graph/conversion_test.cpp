@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "jit/graph/colorspace.h"
+#include "jit/graph/color/colorspace.h"
 #include "tests/graph/build_text.h"
 
 namespace nacre {

@@ -1,9 +1,9 @@
 // Geometry Extensions of the MaterialX 1.39 specification.
-#include "jit/graph/look.h"
+#include "jit/graph/look/look.h"
 
 #include <gtest/gtest.h>
 
-#include "jit/graph/geometry_names.h"
+#include "jit/graph/look/geometry_names.h"
 #include "tests/graph/build_text.h"
 
 namespace nacre {

@@ -1,7 +1,7 @@
 // Rules of the MaterialX 1.39 specification, each by a small document.
 #include <gtest/gtest.h>
 
-#include "jit/graph/check.h"
+#include "jit/graph/check/check.h"
 #include "tests/graph/build_text.h"
 
 namespace nacre {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "jit/graph/builder.h"
-#include "jit/graph/check.h"
+#include "jit/graph/check/check.h"
 #include "jit/graph/find.h"
 #include "tests/graph/build_text.h"
 

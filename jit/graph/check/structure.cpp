@@ -8,7 +8,7 @@
 
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/check_parts.h"
+#include "jit/graph/check/parts.h"
 
 namespace nacre {
 

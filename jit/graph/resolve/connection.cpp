@@ -1,4 +1,4 @@
-#include "jit/graph/connection.h"
+#include "jit/graph/resolve/connection.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "jit/graph/check.h"
+#include "jit/graph/check/check.h"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,10 @@
 #include "jit/document/read.h"
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/check_parts.h"
-#include "jit/graph/connection.h"
+#include "jit/graph/check/parts.h"
 #include "jit/graph/find.h"
-#include "jit/graph/lenient.h"
+#include "jit/graph/resolve/connection.h"
+#include "jit/graph/resolve/lenient.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {

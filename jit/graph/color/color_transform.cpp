@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "jit/graph/colorspace.h"
+#include "jit/graph/color/colorspace.h"
 
 namespace nacre {
 

@@ -1,4 +1,4 @@
-#include "jit/graph/node_source.h"
+#include "jit/graph/resolve/node_source.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "jit/graph/look.h"
+#include "jit/graph/look/look.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "jit/document/inheritance.h"
 #include "jit/document/nodedef.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/geometry_names.h"
+#include "jit/graph/look/geometry_names.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {

@@ -4,8 +4,8 @@
 
 #include "jit/document/nodedef.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/geometry_names.h"
-#include "jit/graph/look.h"
+#include "jit/graph/look/geometry_names.h"
+#include "jit/graph/look/look.h"
 
 namespace nacre {
 

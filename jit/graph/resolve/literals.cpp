@@ -1,4 +1,5 @@
-// Values as written: literals, live parameters, file names.
+#include "jit/graph/resolve/literals.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,9 +7,8 @@
 
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/filename.h"
-#include "jit/graph/lenient.h"
-#include "jit/graph/resolver.h"
+#include "jit/graph/resolve/filename.h"
+#include "jit/graph/resolve/lenient.h"
 
 namespace nacre {
 
@@ -43,9 +43,7 @@ std::string default_text(const NodeDefInput& input) {
 
 }  // namespace
 
-std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element& carrier, Type type,
-                                                    const Context* context) {
-  Result& result = frame.result;
+void Literals::take(const Element& carrier, Type type, const Context* context, Resolved& result) {
   result.type = type;
   result.carrier = &carrier;
   result.unit = carrier.attribute("unit");
@@ -53,8 +51,9 @@ std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element&
   bool leftover = false;
   std::optional<Value> value = parse_value(type, text, &leftover);
   if (leftover) {
-    warning("number-leftover", carrier, "what follows a number in the value is not used",
-            expected_text(type), fmt::format("'{}'", text.substr(0, 200)));
+    complaints_.warning("number-leftover", carrier,
+                        "what follows a number in the value is not used", expected_text(type),
+                        fmt::format("'{}'", text.substr(0, 200)));
   }
   if (!value) {
     const bool is_connection = !is_numeric(type) && !is_text(type) && !is_array(type);
@@ -62,32 +61,26 @@ std::optional<Resolver::Key> Resolver::take_literal(Frame& frame, const Element&
     const std::string message = fmt::format("the value does not fit the type {}", type_name(type));
     const std::string found = fmt::format("'{}'", text.substr(0, 200));
     if (!is_connection && !guess) {
-      error("bad-value", carrier, message, expected_text(type), found);
+      complaints_.error("bad-value", carrier, message, expected_text(type), found);
       result.failed = true;
-      return std::nullopt;
+      return;
     }
-    result.failed = !tolerates("bad-value", carrier, message,
-                               is_connection ? "it is not used" : lenient_reading(*guess),
-                               expected_text(type), found);
-    if (result.failed || is_connection) return std::nullopt;
+    result.failed = !complaints_.tolerates(
+        "bad-value", carrier, message, is_connection ? "it is not used" : lenient_reading(*guess),
+        expected_text(type), found);
+    if (result.failed || is_connection) return;
     value = guess;
   }
   // "" on a closure or shader means that nothing is connected.
-  if (!is_numeric(type) && !is_text(type) && !is_array(type)) return std::nullopt;
-  if (type == Type::filename) {
-    result.source = filename_source(carrier, *value, context);
-    return std::nullopt;
-  }
-  result.source = literal_or_parameter(carrier, std::move(*value), result.unit);
-  return convert_colour(result.source, type, carrier.inherited_attribute("colorspace"),
-                        element_path(carrier), carrier);
+  if (!is_numeric(type) && !is_text(type) && !is_array(type)) return;
+  result.source = type == Type::filename
+                      ? file_name(carrier, *value, context)
+                      : literal_or_parameter(carrier, std::move(*value), result.unit);
 }
 
-// One leaf of a structure that is written as a value, or of one that is not written.
-std::optional<Resolver::Key> Resolver::take_leaf(Frame& frame, const Element& carrier) {
-  Result& result = frame.result;
-  const StructType* type = definitions_of(carrier).struct_type(carrier.attribute("type"));
-  const std::size_t number = frame.key.index - 1;
+void Literals::take_leaf(const Element& carrier, std::size_t number, Resolved& result) const {
+  const StructType* type =
+      implementations_.definitions_of(carrier).struct_type(carrier.attribute("type"));
   const std::string_view text = carrier.attribute("value");
   const auto values = split_struct_value(text);
   const bool fits = type != nullptr && number < type->leaves.size() &&
@@ -101,19 +94,19 @@ std::optional<Resolver::Key> Resolver::take_leaf(Frame& frame, const Element& ca
     if (!value && text.empty()) value = zero_value(leaf.type);
   }
   if (!value) {
-    error("bad-value", carrier,
-          fmt::format("the value does not fit the type {}", carrier.attribute("type")),
-          "a structure's members between braces", fmt::format("'{}'", text.substr(0, 200)));
+    complaints_.error("bad-value", carrier,
+                      fmt::format("the value does not fit the type {}", carrier.attribute("type")),
+                      "a structure's members between braces",
+                      fmt::format("'{}'", text.substr(0, 200)));
     result.failed = true;
-    return std::nullopt;
+    return;
   }
   result.source.kind = Source::Kind::literal;
   result.source.value = std::move(*value);
   result.carrier = &carrier;
-  return std::nullopt;
 }
 
-Source Resolver::literal_or_parameter(const Element& carrier, Value value, std::string_view unit) {
+Source Literals::literal_or_parameter(const Element& carrier, Value value, std::string_view unit) {
   Source source;
   const bool is_live = is_numeric(value.type) && &carrier.document() == &document_ &&
                        carrier.category() == "input" && carrier.attribute("uniform") != "true";
@@ -129,7 +122,7 @@ Source Resolver::literal_or_parameter(const Element& carrier, Value value, std::
   if (!is_new) return source;
 
   const Element& owner = *carrier.parent();
-  const NodeDef* def = is_node(owner) ? nodedef_of(owner) : nullptr;
+  const NodeDef* def = is_node(owner) ? implementations_.nodedef_of(owner) : nullptr;
   const NodeDefInput* input = def == nullptr ? nullptr : def->input(carrier.name());
   const Element* declared = input == nullptr ? nullptr : input->element;
   Parameter parameter;
@@ -153,8 +146,8 @@ Source Resolver::literal_or_parameter(const Element& carrier, Value value, std::
   return source;
 }
 
-Source Resolver::filename_source(const Element& carrier, const Value& value,
-                                 const Context* context) {
+Source Literals::file_name(const Element& carrier, const Value& value,
+                           const Context* context) const {
   Source source;
   source.kind = Source::Kind::literal;
   source.value = value;
@@ -177,9 +170,7 @@ Source Resolver::filename_source(const Element& carrier, const Value& value,
   return source;
 }
 
-// Which file of a sequence a texture node reads is its own business (Standard Nodes,
-// "Texture Node Notes"): the frame plus `frameoffset`, taken into `framerange`.
-void Resolver::choose_frame(GraphNode& node, const Element& user) {
+void Literals::choose_frame(GraphNode& node, const Element& user) const {
   const auto text_of = [&](std::string_view name) -> std::string_view {
     const GraphInput* input = node.input(name);
     return input == nullptr || input->source.value.texts.empty()
@@ -202,8 +193,9 @@ void Resolver::choose_frame(GraphNode& node, const Element& user) {
     if (range) {
       frame = frame_in_range(*frame, *range, text_of("frameendaction"));
     } else if (!range_text.empty()) {
-      warning("bad-frame-range", user, "this is no range of frames, so all frames are taken",
-              "FIRST-LAST", fmt::format("'{}'", range_text.substr(0, 200)));
+      complaints_.warning("bad-frame-range", user,
+                          "this is no range of frames, so all frames are taken", "FIRST-LAST",
+                          fmt::format("'{}'", range_text.substr(0, 200)));
     }
     // No name: the node's default.
     file = frame ? substitute_frame(file, *frame) : std::string();
@@ -212,13 +204,13 @@ void Resolver::choose_frame(GraphNode& node, const Element& user) {
 
 // From the element outwards; out of a graph that implements a node, to that
 // node and its nodedef. The first one found counts.
-std::optional<std::string> Resolver::find_token(std::string_view name, const Element& user,
+std::optional<std::string> Literals::find_token(std::string_view name, const Element& user,
                                                 const Context* context) const {
   const auto token_of = [&](const Element& scope) -> const Element* {
     const Element* token = scope.child(name);
     return token != nullptr && token->category() == "token" ? token : nullptr;
   };
-  if (const Element* token = variant_child("token", name, nullptr)) {
+  if (const Element* token = instances_.of_variant("token", name, nullptr)) {
     return std::string(token->attribute("value"));
   }
   const Element* at = &user;
@@ -248,34 +240,31 @@ std::optional<std::string> Resolver::find_token(std::string_view name, const Ele
   return std::nullopt;
 }
 
-// What an outer node may be given, its graph may hand on, whatever the inner node
-// lists: UsdUVTexture takes "black", and gives it to an image.
-bool Resolver::check_enum(const NodeDefInput& input, Result& result) {
+bool Literals::check_enum(const NodeDefInput& input, Resolved& result) {
   if (result.source.kind != Source::Kind::literal) return true;
   const std::string text = result.source.value.texts.empty() ? "" : result.source.value.texts[0];
   if (takes(input, text)) return true;
   const Element* carrier = result.carrier;
   if (carrier != nullptr && carrier->category() == "input" && is_node(*carrier->parent())) {
-    const NodeDef* def = nodedef_of(*carrier->parent());
+    const NodeDef* def = implementations_.nodedef_of(*carrier->parent());
     const NodeDefInput* declared = def == nullptr ? nullptr : def->input(carrier->name());
     if (declared != nullptr && !declared->enums.empty() && takes(*declared, text)) return true;
   }
   const Element& where = carrier != nullptr ? *carrier : *input.element;
   if (text.empty() && takes(input, default_text(input))) {
-    const bool takes_default =
-        tolerates("bad-enum", where, fmt::format("'{}' does not take this value", input.name),
-                  "the default is used", fmt::format("{}", fmt::join(input.enums, ", ")), "''");
+    const bool takes_default = complaints_.tolerates(
+        "bad-enum", where, fmt::format("'{}' does not take this value", input.name),
+        "the default is used", fmt::format("{}", fmt::join(input.enums, ", ")), "''");
     if (takes_default) result.source.value = input.default_value;
     return takes_default;
   }
-  error("bad-enum", where, fmt::format("'{}' does not take this value", input.name),
-        fmt::format("{}", fmt::join(input.enums, ", ")), fmt::format("'{}'", text));
+  complaints_.error("bad-enum", where, fmt::format("'{}' does not take this value", input.name),
+                    fmt::format("{}", fmt::join(input.enums, ", ")), fmt::format("'{}'", text));
   return false;
 }
 
-// A uniform input takes values, and constants passed along by nodes
-// (Specification, "Inputs").
-void Resolver::make_uniform(Result& result, const NodeDefInput& input, const Element& user) {
+void Literals::make_uniform(const NodeDefInput& input, const Element& user,
+                            Resolved& result) const {
   Source& source = result.source;
   while (source.kind == Source::Kind::link) {
     const GraphNode& node = graph_.nodes[source.node];
@@ -293,16 +282,17 @@ void Resolver::make_uniform(Result& result, const NodeDefInput& input, const Ele
   }
   if (source.kind != Source::Kind::link) return;
   const GraphNode& node = graph_.nodes[source.node];
-  const NodeDef* def = definitions_.nodedef(node.nodedef);
+  const NodeDef* def = implementations_.nodedef(node.nodedef);
   const Element* output = def == nullptr ? nullptr : def->outputs[source.output].element;
   if (output != nullptr && output->attribute("uniform") == "true") return;
   const std::string message = fmt::format("'{}' must not vary over the surface", input.name);
   const std::string expected = "a value, or constants passed along by dot nodes";
   if (is_numeric(input.type)) {
-    warning("varying-uniform", user, message, expected, fmt::format("<{}>", node.category));
+    complaints_.warning("varying-uniform", user, message, expected,
+                        fmt::format("<{}>", node.category));
     return;
   }
-  error("varying-uniform", user, message, expected, fmt::format("<{}>", node.category));
+  complaints_.error("varying-uniform", user, message, expected, fmt::format("<{}>", node.category));
   result.failed = true;
 }
 

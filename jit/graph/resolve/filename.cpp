@@ -1,4 +1,4 @@
-#include "jit/graph/filename.h"
+#include "jit/graph/resolve/filename.h"
 
 #include <fmt/format.h>
 

@@ -7,11 +7,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "jit/document/circles.h"
 #include "jit/document/inheritance.h"
 #include "jit/document/read.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/check_parts.h"
-#include "jit/graph/circles.h"
+#include "jit/graph/check/parts.h"
 
 namespace nacre {
 

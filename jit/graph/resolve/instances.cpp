@@ -1,14 +1,8 @@
-// Instances of nodes and the contexts they stand in.
+#include "jit/graph/resolve/instances.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "jit/document/inheritance.h"
-#include "jit/document/select.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/lenient.h"
-#include "jit/graph/node_source.h"
-#include "jit/graph/resolver.h"
 
 namespace nacre {
 
@@ -41,88 +35,10 @@ std::string join(const Context* context, std::string_view name) {
 
 }  // namespace
 
-bool Resolver::is_native(const NodeDef& def) const {
-  // What a material consists of is asked of the node itself, never of a graph.
-  if (def.category == "surfacematerial" || def.category == "volumematerial") return true;
-  return has_body(def) || runs_source(def);
-}
-
-bool Resolver::has_body(const NodeDef& def) const {
-  const bool has_graph = graph_of(def) != nullptr;
-  if (options_.prefer == Preference::graph && has_graph) return false;
-  return options_.is_native ? options_.is_native(def.name) : !has_graph;
-}
-
-/// Whether the text of an <implementation> stands for the nodedef.
-bool Resolver::runs_source(const NodeDef& def) const {
-  if (config_transform_of(def) != nullptr) return true;
-  if (definitions_.source_of(def) == nullptr || !may_be_source(def)) return false;
-  if (options_.prefer == Preference::source) return true;
-  return !has_body(def) && graph_of(def) == nullptr;
-}
-
-void Resolver::add_source(const NodeDef& def) {
-  if (!with_source_.insert(def.name).second) return;
-  const Transform* transform = config_transform_of(def);
-  graph_.sources.push_back(transform == nullptr ? node_source(def, *definitions_.source_of(def))
-                                                : config_source(def, *transform));
-}
-
-// A nodedef of the library keeps the library's implementation, and ours.
-void Resolver::say_unused_replacements(const NodeDef& def) {
-  for (const Element* own : definitions_.replacements(def)) {
-    const Element* used = runs_source(def) ? definitions_.source_of(def)
-                          : is_native(def) ? nullptr
-                                           : graph_of(def);
-    if (used != nullptr && &used->document() == &own->document()) return;
-    warning("ambiguous-implementation", *own,
-            fmt::format("'{}' has another implementation, which is used instead", def.name),
-            "a nodedef of its own",
-            used == nullptr ? "a native node" : fmt::format("'{}'", used->name()));
-  }
-}
-
-// Colour transforms made here have definitions of their own.
-const Definitions& Resolver::definitions_of(const Element& element) const {
-  for (const auto& [name, transform] : transforms_) {
-    if (transform.document.get() == &element.document()) return *transform.definitions;
-  }
-  return definitions_;
-}
-
-const Element* Resolver::graph_of(const NodeDef& def) const {
-  return definitions_of(*def.element).graph_of(def);
-}
-
-const NodeDef* Resolver::nodedef_of(const Element& node) {
-  const auto known = nodedefs_.find(&node);
-  if (known != nodedefs_.end()) return known->second;
-  const NodeDef* def = find_nodedef(node, definitions_of(node), diagnostics_,
-                                    options_.lenient ? stands_for : nullptr);
-  if (def != nullptr && def->inputs.size() > options_.max_inputs) {
-    error("too-many-inputs", node, "the node has too many inputs",
-          fmt::format("at most {}", options_.max_inputs), fmt::format("{}", def->inputs.size()));
-    def = nullptr;
-  }
-  const auto is_nameless = [](const Element& child) {
-    return child.category() == "input" && child.name().empty();
-  };
-  for (const Element& child : node.children()) {
-    if (def == nullptr || !is_nameless(child)) continue;
-    error("missing-name", child, "the input has no name", "name=\"NAME\"");
-    def = nullptr;
-  }
-  const std::size_t errors = diagnostics_.error_count();
-  node_inheritance(node, diagnostics_);
-  if (diagnostics_.error_count() != errors) def = nullptr;
-  nodedefs_.emplace(&node, def);
-  return def;
-}
-
-const Instance* Resolver::instance_of(const Element& element, const Context* context) {
-  const auto [place, is_new] = instance_of_.try_emplace({&element, context}, nullptr);
+const Instance* Instances::of(const Element& element, const Context* context) {
+  const auto [place, is_new] = of_element_.try_emplace({&element, context}, nullptr);
   if (!is_new) return place->second;
-  const NodeDef* def = nodedef_of(element);
+  const NodeDef* def = implementations_.nodedef_of(element);
   if (def == nullptr) return nullptr;
   Instance& instance = instances_.emplace_back();
   instance.element = &element;
@@ -134,7 +50,7 @@ const Instance* Resolver::instance_of(const Element& element, const Context* con
   return place->second = &instance;
 }
 
-Instance& Resolver::add_instance(const NodeDef& def, std::string path, const Element* origin) {
+Instance& Instances::add(const NodeDef& def, std::string path, const Element* origin) {
   Instance& instance = instances_.emplace_back();
   instance.def = &def;
   instance.path = std::move(path);
@@ -143,7 +59,7 @@ Instance& Resolver::add_instance(const NodeDef& def, std::string path, const Ele
   return instance;
 }
 
-const Context* Resolver::compound_context(const Element& graph, const Context* parent) {
+const Context* Instances::compound(const Element& graph, const Context* parent) {
   const auto [place, is_new] = compounds_.try_emplace({&graph, parent}, nullptr);
   if (!is_new) return place->second;
   Context& context = contexts_.emplace_back();
@@ -154,24 +70,24 @@ const Context* Resolver::compound_context(const Element& graph, const Context* p
   // A graph that implements a nodedef, looked at on its own: the nodedef's
   // defaults stand for its inputs.
   if (const NodeDef* def = definitions_.implemented_by(graph)) {
-    context.instance = &add_instance(*def, context.path, &graph);
+    context.instance = &add(*def, context.path, &graph);
     context.def = def;
   }
   return place->second = &context;
 }
 
-const Context* Resolver::functional_context(const Instance& instance, const Element& graph) {
+const Context* Instances::functional(const Instance& instance, const Element& graph) {
   const auto known = functionals_.find(&instance);
   if (known != functionals_.end()) return known->second;
   int depth = 0;
   for (const Context* at = instance.context; at != nullptr;) {
     const bool is_itself = at->graph == &graph;
     if (is_itself || ++depth > max_context_depth) {
-      error(is_itself ? "recursive-graph" : "too-deep", *instance.origin,
-            is_itself ? "the graph that implements the node contains the node itself"
-                      : "graphs that implement nodes are nested too deeply",
-            is_itself ? "" : fmt::format("at most {} levels", max_context_depth),
-            instance.path.substr(0, 200));
+      complaints_.error(is_itself ? "recursive-graph" : "too-deep", *instance.origin,
+                        is_itself ? "the graph that implements the node contains the node itself"
+                                  : "graphs that implement nodes are nested too deeply",
+                        is_itself ? "" : fmt::format("at most {} levels", max_context_depth),
+                        instance.path.substr(0, 200));
       functionals_.emplace(&instance, nullptr);
       return nullptr;
     }
@@ -187,10 +103,8 @@ const Context* Resolver::functional_context(const Instance& instance, const Elem
   return &context;
 }
 
-// What the chosen variants say of an input or token of that name; null if nothing. Of
-// those that do, the last one chosen counts.
-const Element* Resolver::variant_child(std::string_view category, std::string_view name,
-                                       const Instance* instance) const {
+const Element* Instances::of_variant(std::string_view category, std::string_view name,
+                                     const Instance* instance) const {
   const auto fits = [&](std::string_view wanted, std::string_view own, std::string_view other) {
     return wanted.empty() || wanted == own || wanted == other;
   };
@@ -209,13 +123,13 @@ const Element* Resolver::variant_child(std::string_view category, std::string_vi
   return nullptr;
 }
 
-const Element* Resolver::input_element(const Instance& instance, std::string_view name) const {
+const Element* Instances::input(const Instance& instance, std::string_view name) const {
   if (!options_.variants.empty() && instance.element != nullptr &&
       &instance.element->document() == &document_) {
     const Type type = instance.def->outputs.empty() ? Type::none : instance.def->outputs[0].type;
     const bool is_shader = type >= Type::surfaceshader && type <= Type::lightshader;
     if (is_shader || instance.element->child(name) != nullptr) {
-      if (const Element* input = variant_child("input", name, &instance)) return input;
+      if (const Element* input = of_variant("input", name, &instance)) return input;
     }
   }
   // An instance may inherit inputs from another of its class (Specification,
@@ -231,8 +145,8 @@ const Element* Resolver::input_element(const Instance& instance, std::string_vie
   return nullptr;
 }
 
-std::optional<std::uint32_t> Resolver::output_index(const NodeDef& def, std::string_view name,
-                                                    const Element& user, std::uint32_t leaf) {
+std::optional<std::uint32_t> Instances::output_index(const NodeDef& def, std::string_view name,
+                                                     const Element& user, std::uint32_t leaf) {
   if (name.empty()) {
     if (def.outputs.size() == 1) return 0;
     // The leaves of one structure are one output.
@@ -240,11 +154,11 @@ std::optional<std::uint32_t> Resolver::output_index(const NodeDef& def, std::str
       return leaf - 1;
     }
     const std::string found =
-        options_.lenient ? fmt::format("taken: '{}'", def.outputs[0].name) : "";
-    const bool takes_first =
-        tolerates("output-required", user,
-                  fmt::format("'{}' has several outputs and none is named", def.category),
-                  "the first is taken", "output=\"NAME\"", found);
+        complaints_.is_lenient() ? fmt::format("taken: '{}'", def.outputs[0].name) : "";
+    const bool takes_first = complaints_.tolerates(
+        "output-required", user,
+        fmt::format("'{}' has several outputs and none is named", def.category),
+        "the first is taken", "output=\"NAME\"", found);
     return takes_first ? std::optional<std::uint32_t>(0) : std::nullopt;
   }
   for (std::uint32_t i = 0; i < def.outputs.size(); ++i) {
@@ -257,22 +171,21 @@ std::optional<std::uint32_t> Resolver::output_index(const NodeDef& def, std::str
   }
   const std::string message = fmt::format("'{}' has no such output", def.category);
   if (def.outputs.size() == 1 && leaf == 0) {
-    const bool takes_only = tolerates("unknown-output", user, message, "its only one is taken",
-                                      names, fmt::format("'{}'", name));
+    const bool takes_only = complaints_.tolerates(
+        "unknown-output", user, message, "its only one is taken", names, fmt::format("'{}'", name));
     return takes_only ? std::optional<std::uint32_t>(0) : std::nullopt;
   }
-  error("unknown-output", user, message, names, fmt::format("'{}'", name));
+  complaints_.error("unknown-output", user, message, names, fmt::format("'{}'", name));
   return std::nullopt;
 }
 
-// "Nworld" becomes the node that its geompropdef describes, once per graph.
-const Instance* Resolver::geomprop_instance(std::string_view name, const Element& user) {
+const Instance* Instances::of_geomprop(std::string_view name, const Element& user) {
   const auto known = geomprops_.find(name);
   if (known != geomprops_.end()) return known->second;
   const Element* geomprop = definitions_.geompropdef(name);
   if (geomprop == nullptr) {
-    error("unknown-geomprop", user, "there is no geometric property of this name",
-          "the name of a <geompropdef>", fmt::format("'{}'", name));
+    complaints_.error("unknown-geomprop", user, "there is no geometric property of this name",
+                      "the name of a <geompropdef>", fmt::format("'{}'", name));
     return nullptr;
   }
   const std::string_view type = geomprop->attribute("type");
@@ -282,20 +195,20 @@ const Instance* Resolver::geomprop_instance(std::string_view name, const Element
   if (is_custom) def = definitions_.nodedef(fmt::format("ND_geompropvalue_{}", type));
   // A document may have nodedefs of such names for something else.
   if (def == nullptr || def->outputs.size() != 1 || def->outputs[0].type_text != type) {
-    error("unknown-geomprop", *geomprop, "no node gives this geometric property", "",
-          fmt::format("{} of type {}", kind, type));
+    complaints_.error("unknown-geomprop", *geomprop, "no node gives this geometric property", "",
+                      fmt::format("{} of type {}", kind, type));
     return nullptr;
   }
-  Instance& added = add_instance(*def, std::string(name), &user);
+  Instance& added = add(*def, std::string(name), &user);
   for (const NodeDefInput& input : def->inputs) {
     std::string_view text = geomprop->attribute(input.name);
     if (is_custom && input.name == "geomprop" && text.empty()) text = geomprop->name();
     if (text.empty()) continue;
     auto value = parse_value(input.type, text);
     if (!value) {
-      error("bad-value", *geomprop,
-            fmt::format("the {} does not fit the type {}", input.name, input.type_text),
-            expected_text(input.type), fmt::format("'{}'", text));
+      complaints_.error("bad-value", *geomprop,
+                        fmt::format("the {} does not fit the type {}", input.name, input.type_text),
+                        expected_text(input.type), fmt::format("'{}'", text));
       return nullptr;
     }
     added.inputs.emplace_back(input.name, literal(std::move(*value)));

@@ -1,4 +1,4 @@
-#include "jit/graph/circles.h"
+#include "jit/document/circles.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "jit/graph/lenient.h"
+#include "jit/graph/resolve/lenient.h"
 
 #include <fmt/format.h>
 

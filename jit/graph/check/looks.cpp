@@ -6,10 +6,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "jit/document/circles.h"
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/check_parts.h"
-#include "jit/graph/circles.h"
+#include "jit/graph/check/parts.h"
 
 namespace nacre {
 

@@ -1,4 +1,4 @@
-#include "jit/graph/geometry_names.h"
+#include "jit/graph/look/geometry_names.h"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "jit/document/read.h"
-#include "jit/graph/colorspace.h"
-#include "jit/graph/resolver.h"
+#include "jit/graph/color/color_transforms.h"
+#include "jit/graph/color/colorspace.h"
 
 namespace nacre {
 
@@ -28,55 +28,44 @@ std::string transform_nodedefs(const std::string& name) {
 
 }  // namespace
 
-std::string find_working_space(const GraphOptions& options, const Document& document) {
-  std::string name = options.working_space.value_or("");
-  if (name.empty() && options.working_space) name = document.root().attribute("colorspace");
-  if (!name.empty()) return name;
-  const auto has = [&](const char* space) {
-    return options.colors != nullptr && options.colors->find(space).has_value();
-  };
-  const bool reaches_rec709 = has("lin_rec709") || has("aces_interchange");
-  return !reaches_rec709 && has("scene_linear") ? "scene_linear" : "lin_rec709";
-}
-
 // Nothing where the configuration does not have both spaces.
-std::optional<Resolver::ConfigSpaces> Resolver::config_spaces(std::string_view from,
-                                                              std::string_view to) const {
-  if (options_.colors == nullptr) return std::nullopt;
-  auto source = options_.colors->find(from);
+std::optional<ColorTransforms::ConfigSpaces> ColorTransforms::config_spaces(
+    std::string_view from, std::string_view to) const {
+  if (config_ == nullptr) return std::nullopt;
+  auto source = config_->find(from);
   if (!source) return std::nullopt;
-  auto target = options_.colors->find(to);
+  auto target = config_->find(to);
   if (!target) return std::nullopt;
   return ConfigSpaces{std::move(*source), std::move(*target), "", ""};
 }
 
 // One end of the configuration and one built in meet where the configuration says what
 // ACES 2065-1 is: its role aces_interchange is there to convert between configurations.
-std::optional<Resolver::ConfigSpaces> Resolver::bridged_spaces(std::string_view from,
-                                                               std::string_view to) const {
+std::optional<ColorTransforms::ConfigSpaces> ColorTransforms::bridged_spaces(
+    std::string_view from, std::string_view to) const {
   const auto is_built_in = [](std::string_view name) {
     return color_matrix(canonical_colorspace(name), aces_interchange).has_value();
   };
-  if (options_.colors == nullptr) return std::nullopt;
-  const auto bridge = options_.colors->find("aces_interchange");
+  if (config_ == nullptr) return std::nullopt;
+  const auto bridge = config_->find("aces_interchange");
   if (!bridge) return std::nullopt;
-  const auto source = options_.colors->find(from);
+  const auto source = config_->find(from);
   if (source && is_built_in(to)) {
     return ConfigSpaces{*source, *bridge, "", std::string(canonical_colorspace(to))};
   }
-  const auto target = options_.colors->find(to);
+  const auto target = config_->find(to);
   if (target && is_built_in(from)) {
     return ConfigSpaces{*bridge, *target, std::string(canonical_colorspace(from)), ""};
   }
   return std::nullopt;
 }
 
-bool Resolver::is_conversion(const ConfigSpaces& spaces) {
-  if (spaces.from.is_data || spaces.to.is_data) return false;
-  return spaces.from.name != spaces.to.name || !spaces.before.empty() || !spaces.after.empty();
+bool ColorTransforms::ConfigSpaces::differ() const {
+  if (from.is_data || to.is_data) return false;
+  return from.name != to.name || !before.empty() || !after.empty();
 }
 
-const NodeDef* Resolver::find_config_transform(const ConfigSpaces& spaces, Type type,
+const NodeDef* ColorTransforms::find_in_config(const ConfigSpaces& spaces, Type type,
                                                const Element& user) {
   const std::string& from = spaces.from.name;
   const std::string& to = spaces.to.name;
@@ -84,25 +73,26 @@ const NodeDef* Resolver::find_config_transform(const ConfigSpaces& spaces, Type 
       transforms_.try_emplace(fmt::format("{}\n{}\n{}\n{}", spaces.before, from, to, spaces.after));
   Transform& made = place->second;
   if (is_new) {
-    made.color = options_.colors->transform(from, to, made.fault);
+    made.color = config_->transform(from, to, made.fault);
     made.spaces = spaces;
     made.name = fmt::format("config_transform_{}", transforms_.size());
-    made.where = {fmt::format("{}: '{}' to '{}'", options_.colors->name(), from, to), 1, 0, {}};
+    made.where = {fmt::format("{}: '{}' to '{}'", config_->name(), from, to), 1, 0, {}};
     Diagnostics none;
     made.document = read_document_text(transform_nodedefs(made.name), made.name, {}, none);
     made.definitions = std::make_unique<Definitions>(*made.document, &definitions_, none);
   }
   if (made.color == nullptr) {
-    error("no-color-transform", user,
-          fmt::format("{} has no transform from '{}' to '{}'", options_.colors->name(), from, to),
-          "", made.fault);
+    complaints_.error(
+        "no-color-transform", user,
+        fmt::format("{} has no transform from '{}' to '{}'", config_->name(), from, to), "",
+        made.fault);
     return nullptr;
   }
   return made.definitions->nodedef(fmt::format("ND_{}_{}", made.name, type_name(type)));
 }
 
-// The transform that a nodedef was made for by find_config_transform, or null.
-const Resolver::Transform* Resolver::config_transform_of(const NodeDef& def) const {
+// The transform that a nodedef was made for by find_in_config, or null.
+const ColorTransforms::Transform* ColorTransforms::transform_of(const NodeDef& def) const {
   for (const auto& [key, transform] : transforms_) {
     if (transform.color != nullptr && transform.document.get() == &def.element->document()) {
       return &transform;
@@ -111,9 +101,11 @@ const Resolver::Transform* Resolver::config_transform_of(const NodeDef& def) con
   return nullptr;
 }
 
-NodeSource Resolver::config_source(const NodeDef& def, const Transform& transform) const {
-  const ColorTransform& color = *transform.color;
-  const ConfigSpaces& spaces = transform.spaces;
+std::optional<NodeSource> ColorTransforms::source_of(const NodeDef& def) const {
+  const Transform* transform = transform_of(def);
+  if (transform == nullptr) return std::nullopt;
+  const ColorTransform& color = *transform->color;
+  const ConfigSpaces& spaces = transform->spaces;
   NodeSource source;
   source.nodedef = def.name;
   source.text = color.text + '\n';
@@ -132,9 +124,9 @@ NodeSource Resolver::config_source(const NodeDef& def, const Transform& transfor
       "{0} {1}({0} given) {{ vec4 c = {2}; {3}c = {4}(c); {5}return c{6}; }}\n",
       is_opaque ? "vec3" : "vec4", source.function, is_opaque ? "vec4(given, 1.0)" : "given",
       before, color.function, after, is_opaque ? ".rgb" : "");
-  source.document = options_.colors->name();
+  source.document = config_->name();
   source.tables = color.tables;
-  source.where = transform.where;
+  source.where = transform->where;
   return source;
 }
 

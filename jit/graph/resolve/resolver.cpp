@@ -1,4 +1,4 @@
-#include "jit/graph/resolver.h"
+#include "jit/graph/resolve/resolver.h"
 
 #include <fmt/format.h>
 
@@ -30,12 +30,12 @@ std::size_t Resolver::KeyHash::operator()(const Key& key) const {
   return a ^ (b >> 7) ^ (std::size_t{key.index} << 3) ^ static_cast<std::size_t>(key.kind);
 }
 
-Resolver::Result Resolver::run(Key key) {
+Resolved Resolver::run(Key key) {
   if (const auto known = slots_.find(key); known != slots_.end()) return known->second.result;
   std::deque<Frame> stack;
   const auto open = [&](const Key& wanted) {
     Slot& slot = slots_[wanted];
-    stack.push_back({wanted, &slot, slot.result, 0, {}});
+    stack.push_back({wanted, &slot, slot.result, Stage::start, 0, {}});
   };
   open(key);
   while (!stack.empty()) {
@@ -68,8 +68,8 @@ Resolver::Result Resolver::run(Key key) {
   return slots_.at(key).result;
 }
 
-Resolver::Result Resolver::failure() {
-  Result result;
+Resolved Resolver::failure() {
+  Resolved result;
   result.failed = true;
   return result;
 }
@@ -79,20 +79,21 @@ Resolver::Result Resolver::failure() {
 double Resolver::fullness() const {
   const auto limit = static_cast<double>(options_.max_nodes);
   return std::max({static_cast<double>(graph_.nodes.size()) / limit,
-                   static_cast<double>(instances_.size()) / (1.5 * limit),
-                   static_cast<double>(bytes_) / (bytes_of_node * limit)});
+                   static_cast<double>(instances_.count()) / (1.5 * limit),
+                   static_cast<double>(bytes_ + instances_.bytes()) / (bytes_of_node * limit)});
 }
 
 bool Resolver::is_too_large(const Frame& frame) {
   if (fullness() <= 1) return false;
   if (!too_large_) {
     const auto most = static_cast<double>(options_.max_nodes);
-    if (static_cast<double>(bytes_) > bytes_of_node * most) {
-      error("graph-too-large", where(frame), "the names and values in the graph take too much",
-            fmt::format("at most {:.0f} bytes", bytes_of_node * most));
+    if (static_cast<double>(bytes_ + instances_.bytes()) > bytes_of_node * most) {
+      complaints_.error("graph-too-large", where(frame),
+                        "the names and values in the graph take too much",
+                        fmt::format("at most {:.0f} bytes", bytes_of_node * most));
     } else {
-      error("too-many-nodes", where(frame), "the graph has too many nodes",
-            fmt::format("at most {}", options_.max_nodes));
+      complaints_.error("too-many-nodes", where(frame), "the graph has too many nodes",
+                        fmt::format("at most {}", options_.max_nodes));
     }
   }
   too_large_ = true;
@@ -103,7 +104,7 @@ bool Resolver::is_due(const Frame& frame) {
   if (due_) return true;
   if ((++steps_ & 0x3F) != 0 || !options_.stop.is_due()) return false;
   return due_ = report_if_due(options_.stop, "building the graph", location(where(frame)),
-                              diagnostics_);
+                              complaints_.diagnostics());
 }
 
 const Element& Resolver::where(const Frame& frame) {
@@ -143,34 +144,19 @@ void Resolver::report_cycle(const std::deque<Frame>& stack, const Key& again) {
   }
   if (shown > 16) path += fmt::format(" <- ({} more)", shown - 16);
   if (where == nullptr) where = &document_.root();
-  error("cycle", *where, "the connections form a cycle", "", path);
+  complaints_.error("cycle", *where, "the connections form a cycle", "", path);
 }
 
-Resolver::Result Resolver::resolve_port(const Element& port, const Context* context,
-                                        std::uint32_t leaf) {
+Resolved Resolver::resolve_port(const Element& port, const Context* context, std::uint32_t leaf) {
   return run({Kind::port, leaf, &port, context});
 }
 
-Resolver::Result Resolver::resolve_node(const Element& node, std::string_view output,
-                                        const Context* context) {
-  const Instance* instance = instance_of(node, context);
+Resolved Resolver::resolve_node(const Element& node, std::string_view output,
+                                const Context* context) {
+  const Instance* instance = instances_.of(node, context);
   if (instance == nullptr) return failure();
-  const auto index = output_index(*instance->def, output, node);
+  const auto index = instances_.output_index(*instance->def, output, node);
   return index ? run({Kind::output, *index, instance, nullptr}) : failure();
-}
-
-void Resolver::error(std::string code, const Element& element, std::string message,
-                     std::string expected, std::string found) {
-  diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
-                     std::move(found));
-}
-
-void Resolver::warning(std::string code, const Element& element, std::string message,
-                       std::string expected, std::string found) {
-  // Inlined graphs meet the same element in many contexts.
-  if (!reported_.emplace(code + element_path(element), true).second) return;
-  diagnostics_.warning(std::move(code), location(element), std::move(message), std::move(expected),
-                       std::move(found));
 }
 
 }  // namespace nacre

@@ -1,0 +1,182 @@
+// What <input> and <output> elements come to: what they are connected to, or their value.
+#include <fmt/format.h>
+
+#include "jit/document/select.h"
+#include "jit/document/value_text.h"
+#include "jit/graph/resolve/lenient.h"
+#include "jit/graph/resolve/resolver.h"
+
+namespace nacre {
+
+std::optional<Resolver::Key> Resolver::step_port(Frame& frame) {
+  const Element& port = *static_cast<const Element*>(frame.key.subject);
+  if (frame.stage == Stage::start) return start_port(frame, port);
+  if (frame.stage == Stage::received) {
+    frame.result = waited(frame);
+    return is_leaf(frame) ? std::nullopt : check_port_type(frame, port);
+  }
+  const Element* carrier = frame.result.carrier;
+  frame.result = waited(frame);
+  frame.result.carrier = carrier;
+  return std::nullopt;
+}
+
+std::optional<Resolver::Key> Resolver::start_port(Frame& frame, const Element& port) {
+  const Context* context = frame.key.context;
+  const std::uint32_t leaf = frame.key.index;
+  frame.stage = Stage::received;
+  const Connection connection = connection_of(port);
+  switch (connection.kind) {
+    case Connection::Kind::invalid: frame.result.failed = true; return std::nullopt;
+    case Connection::Kind::none: return port_without_source(frame, port);
+    case Connection::Kind::interface: return follow_interface(frame, port, connection.output);
+    case Connection::Kind::node: {
+      const Instance* instance = instances_.of(*connection.target, context);
+      const auto index = instance == nullptr ? std::nullopt
+                                             : instances_.output_index(
+                                                   *instance->def, connection.output, port, leaf);
+      frame.result.failed = !index;
+      if (!index) return std::nullopt;
+      return Key{Kind::output, *index, instance, nullptr};
+    }
+    case Connection::Kind::output: {
+      const Element& owner = *connection.target->parent();
+      if (owner.parent() == nullptr) return Key{Kind::port, leaf, connection.target, nullptr};
+      const Context* outside = owner.parent()->parent() == nullptr ? nullptr : context;
+      return Key{Kind::port, leaf, connection.target, instances_.compound(owner, outside)};
+    }
+    case Connection::Kind::value: {
+      const auto type = parse_type(port.attribute("type"));
+      if (type || is_leaf(frame)) return take_value(frame, port, type.value_or(Type::none));
+      complaints_.error("unsupported-type", port, "the type is not supported", "a standard type",
+                        fmt::format("'{}'", port.attribute("type")));
+      frame.result.failed = true;
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+// Inlined graphs meet the same port in many contexts: warnings are given once.
+Connection Resolver::connection_of(const Element& port) {
+  Diagnostics said;
+  const Connection connection = find_connection(port, said, complaints_.is_lenient());
+  complaints_.add(said, port);
+  return connection;
+}
+
+// What a port says itself, or of a structure the default of a leaf.
+std::optional<Resolver::Key> Resolver::take_value(Frame& frame, const Element& port, Type type) {
+  Resolved& result = frame.result;
+  if (is_leaf(frame)) {
+    literals_.take_leaf(port, frame.key.index - 1, result);
+    return std::nullopt;
+  }
+  frame.stage = Stage::converted;
+  literals_.take(port, type, frame.key.context, result);
+  if (result.failed) return std::nullopt;
+  return convert_colour(result.source, type, port.inherited_attribute("colorspace"),
+                        element_path(port), port);
+}
+
+// A name inside a graph stands for the input of that graph, or, if the graph
+// implements a nodedef, for the input of the node it stands for.
+std::optional<Resolver::Key> Resolver::follow_interface(Frame& frame, const Element& port,
+                                                        std::string_view name) {
+  const Context* context = frame.key.context;
+  if (context != nullptr && context->instance != nullptr) {
+    const std::vector<NodeDefInput>& inputs = context->def->inputs;
+    for (std::uint32_t i = 0; i < inputs.size(); ++i) {
+      if (inputs[i].member.port == name && inputs[i].member.leaf == frame.key.index) {
+        return Key{Kind::input, i, context->instance, nullptr};
+      }
+    }
+    return without_interface(frame, port, name);
+  }
+  const Element& graph = context == nullptr ? port.document().root() : *context->graph;
+  const Element* input = graph.child(name);
+  if (input == nullptr || input->category() != "input") {
+    return without_interface(frame, port, name);
+  }
+  return Key{Kind::port, frame.key.index, input, context == nullptr ? nullptr : context->parent};
+}
+
+// A name that no input has: with GraphOptions::lenient a node does without.
+std::optional<Resolver::Key> Resolver::without_interface(Frame& frame, const Element& port,
+                                                         std::string_view name) {
+  Resolved& result = frame.result;
+  const bool has_default = port.category() == "input" && is_node(*port.parent());
+  const std::string message = "the graph around it has no such input";
+  const std::string expected = "the name of an input of the graph";
+  const std::string found = fmt::format("'{}'", name);
+  if (!has_default) {
+    complaints_.error("unknown-interface", port, message, expected, found);
+    result.failed = true;
+    return std::nullopt;
+  }
+  const bool has_value = port.has_attribute("value") && !is_leaf(frame);
+  result.failed = !complaints_.tolerates("unknown-interface", port, message,
+                                         has_value ? "its value is used" : "the default is used",
+                                         expected, found);
+  if (result.failed) return std::nullopt;
+  const auto type = parse_type(port.attribute("type"));
+  result.is_absent = !has_value || !type;
+  if (result.is_absent) return std::nullopt;
+  return take_value(frame, port, *type);
+}
+
+// Only graph interfaces and outputs come here: a node's input without a source
+// takes the nodedef's default.
+std::optional<Resolver::Key> Resolver::port_without_source(Frame& frame, const Element& port) {
+  const auto type = parse_type(port.attribute("type"));
+  frame.result.type = type.value_or(Type::none);
+  frame.stage = Stage::converted;
+  if (port.category() == "output") {
+    const std::string message = "the output is not connected to anything";
+    if (is_leaf(frame) || !is_numeric(frame.result.type)) {
+      complaints_.error("unconnected-output", port, message, "nodename or nodegraph");
+      frame.result.failed = true;
+      return std::nullopt;
+    }
+    frame.result.failed = !complaints_.tolerates("unconnected-output", port, message, "it is zero",
+                                                 "nodename or nodegraph");
+    frame.result.source.kind = Source::Kind::literal;
+    frame.result.source.value = zero_value(frame.result.type);
+    return std::nullopt;
+  }
+  if (is_leaf(frame)) return take_value(frame, port, frame.result.type);
+  const std::string_view geomprop_name = port.attribute("defaultgeomprop");
+  if (!geomprop_name.empty()) {
+    const Instance* geomprop = instances_.of_geomprop(geomprop_name, port);
+    frame.result.failed = geomprop == nullptr;
+    if (geomprop == nullptr) return std::nullopt;
+    return output_of(*geomprop);
+  }
+  if (!is_numeric(frame.result.type) && !is_text(frame.result.type)) return std::nullopt;
+  frame.result.source.kind = Source::Kind::literal;
+  frame.result.source.value = zero_value(frame.result.type);
+  return std::nullopt;
+}
+
+std::optional<Resolver::Key> Resolver::check_port_type(Frame& frame, const Element& port) {
+  Resolved& result = frame.result;
+  if (result.failed || result.is_absent) return std::nullopt;
+  const Type type = parse_type(port.attribute("type")).value_or(Type::none);
+  take_string(type, result);
+  if (result.type == type) return std::nullopt;
+  const std::string message = "what is connected here has another type";
+  const std::string expected(port.attribute("type"));
+  const std::string found(type_name(result.type));
+  if (stands_for(result.type, type)) {
+    if (complaints_.tolerates("type-mismatch", port, message, "it is converted", expected, found)) {
+      frame.stage = Stage::converted;
+      return retype(result, type, element_path(port), port);
+    }
+  } else {
+    complaints_.error("type-mismatch", port, message, expected, found);
+  }
+  result.failed = true;
+  return std::nullopt;
+}
+
+}  // namespace nacre
