@@ -6,7 +6,7 @@
 
 #include "jit/document/definitions.h"
 #include "jit/document/document.h"
-#include "jit/graph/build.h"
+#include "jit/graph/options.h"
 #include "runtime/diagnostic.h"
 #include "runtime/type.h"
 
@@ -51,9 +51,22 @@ class ElementCheck {
 void check_structure(const Document& document, const Definitions& definitions, bool lenient,
                      Diagnostics& diagnostics);
 
-/// What nodedefs, implementations, types, units and geometric properties declare.
+/// Nodedefs, implementations, types, units, geometric properties, targets.
 void check_declarations(const Document& document, const Definitions& definitions, bool lenient,
                         Diagnostics& diagnostics);
+
+// The parts of check_declarations that have a file of their own.
+void check_nodedefs(const Document& document, const Definitions& definitions, bool lenient,
+                    Diagnostics& diagnostics);
+void check_implementations(const Document& document, const Definitions& definitions, bool lenient,
+                           Diagnostics& diagnostics);
+void check_typedefs(const Document& document, const Definitions& definitions,
+                    Diagnostics& diagnostics);
+
+/// An <input> or <output>: its type, what it is connected to, its value, unit and tokens.
+void check_port(const Element& port, const Definitions& definitions, bool lenient,
+                Diagnostics& diagnostics);
+void check_token(const Element& token, const Definitions& definitions, Diagnostics& diagnostics);
 
 /// Looks and what they assign: materials, collections, properties, variants.
 void check_looks(const Document& document, const Definitions& definitions,
