@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/common/kernel_run.h"
-#include "jit/compile.h"
+#include "jit/compile/compile.h"
 
 namespace nacre::bench {
 

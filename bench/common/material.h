@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/common/kernel_run.h"
-#include "jit/compile.h"
+#include "jit/compile/compile.h"
 #include "jit/graph/build.h"
 #include "jit/graph/graph.h"
 #include "jit/record/bodies.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "bench/common/kernel_run.h"
-#include "jit/compile.h"
+#include "jit/compile/compile.h"
 #include "jit/document/document.h"
 #include "jit/service/compile_service.h"
 #include "jit/shading/shading_system.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bench/common/kernel_run.h"
-#include "jit/compile.h"
+#include "jit/compile/compile.h"
 
 namespace nacre::bench {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/textures/lookups.h"
-#include "jit/compile.h"
+#include "jit/compile/compile.h"
 #include "jit/shading/bound_kernel.h"
 
 namespace nacre::bench {

@@ -230,26 +230,4 @@ std::shared_ptr<CompiledKernel> CompileService::request(Program program,
   return request_all(std::move(programs), options, diagnostics).front();
 }
 
-std::vector<std::shared_ptr<const Kernel>> CompileService::compile(std::vector<Program> programs,
-                                                                   const CompileOptions& options,
-                                                                   Diagnostics& diagnostics) {
-  const CodegenOptions codegen = codegen_options(options);
-  if (!options.asynchronous) {
-    auto kernels = request_all(std::move(programs), codegen, diagnostics,
-                               options.stop.within(options.max_seconds));
-    return {kernels.begin(), kernels.end()};
-  }
-  std::vector<std::shared_ptr<const Kernel>> kernels;
-  for (Program& program : programs) kernels.push_back(request_async(std::move(program), codegen));
-  return kernels;
-}
-
-CodegenOptions codegen_options(const CompileOptions& options) {
-  CodegenOptions made;
-  made.accuracy = options.accuracy;
-  made.lanes = options.lanes != 0 ? options.lanes : widest_lanes(made.target);
-  made.max_steps = options.max_steps;
-  return made;
-}
-
 }  // namespace nacre

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "jit/compile.h"
 #include "jit/llvm/codegen.h"
 #include "jit/llvm/session.h"
 #include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -66,15 +66,6 @@ class CompileService {
   /// Returns at once.
   virtual std::shared_ptr<CompiledKernel> request_async(Program program,
                                                         const CodegenOptions& options) = 0;
-
-  /// One of the two, as `options` of the whole pipeline say.
-  std::vector<std::shared_ptr<const Kernel>> compile(std::vector<Program> programs,
-                                                     const CompileOptions& options,
-                                                     Diagnostics& diagnostics);
 };
-
-/// What the options of the pipeline mean for LLVM; lanes 0 becomes the widest
-/// that pays on this machine.
-CodegenOptions codegen_options(const CompileOptions& options);
 
 }  // namespace nacre

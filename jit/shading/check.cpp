@@ -1,15 +1,13 @@
-// ShadingSystem::check: what compiling would say, without machine code.
-#include "jit/graph/check/check.h"
+#include "jit/shading/check.h"
 
 #include <set>
 #include <tuple>
 #include <utility>
 
+#include "jit/graph/check/check.h"
 #include "jit/graph/find.h"
 #include "jit/graph/resolve/node_source.h"
-#include "jit/record/source_bodies.h"
 #include "jit/shading/compilation.h"
-#include "runtime/float_environment.h"
 
 namespace nacre {
 
@@ -38,92 +36,102 @@ void append(const Diagnostics& some, Diagnostics& all) {
   for (const Diagnostic& one : some.all()) all.add(one);
 }
 
+/// What compiling would say, without machine code.
+class ShadingCheck {
+ public:
+  ShadingCheck(const Document& document, const SystemParts& parts, const ShaderOptions& options)
+      : document_(document), parts_(parts), options_(options) {}
+
+  void run(Diagnostics& diagnostics) {
+    Diagnostics found;
+    if (check_document(document_, *parts_.library, parts_.graph_options(options_), found)) {
+      check_sources(found);
+      check_outputs(found);
+      for (const std::string& material : names_of_materials(document_)) {
+        if (options_.compile.stop.is_due() && found.has_errors()) break;
+        check_material(material, found);
+      }
+    }
+    add_once(found, diagnostics);
+  }
+
+ private:
+  void check_sources(Diagnostics& diagnostics) {
+    Diagnostics known;
+    const Definitions definitions(document_, &parts_.library->definitions(), known);
+    for (const NodeDef* def : definitions.all()) {
+      const Element* source = definitions.source_of(*def);
+      if (source == nullptr || &source->document() != &document_ || !may_be_source(*def)) continue;
+      parts_.sources->check(node_source(*def, *source), *def, diagnostics);
+    }
+  }
+
+  // All at once, so that what outputs share is recorded once; where that goes wrong, halves of
+  // them, down to the one that is at fault.
+  void check_outputs(Diagnostics& diagnostics) {
+    std::vector<std::string> kernels;
+    std::vector<std::string> parts;  // Of kernels: closures, shaders, texts.
+    for (const FoundOutput& output : find_outputs(document_)) {
+      if (output.type == Type::material) continue;
+      (has_kernel(output.type) ? kernels : parts).push_back(output.name);
+    }
+    Diagnostics known;
+    const Definitions definitions(document_, &parts_.library->definitions(), known);
+    for (const FoundOutput& shader : find_loose_shaders(document_, definitions)) {
+      parts.push_back(shader.name);
+    }
+    for (const std::vector<std::string>* names : {&kernels, &parts}) {
+      std::vector<std::vector<std::string>> pending;
+      if (!names->empty()) pending.push_back(*names);
+      while (!pending.empty()) {
+        const std::vector<std::string> some = std::move(pending.back());
+        pending.pop_back();
+        Diagnostics said;
+        try_outputs(some, names == &kernels, said);
+        if (!said.has_errors() || some.size() == 1 || options_.compile.stop.is_due()) {
+          append(said, diagnostics);
+          continue;
+        }
+        const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+        pending.emplace_back(middle, some.end());
+        pending.emplace_back(some.begin(), middle);
+      }
+    }
+  }
+
+  void try_outputs(const std::vector<std::string>& names, bool are_kernels,
+                   Diagnostics& diagnostics) {
+    Compilation compilation(parts_, options_, diagnostics);
+    const auto graph = compilation.build(document_, {.outputs = names, .material = {}});
+    if (!graph) return;
+    if (!are_kernels) {
+      compilation.record(*graph);
+    } else if (auto recorded = compilation.record_outputs(*graph)) {
+      compilation.try_stages(std::move(recorded->programs));
+    }
+  }
+
+  void check_material(const std::string& material, Diagnostics& diagnostics) {
+    Diagnostics said;
+    Compilation compilation(parts_, options_, said);
+    const auto graph = compilation.build(document_, {.outputs = {}, .material = material});
+    if (graph) {
+      auto recorded = compilation.record_material(*graph, location_of(document_, material));
+      if (recorded) compilation.try_stages(std::move(recorded->programs));
+    }
+    append(said, diagnostics);
+  }
+
+  const Document& document_;
+  const SystemParts& parts_;
+  const ShaderOptions& options_;
+};
+
 }  // namespace
 
-void ShadingSystem::check(const Document& document, const ShaderOptions& asked,
-                          Diagnostics& diagnostics) {
-  const ScopedDefaultFloatEnvironment environment;
-  const ShaderOptions options = from_now(asked);
-  Diagnostics found;
-  if (check_document(document, *library_, graph_options(options), found)) {
-    check_sources(document, found);
-    check_outputs(document, options, found);
-    for (const std::string& material : names_of_materials(document)) {
-      if (options.compile.stop.is_due() && found.has_errors()) break;
-      check_material(document, material, options, found);
-    }
-  }
-  add_once(found, diagnostics);
-}
-
-void ShadingSystem::check_sources(const Document& document, Diagnostics& diagnostics) {
-  Diagnostics known;
-  const Definitions definitions(document, &library_->definitions(), known);
-  for (const NodeDef* def : definitions.all()) {
-    const Element* source = definitions.source_of(*def);
-    if (source == nullptr || &source->document() != &document || !may_be_source(*def)) continue;
-    sources_->check(node_source(*def, *source), *def, diagnostics);
-  }
-}
-
-// All at once, so that what outputs share is recorded once; where that goes wrong, halves of
-// them, down to the one that is at fault.
-void ShadingSystem::check_outputs(const Document& document, const ShaderOptions& options,
-                                  Diagnostics& diagnostics) {
-  std::vector<std::string> kernels;
-  std::vector<std::string> parts;  // Of kernels: closures, shaders, texts.
-  for (const FoundOutput& output : find_outputs(document)) {
-    if (output.type == Type::material) continue;
-    (has_kernel(output.type) ? kernels : parts).push_back(output.name);
-  }
-  Diagnostics known;
-  const Definitions definitions(document, &library_->definitions(), known);
-  for (const FoundOutput& shader : find_loose_shaders(document, definitions)) {
-    parts.push_back(shader.name);
-  }
-  for (const std::vector<std::string>* names : {&kernels, &parts}) {
-    std::vector<std::vector<std::string>> pending;
-    if (!names->empty()) pending.push_back(*names);
-    while (!pending.empty()) {
-      const std::vector<std::string> some = std::move(pending.back());
-      pending.pop_back();
-      Diagnostics said;
-      try_outputs(document, some, names == &kernels, options, said);
-      if (!said.has_errors() || some.size() == 1 || options.compile.stop.is_due()) {
-        append(said, diagnostics);
-        continue;
-      }
-      const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
-      pending.emplace_back(middle, some.end());
-      pending.emplace_back(some.begin(), middle);
-    }
-  }
-}
-
-void ShadingSystem::try_outputs(const Document& document, const std::vector<std::string>& names,
-                                bool are_kernels, const ShaderOptions& options,
-                                Diagnostics& diagnostics) {
-  const auto graph = build(document, {.outputs = names, .material = {}}, options, diagnostics);
-  if (!graph) return;
-  Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), diagnostics);
-  if (!are_kernels) {
-    compilation.record(*graph);
-  } else if (const auto recorded = record_outputs(compilation, *graph, options, diagnostics)) {
-    compilation.try_stages({compilation.entry("outputs", recorded->channels, Keeps::pass)});
-  }
-}
-
-void ShadingSystem::check_material(const Document& document, const std::string& material,
-                                   const ShaderOptions& options, Diagnostics& diagnostics) {
-  Diagnostics said;
-  const auto graph = build(document, {.outputs = {}, .material = material}, options, said);
-  if (graph) {
-    Compilation compilation(options, *bodies_, *sources_, *textures_, service_.get(), said);
-    auto recorded =
-        record_material(compilation, *graph, options, location_of(document, material), said);
-    if (recorded) compilation.try_stages(std::move(recorded->programs));
-  }
-  append(said, diagnostics);
+void check_shading(const Document& document, const SystemParts& parts, const ShaderOptions& options,
+                   Diagnostics& diagnostics) {
+  ShadingCheck(document, parts, options).run(diagnostics);
 }
 
 }  // namespace nacre

@@ -6,8 +6,10 @@
 #include <set>
 #include <utility>
 
+#include "jit/compile/compile.h"
+#include "jit/compile/lower.h"
+#include "jit/compile/stages.h"
 #include "jit/record/source_bodies.h"
-#include "jit/service/compile_service.h"
 #include "jit/shading/find_image.h"
 #include "pbs/shader_channels.h"
 #include "pbs/sides.h"
@@ -18,7 +20,7 @@ namespace nacre {
 
 namespace {
 
-std::vector<SliceOutput> channels(const std::string& name, const Recorded& value) {
+std::vector<SliceOutput> channels_of(const std::string& name, const Recorded& value) {
   std::vector<SliceOutput> list;
   const int count = component_count(value.type);
   for (int i = 0; i < count; ++i) {
@@ -68,26 +70,57 @@ bool has_kernel(Type type) {
          type == Type::displacementshader || type == Type::lightshader;
 }
 
-Compilation::Compilation(const ShaderOptions& options, const Bodies& bodies, SourceBodies& sources,
-                         TextureStore& store, CompileService* service, Diagnostics& diagnostics)
-    : options_(options),
-      bodies_(bodies),
-      sources_(sources),
-      service_(service),
+Compilation::Compilation(const SystemParts& parts, ShaderOptions options, Diagnostics& diagnostics)
+    : parts_(parts),
+      options_(std::move(options)),
       diagnostics_(diagnostics),
-      textures_(std::make_shared<RecordedTextures>(store, recorder_, diagnostics,
-                                                   options.max_anisotropy)) {}
+      textures_(std::make_shared<RecordedTextures>(*parts.textures, recorder_, diagnostics,
+                                                   options_.max_anisotropy)) {}
+
+std::optional<Graph> Compilation::build(const Document& document, const GraphRequest& request) {
+  return Stages(&stages_).run(
+      "graph", [&] { return parts_.build(document, request, options_, diagnostics_); },
+      [&](const std::optional<Graph>& graph, StageReport& report) {
+        if (!graph) return;
+        report.nodes = graph->nodes.size();
+        if (options_.compile.keep_text) report.text = to_string(*graph);
+      });
+}
+
+std::unique_ptr<OutputKernel> Compilation::make_outputs(const Graph& graph) {
+  auto recorded = record_outputs(graph);
+  if (!recorded) return nullptr;
+  auto kernel = std::move(compile(std::move(recorded->programs)).front());
+  if (!kernel) return nullptr;
+  return std::make_unique<OutputKernel>(
+      OutputKernel{std::move(*kernel), std::move(recorded->outputs), std::move(stages_)});
+}
+
+std::unique_ptr<MaterialKernels> Compilation::make_material(const Graph& graph,
+                                                            const SourceLocation& where) {
+  const std::size_t errors = diagnostics_.error_count();
+  auto recorded = record_material(graph, where);
+  if (!recorded) return nullptr;
+  auto kernels = std::make_unique<MaterialKernels>(std::move(recorded->kernels));
+  auto compiled = compile(std::move(recorded->programs));
+  for (std::size_t i = 0; i < compiled.size(); ++i) {
+    (*kernels).*recorded->places[i] = std::move(compiled[i]);
+  }
+  kernels->stages = std::move(stages_);
+  if (diagnostics_.error_count() != errors + textures_->error_count()) return nullptr;
+  return kernels;
+}
 
 std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   const FileRoots roots = options_.files_anywhere
                               ? FileRoots{}
-                              : image_roots(graph, options_.search_paths, sources_.roots());
+                              : image_roots(graph, options_.search_paths, parts_.sources->roots());
   textures_->give_access(image_access(roots, options_.missing_images, options_.compile.stop));
   const RecordOptions record{
       .accuracy = options_.compile.accuracy,
       .parameters = options_.parameters,
       .textures = textures_.get(),
-      .sources = &sources_,
+      .sources = parts_.sources.get(),
       .lazy = options_.lazy,
       .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
       .max_instructions = options_.compile.max_instructions,
@@ -98,19 +131,21 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
           },
       .stop = options_.compile.stop};
   if (!graph.outputs.empty()) where_ = graph.outputs.front().where;
-  return record_graph(graph, bodies_, record, recorder_, diagnostics_);
+  return Stages(&stages_).run(
+      "record",
+      [&] { return record_graph(graph, *parts_.bodies, record, recorder_, diagnostics_); },
+      [&](const auto&, StageReport& report) {
+        report.instructions = instruction_count(recorder_.program());
+      });
 }
 
 bool Compilation::may_go_on() {
   if (report_if_due(options_.compile.stop, "recording the kernels", where_, diagnostics_)) {
     return false;
   }
-  std::size_t count = 0;
-  for (const Function& function : recorder_.program().functions) count += function.code.size();
-  const std::size_t most = options_.compile.max_instructions;
-  if (count <= most) return true;
+  if (!is_too_large(recorder_.program(), options_.compile)) return true;
   diagnostics_.error("program-too-large", where_, "the surface leads to too large a kernel",
-                     fmt::format("{} instructions at most", most));
+                     fmt::format("{} instructions at most", options_.compile.max_instructions));
   return false;
 }
 
@@ -121,24 +156,19 @@ void Compilation::add_located(const Diagnostics& said) {
   }
 }
 
-Program Compilation::entry(const char* name, const std::vector<SliceOutput>& outputs,
-                           Keeps keeps) const {
-  return slice(recorder_.program(), name, outputs, keeps);
-}
-
-std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program> programs,
-                                                             std::vector<StageReport>& stages) {
+std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program> programs) {
   std::vector<std::string> names;
   for (const Program& program : programs) names.push_back(program.name);
   std::vector<std::vector<StageReport>> reports;
   Diagnostics said;
-  auto compiled = compile_all(std::move(programs), options_.compile, service_, said, &reports);
+  auto compiled =
+      compile_all(std::move(programs), options_.compile, parts_.service.get(), said, &reports);
   add_located(said);
   std::vector<std::optional<BoundKernel>> kernels(compiled.size());
   for (std::size_t i = 0; i < compiled.size(); ++i) {
     for (StageReport& report : reports[i]) {
       report.name = names[i] + ": " + report.name;
-      stages.push_back(std::move(report));
+      stages_.push_back(std::move(report));
     }
     if (compiled[i] != nullptr) kernels[i].emplace(std::move(compiled[i]), textures_);
   }
@@ -153,65 +183,61 @@ void Compilation::try_stages(std::vector<Program> programs) {
   add_located(said);
 }
 
-std::optional<RecordedOutputs> record_outputs(Compilation& compilation, const Graph& graph,
-                                              const ShaderOptions& options,
-                                              Diagnostics& diagnostics) {
-  const auto values = compilation.record(graph);
+std::optional<Compilation::RecordedOutputs> Compilation::record_outputs(const Graph& graph) {
+  const auto values = record(graph);
   if (!values) return std::nullopt;
   RecordedOutputs recorded;
+  std::vector<SliceOutput> channels;
   for (std::size_t i = 0; i < values->size(); ++i) {
     const Recorded& value = (*values)[i];
     const std::string& name = graph.outputs[i].name;
     std::vector<SliceOutput> list =
-        is_numeric(value.type)
-            ? channels(name, value)
-            : shader_channels(compilation.recorder(), options.compile.accuracy, value);
+        is_numeric(value.type) ? channels_of(name, value)
+                               : shader_channels(recorder_, options_.compile.accuracy, value);
     if (!is_numeric(value.type)) {
       for (SliceOutput& channel : list) channel.name = name + '.' + channel.name;
     }
     if (list.empty()) {
-      diagnostics.error(
+      diagnostics_.error(
           "not-numeric", graph.outputs[i].where, "output '" + name + "' has no numbers",
           "a numeric type, a medium, displacement or light", std::string(type_name(value.type)));
       return std::nullopt;
     }
     const Source& source = graph.outputs[i].source;
     const bool is_linked = source.kind == Source::Kind::link;
-    recorded.outputs.push_back({name, value.type, recorded.channels.size(), list.size(),
+    recorded.outputs.push_back({name, value.type, channels.size(), list.size(),
                                 is_linked ? graph.nodes[source.node].where : SourceLocation{}});
-    std::ranges::move(list, std::back_inserter(recorded.channels));
+    std::ranges::move(list, std::back_inserter(channels));
   }
+  recorded.programs.push_back(slice(recorder_.program(), "outputs", channels, Keeps::pass));
   return recorded;
 }
 
-std::optional<RecordedMaterial> record_material(Compilation& compilation, const Graph& graph,
-                                                const ShaderOptions& options,
-                                                const SourceLocation& where,
-                                                Diagnostics& diagnostics) {
+std::optional<Compilation::RecordedMaterial> Compilation::record_material(
+    const Graph& graph, const SourceLocation& where) {
   const auto has = [&](Type type) {
     return std::ranges::any_of(graph.outputs,
                                [&](const GraphOutput& output) { return output.type == type; });
   };
   if (!has(Type::surfaceshader) && !has(Type::volumeshader) && !has(Type::displacementshader)) {
-    diagnostics.error("no-surface", where, "the material has no shader",
-                      "a surface, volume or displacement shader");
+    diagnostics_.error("no-surface", where, "the material has no shader",
+                       "a surface, volume or displacement shader");
     return std::nullopt;
   }
-  const auto values = compilation.record(graph);
+  const auto values = record(graph);
   if (!values) return std::nullopt;
-  const SurfaceSides sides = sides_of(graph, *values, diagnostics);
-  const bool is_back = options.side == Side::back && sides.back != nullptr;
+  const SurfaceSides sides = sides_of(graph, *values, diagnostics_);
+  const bool is_back = options_.side == Side::back && sides.back != nullptr;
   const SurfacePtr surface = is_back ? sides.back : sides.front;
   if (surface == nullptr && has(Type::surfaceshader)) {
-    diagnostics.error("no-surface", where, "the material's surface shader is not connected",
-                      "a surface shader");
+    diagnostics_.error("no-surface", where, "the material's surface shader is not connected",
+                       "a surface shader");
     return std::nullopt;
   }
   const SurfaceKernels surface_kernels =
-      surface == nullptr
-          ? SurfaceKernels{}
-          : record_kernels(compilation.recorder(), *surface, options.compile.accuracy,
-                           options.kernels, [&] { return compilation.may_go_on(); });
+      surface == nullptr ? SurfaceKernels{}
+                         : record_kernels(recorder_, *surface, options_.compile.accuracy,
+                                          options_.kernels, [this] { return may_go_on(); });
   if (!surface_kernels.complete) return std::nullopt;
   RecordedMaterial recorded;
   MaterialKernels& kernels = recorded.kernels;
@@ -228,15 +254,15 @@ std::optional<RecordedMaterial> record_material(Compilation& compilation, const 
   };
   const auto add_entry = [&](std::optional<BoundKernel> MaterialKernels::* place, const char* name,
                              const std::vector<SliceOutput>& outputs, Keeps keeps) {
-    if (!outputs.empty()) add(place, compilation.entry(name, outputs, keeps));
+    if (!outputs.empty()) add(place, slice(recorder_.program(), name, outputs, keeps));
   };
   add_entry(&MaterialKernels::sample, "sample", surface_kernels.sample, Keeps::load);
   add_entry(&MaterialKernels::evaluate, "evaluate", surface_kernels.evaluate, Keeps::load);
   kernels.state.assign(state.begin(), state.end());
-  if (options.kernels.evaluate_at && !surface_kernels.evaluate.empty()) {
+  if (options_.kernels.evaluate_at && !surface_kernels.evaluate.empty()) {
     const auto is_of_point = [](std::string_view channel) { return !channel.starts_with("wi."); };
     add(&MaterialKernels::evaluate_at,
-        fix_inputs(compilation.entry("evaluate_at", surface_kernels.evaluate, Keeps::load),
+        fix_inputs(slice(recorder_.program(), "evaluate_at", surface_kernels.evaluate, Keeps::load),
                    is_of_point));
   }
   add_entry(&MaterialKernels::albedo, "albedo", surface_kernels.albedo, Keeps::pass);
@@ -246,7 +272,7 @@ std::optional<RecordedMaterial> record_material(Compilation& compilation, const 
     const bool is_displacement = value.type == Type::displacementshader;
     if (!is_displacement && value.type != Type::volumeshader) continue;
     const char* name = is_displacement ? "displacement" : "volume";
-    const auto list = shader_channels(compilation.recorder(), options.compile.accuracy, value);
+    const auto list = shader_channels(recorder_, options_.compile.accuracy, value);
     if (all_zero(list)) {
       kernels.manifest.push_back(std::string(name) + ": always nothing");
       continue;
@@ -254,8 +280,7 @@ std::optional<RecordedMaterial> record_material(Compilation& compilation, const 
     add_entry(is_displacement ? &MaterialKernels::displacement : &MaterialKernels::volume, name,
               list, Keeps::pass);
   }
-  add_entry(&MaterialKernels::begin, "begin", state_outputs(compilation.recorder(), kernels.state),
-            Keeps::pass);
+  add_entry(&MaterialKernels::begin, "begin", state_outputs(recorder_, kernels.state), Keeps::pass);
   return recorded;
 }
 

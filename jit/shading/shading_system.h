@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "jit/compile.h"
+#include "jit/compile/options.h"
+#include "jit/compile/stage_report.h"
 #include "jit/document/library.h"
 #include "jit/graph/build.h"
 #include "jit/record/record.h"
@@ -113,6 +114,8 @@ struct MaterialKernels {
   std::vector<StageReport> stages;  ///< Of all kernels, one after another.
 };
 
+struct SystemParts;
+
 /// Everything that documents share: the data library, native bodies, textures
 /// and the compiler. All members may be called from any thread.
 class ShadingSystem {
@@ -124,10 +127,10 @@ class ShadingSystem {
   ShadingSystem(const ShadingSystem&) = delete;
   ShadingSystem& operator=(const ShadingSystem&) = delete;
 
-  const Library& library() const { return *library_; }
+  const Library& library() const;
   /// What to give build_graph or GraphBuilder for a Graph meant for this system.
   GraphOptions graph_options(const ShaderOptions& options) const;
-  TextureStore& textures() { return *textures_; }
+  TextureStore& textures();
 
   /// Graph outputs as build_graph names them, all in one kernel.
   std::unique_ptr<OutputKernel> compile_outputs(const Document& document,
@@ -154,28 +157,9 @@ class ShadingSystem {
                                                     Diagnostics& diagnostics);
 
  private:
-  ShadingSystem() = default;
-  std::optional<Graph> build(const Document& document, const GraphRequest& request,
-                             const ShaderOptions& options, Diagnostics& diagnostics) const;
+  explicit ShadingSystem(std::unique_ptr<SystemParts> parts);
 
-  std::unique_ptr<MaterialKernels> make_material(const Graph& graph, const SourceLocation& where,
-                                                 const ShaderOptions& options,
-                                                 Diagnostics& diagnostics);
-  // Parts of `check`.
-  void check_sources(const Document& document, Diagnostics& diagnostics);
-  void check_outputs(const Document& document, const ShaderOptions& options,
-                     Diagnostics& diagnostics);
-  void try_outputs(const Document& document, const std::vector<std::string>& names,
-                   bool are_kernels, const ShaderOptions& options, Diagnostics& diagnostics);
-  void check_material(const Document& document, const std::string& material,
-                      const ShaderOptions& options, Diagnostics& diagnostics);
-
-  std::shared_ptr<const Library> library_;
-  std::unique_ptr<Bodies> bodies_;
-  std::unique_ptr<SourceBodies> sources_;
-  std::shared_ptr<const ColorConfig> colors_;
-  std::unique_ptr<TextureStore> textures_;
-  std::unique_ptr<CompileService> service_;
+  std::unique_ptr<SystemParts> parts_;
 };
 
 }  // namespace nacre

@@ -175,7 +175,7 @@ TEST_F(Limits, InstructionsRecordedAndLowered) {
   std::size_t recorded = 0;
   std::size_t most = 0;
   for (const StageReport& stage : kernel->stages) {
-    if (stage.name.ends_with("recorded")) recorded = stage.instructions;
+    if (stage.name.ends_with("slice")) recorded = stage.instructions;
     most = std::max(most, stage.instructions);
   }
   // Sines become polynomials: what fits when recorded need not fit afterwards.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "jit/compile.h"
+#include "jit/compile/compile.h"
 #include "jit/service/compile_service.h"
 #include "tests/support/random.h"
 

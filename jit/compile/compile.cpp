@@ -1,16 +1,13 @@
-#include "jit/compile.h"
+#include "jit/compile/compile.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <utility>
 
+#include "jit/compile/lower.h"
 #include "jit/llvm/codegen.h"
-#include "jit/passes/contract.h"
-#include "jit/passes/derive.h"
-#include "jit/passes/expand_math.h"
 #include "jit/service/compile_service.h"
 #include "runtime/float_environment.h"
 #include "runtime/interpreter/interpreter.h"
@@ -20,45 +17,6 @@
 namespace nacre {
 
 namespace {
-
-std::size_t instruction_count(const Program& program) {
-  std::size_t count = 0;
-  for (const Function& function : program.functions) count += function.code.size();
-  return count;
-}
-
-bool is_too_large(const Program& program, const CompileOptions& options) {
-  return instruction_count(program) > options.max_instructions;
-}
-
-/// Runs one stage: timed, reported and, in debug builds, verified afterwards.
-class Stages {
- public:
-  Stages(std::vector<StageReport>* reports, const CompileOptions& options)
-      : reports_(reports), options_(options) {}
-
-  template <class Pass>
-  Program run(const char* name, const Program& program, Pass&& pass) {
-    const auto start = std::chrono::steady_clock::now();
-    Program result = pass(program);
-    assert(is_too_large(result, options_) || verify(result).empty());
-    if (reports_ != nullptr) {
-      const std::chrono::duration<double, std::milli> elapsed =
-          std::chrono::steady_clock::now() - start;
-      StageReport report;
-      report.name = name;
-      report.milliseconds = elapsed.count();
-      for (const Function& function : result.functions) report.instructions += function.code.size();
-      if (options_.keep_text && !is_too_large(result, options_)) report.text = to_string(result);
-      reports_->push_back(std::move(report));
-    }
-    return result;
-  }
-
- private:
-  std::vector<StageReport>* reports_;
-  const CompileOptions& options_;
-};
 
 /// Whether a pass takes too long even if every loop runs one round.
 bool is_too_slow(const Program& program, const CompileOptions& options, Diagnostics& diagnostics) {
@@ -102,6 +60,23 @@ std::vector<std::shared_ptr<const Kernel>> in_their_places(
   return all;
 }
 
+std::vector<std::shared_ptr<const Kernel>> make_machine_code(std::vector<Program> programs,
+                                                             const CompileOptions& options,
+                                                             CompileService& service,
+                                                             Diagnostics& diagnostics) {
+  const CodegenOptions codegen = codegen_options(options);
+  if (!options.asynchronous) {
+    auto kernels = service.request_all(std::move(programs), codegen, diagnostics,
+                                       options.stop.within(options.max_seconds));
+    return {kernels.begin(), kernels.end()};
+  }
+  std::vector<std::shared_ptr<const Kernel>> kernels;
+  for (Program& program : programs) {
+    kernels.push_back(service.request_async(std::move(program), codegen));
+  }
+  return kernels;
+}
+
 }  // namespace
 
 Stop stop_from_now(const CompileOptions& options) {
@@ -109,35 +84,12 @@ Stop stop_from_now(const CompileOptions& options) {
   return options.stop.within(std::max(options.max_seconds, 1.0));
 }
 
-Program lower(Program program, const CompileOptions& options, std::vector<StageReport>* reports) {
-  const ScopedDefaultFloatEnvironment environment;
-  Stages stages(reports, options);
-  program = stages.run("recorded", program, [](const Program& p) { return p; });
-  const auto is_over = [&] { return is_too_large(program, options) || options.stop.is_due(); };
-  if (is_over()) return program;
-
-  // Footprint derivatives become arithmetic on derivative channels.
-  program = stages.run("derive", program,
-                       [&](const Program& p) { return derive(p, {}, options.max_instructions); });
-  if (is_over()) return program;
-
-  // The oracle computes what was written: no contraction, functions of the C library.
-  if (options.backend == Backend::reference) return program;
-
-  // a * b + c in one rounding; precise rounds as the node's body says.
-  if (options.accuracy != Accuracy::precise) {
-    program = stages.run("contract", program, [](const Program& p) { return contract(p); });
-    if (is_over()) return program;
-  }
-
-  // Transcendental functions become polynomials of the accuracy asked for.
-  program = stages.run("expand_math", program, [&](const Program& p) {
-    return expand_math(p, options.accuracy, options.max_instructions);
-  });
-  if (is_over()) return program;
-
-  mark_varying(program, options.all_varying);
-  return program;
+CodegenOptions codegen_options(const CompileOptions& options) {
+  CodegenOptions made;
+  made.accuracy = options.accuracy;
+  made.lanes = options.lanes != 0 ? options.lanes : widest_lanes(made.target);
+  made.max_steps = options.max_steps;
+  return made;
 }
 
 std::vector<std::shared_ptr<const Kernel>> compile_all(
@@ -174,7 +126,8 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(
   const std::vector<bool> fits = refuse_excess(programs, options, diagnostics);
   if (options.backend == Backend::jit) {
     assert(service != nullptr);
-    return in_their_places(service->compile(std::move(programs), options, diagnostics), fits);
+    return in_their_places(make_machine_code(std::move(programs), options, *service, diagnostics),
+                           fits);
   }
   std::vector<std::shared_ptr<const Kernel>> kernels;
   for (Program& program : programs) {

@@ -2,31 +2,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
 
-#include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
 #include "runtime/program/cost.h"
 #include "runtime/stop.h"
 
 namespace nacre {
 
-class CompileService;
-
 enum class Backend : std::uint8_t {
   jit,          ///< Machine code through LLVM.
   interpreter,  ///< Ready at once; the same bits.
   reference,    ///< Double precision, slow: the oracle.
-};
-
-/// What one stage of compiling made, for people who look into it.
-struct StageReport {
-  std::string name;  ///< "derive", "expand_math", ...
-  double milliseconds = 0.0;
-  std::size_t instructions = 0;  ///< Of all functions, after the stage.
-  std::string text;              ///< The Program after it; only if asked for.
 };
 
 struct CompileOptions {
@@ -57,24 +43,5 @@ struct CompileOptions {
 
 /// When a call that begins now must have made its Programs, for `stop`.
 Stop stop_from_now(const CompileOptions& options);
-
-/// From a sliced recording to a kernel: every pass in order, then an engine.
-/// Null, with a diagnostic, if the Program is too large or takes too many steps, or the
-/// JIT refuses. `stages` may be null;
-/// `service` may be null for the other backends.
-std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,
-                                      CompileService* service, Diagnostics& diagnostics,
-                                      std::vector<StageReport>* stages = nullptr);
-
-/// Several, side by side on the service's threads; each as above. `stages`, if not
-/// null, gets a list for each.
-std::vector<std::shared_ptr<const Kernel>> compile_all(
-    std::vector<Program> programs, const CompileOptions& options, CompileService* service,
-    Diagnostics& diagnostics, std::vector<std::vector<StageReport>>* stages = nullptr);
-
-/// The passes alone: what the engines get. Ends early, with a Program that no engine
-/// takes, once there are more than `max_instructions`.
-Program lower(Program program, const CompileOptions& options,
-              std::vector<StageReport>* stages = nullptr);
 
 }  // namespace nacre
