@@ -8,7 +8,7 @@
 #include "bench/common/benchmarks.h"
 #include "bench/common/material.h"
 #include "bench/common/system.h"
-#include "jit/graph/builder.h"
+#include "jit/graph/build/builder.h"
 
 namespace nacre::bench {
 

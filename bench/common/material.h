@@ -7,7 +7,7 @@
 
 #include "bench/common/kernel_run.h"
 #include "jit/compile/compile.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "jit/graph/graph.h"
 #include "jit/record/bodies.h"
 #include "jit/record/record.h"

@@ -15,7 +15,7 @@
 #include "bench/common/material.h"
 #include "bench/common/system.h"
 #include "jit/document/read.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 
 namespace nacre::bench {
 

@@ -6,7 +6,7 @@
 #include "bench/common/benchmarks.h"
 #include "bench/common/material.h"
 #include "bench/common/system.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 
 namespace nacre::bench {
 

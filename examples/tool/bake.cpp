@@ -15,7 +15,7 @@
 #include "examples/tool/stop.h"
 #include "examples/tool/texture_request.h"
 #include "examples/tool/udim.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "jit/graph/find.h"
 
 namespace nacre::tool {

@@ -13,7 +13,7 @@
 #include "examples/tool/plane_reads.h"
 #include "examples/tool/process.h"
 #include "examples/tool/stop.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 
 namespace nacre::tool {
 

@@ -2,7 +2,7 @@
 
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "jit/graph/find.h"
 
 namespace nacre::tool {

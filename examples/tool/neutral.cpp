@@ -1,6 +1,6 @@
 #include "examples/tool/neutral.h"
 
-#include "jit/graph/builder.h"
+#include "jit/graph/build/builder.h"
 
 namespace nacre::tool {
 

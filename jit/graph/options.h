@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "jit/document/document.h"
-#include "jit/graph/color/color_config.h"
 #include "jit/graph/look/look.h"
 #include "runtime/stop.h"
 
 namespace nacre {
+
+class ColorConfig;
 
 /// Which implementation of a nodedef is taken where it has several.
 enum class Preference : std::uint8_t {

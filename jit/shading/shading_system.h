@@ -10,7 +10,7 @@
 #include "jit/compile/options.h"
 #include "jit/compile/stage_report.h"
 #include "jit/document/library.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "jit/record/record.h"
 #include "jit/shading/bound_kernel.h"
 #include "pbs/kernels.h"

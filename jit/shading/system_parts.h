@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "jit/document/library.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "jit/graph/color/color_config.h"
 #include "jit/record/bodies.h"
 #include "jit/record/source_bodies.h"

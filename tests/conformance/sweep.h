@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "jit/graph/builder.h"
+#include "jit/graph/build/builder.h"
 #include "jit/shading/shading_system.h"
 
 namespace nacre::testing {

@@ -1,4 +1,4 @@
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

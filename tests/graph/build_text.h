@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "tests/document/standard_library.h"
 
 namespace nacre {

@@ -1,4 +1,4 @@
-#include "jit/graph/builder.h"
+#include "jit/graph/build/builder.h"
 
 #include <gtest/gtest.h>
 

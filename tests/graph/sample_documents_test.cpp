@@ -1,7 +1,7 @@
 // Documents that must pass: ours in tests/documents/good, and MaterialX's own.
 #include <gtest/gtest.h>
 
-#include "jit/graph/builder.h"
+#include "jit/graph/build/builder.h"
 #include "jit/graph/check/check.h"
 #include "jit/graph/find.h"
 #include "tests/graph/build_text.h"

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "jit/graph/builder.h"
+#include "jit/graph/build/builder.h"
 #include "jit/shading/shading_system.h"
 
 namespace nacre {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <set>
 
-#include "jit/graph/builder.h"
+#include "jit/graph/build/builder.h"
 #include "jit/shading/shading_system.h"
 
 namespace nacre {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "jit/document/read.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "jit/record/record.h"
 #include "jit/shading/shading_system.h"
 

@@ -59,6 +59,14 @@ class Checks(unittest.TestCase):
         self.write("jit/graph/bad.h", '#include "jit/llvm/emit.cpp"\n')
         self.assert_finds(dependencies.stages, "jit/graph/bad.h:1:")
 
+    def test_room_includes_later_room(self):
+        self.write("jit/graph/color/bad.h", '#include "jit/graph/check/check.h"\n')
+        self.assert_finds(dependencies.stages, "jit/graph/color/bad.h:1:")
+
+    def test_file_of_no_stage(self):
+        self.write("jit/bad.h", "\n")
+        self.assert_finds(dependencies.stages, "jit/bad.h:")
+
     def test_relative_include(self):
         self.write("runtime/bad.cpp", '#include "type.h"\n')
         self.assert_finds(dependencies.paths, "runtime/bad.cpp:1:")

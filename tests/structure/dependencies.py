@@ -20,7 +20,11 @@ MAY_INCLUDE = {
 }
 
 # The path through jit/: a stage includes itself and what comes before, never what comes after.
-JIT_STAGES = ("jit/document", "jit/graph", "jit/passes", "jit/llvm")
+# The longest folder that holds a file decides.
+JIT_STAGES = ("jit/document", "jit/graph/look", "jit/graph", "jit/graph/color",
+              "jit/graph/resolve", "jit/graph/build", "jit/graph/check", "jit/ocio", "jit/glsl",
+              "jit/record", "jit/passes", "jit/llvm", "jit/cache", "jit/service", "jit/compile",
+              "jit/shading")
 
 # Start of an include from outside -> the folders that may have it.
 QUARANTINE = {
@@ -57,13 +61,21 @@ def folders(root: pathlib.Path) -> list[str]:
     return faults
 
 
+def stage(file: str) -> int | None:
+    """The number of the stage that a file is of."""
+    found = [i for i, folder in enumerate(JIT_STAGES) if tree.inside(file, folder)]
+    return max(found, key=lambda i: len(JIT_STAGES[i]), default=None)
+
+
 def stages(root: pathlib.Path) -> list[str]:
-    """The stages of jit/ know those before them only."""
+    """The stages of jit/ know those before them only, and every file of jit/ is of one."""
     faults = []
+    for file in tree.files(root, tree.WRITTEN):
+        if tree.inside(file, "jit") and stage(file) is None:
+            faults.append(f"{file}: in no stage; the order is {' -> '.join(JIT_STAGES)}")
     for include in tree.includes(root):
-        here = [i for i, stage in enumerate(JIT_STAGES) if tree.inside(include.file, stage)]
-        there = [i for i, stage in enumerate(JIT_STAGES) if tree.inside(include.name, stage)]
-        if here and there and there[0] > here[0]:
+        here, there = stage(include.file), stage(include.name)
+        if here is not None and there is not None and there > here:
             faults.append(f'{include.where()}: includes "{include.name}", a later stage; '
                           f"the order is {' -> '.join(JIT_STAGES)}")
     return faults

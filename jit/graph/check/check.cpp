@@ -11,6 +11,7 @@
 #include "jit/document/read.h"
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
+#include "jit/graph/build/try_all_graphs.h"
 #include "jit/graph/check/parts.h"
 #include "jit/graph/find.h"
 #include "jit/graph/resolve/connection.h"

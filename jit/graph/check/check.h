@@ -2,7 +2,7 @@
 
 #include "jit/document/document.h"
 #include "jit/document/library.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre {

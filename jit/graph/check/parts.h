@@ -72,11 +72,6 @@ void check_token(const Element& token, const Definitions& definitions, Diagnosti
 void check_looks(const Document& document, const Definitions& definitions,
                  Diagnostics& diagnostics);
 
-/// Builds all nodes, outputs and materials for the sake of the diagnostics, those that
-/// nothing reads too. In a sound document only: it meets each fault again.
-void try_all_graphs(const Document& document, const Definitions& definitions,
-                    const GraphOptions& options, Diagnostics& diagnostics);
-
 /// True for the name of a <typedef>.
 bool is_declared_type(std::string_view name, const Element& user, const Definitions& definitions);
 

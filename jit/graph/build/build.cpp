@@ -1,4 +1,4 @@
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <ranges>
 
 #include "jit/document/select.h"
-#include "jit/graph/check/parts.h"
+#include "jit/graph/build/try_all_graphs.h"
 #include "jit/graph/find.h"
 #include "jit/graph/prune.h"
 #include "jit/graph/resolve/resolver.h"

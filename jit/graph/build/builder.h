@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "jit/document/library.h"
-#include "jit/graph/build.h"
+#include "jit/graph/build/build.h"
 #include "jit/graph/graph.h"
 
 namespace nacre {
