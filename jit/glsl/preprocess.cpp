@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 #include <span>
+
+#include "jit/glsl/condition.h"
 
 namespace nacre::glsl {
 
@@ -160,70 +161,9 @@ class Preprocessor {
     }
     std::vector<Token> expanded;
     expand(replaced, 0, expanded);
-    condition_ = expanded;
-    condition_at_ = 0;
-    condition_place_ = place;
-    const long long value = binary(0);
-    if (condition_at_ != condition_.size()) bad_condition();
-    return value != 0;
-  }
-
-  [[noreturn]] void bad_condition() {
-    error(condition_place_, "glsl-directive", "the condition is not an integer expression");
-  }
-
-  bool take(std::string_view what) {
-    if (condition_at_ >= condition_.size() || !condition_[condition_at_].is(what)) return false;
-    ++condition_at_;
-    return true;
-  }
-
-  // By precedence: || && == != < > <= >= + -; more is not used in conditions.
-  long long binary(int level) {
-    if (level == 5) return unary(0);
-    static constexpr std::string_view operators[5][4] = {
-        {"||"}, {"&&"}, {"==", "!="}, {"<", ">", "<=", ">="}, {"+", "-"}};
-    long long left = binary(level + 1);
-    while (true) {
-      std::string_view found;
-      for (const std::string_view candidate : operators[level]) {
-        if (!candidate.empty() && take(candidate)) found = candidate;
-        if (!found.empty()) break;
-      }
-      if (found.empty()) return left;
-      const long long right = binary(level + 1);
-      if (found == "||") left = left != 0 || right != 0;
-      if (found == "&&") left = left != 0 && right != 0;
-      if (found == "==") left = left == right;
-      if (found == "!=") left = left != right;
-      if (found == "<") left = left < right;
-      if (found == ">") left = left > right;
-      if (found == "<=") left = left <= right;
-      if (found == ">=") left = left >= right;
-      if (found == "+") left += right;
-      if (found == "-") left -= right;
-    }
-  }
-
-  long long unary(int depth) {
-    if (depth > max_nesting) bad_condition();
-    if (take("!")) return unary(depth + 1) == 0 ? 1 : 0;
-    if (take("-")) return -unary(depth + 1);
-    if (take("(")) {
-      if (++condition_depth_ > max_nesting) bad_condition();
-      const long long value = binary(0);
-      --condition_depth_;
-      if (!take(")")) bad_condition();
-      return value;
-    }
-    if (condition_at_ >= condition_.size()) bad_condition();
-    const Token& token = condition_[condition_at_++];
-    if (token.kind == Token::Kind::name) return 0;  // Not defined.
-    std::int32_t value = 0;
-    const auto [end, code] =
-        std::from_chars(token.text.data(), token.text.data() + token.text.size(), value);
-    if (code != std::errc() || end != token.text.data() + token.text.size()) bad_condition();
-    return value;
+    const std::optional<long long> value = evaluate_condition(expanded);
+    if (!value) error(place, "glsl-directive", "the condition is not an integer expression");
+    return *value != 0;
   }
 
   // -- #define, #include
@@ -385,11 +325,6 @@ class Preprocessor {
   std::size_t next_look_ = 65536;
   std::size_t bytes_ = 0;
   int depth_ = 0;
-
-  std::vector<Token> condition_;
-  std::size_t condition_at_ = 0;
-  int condition_depth_ = 0;
-  Place condition_place_;
 };
 
 }  // namespace

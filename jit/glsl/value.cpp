@@ -1,5 +1,7 @@
 #include "jit/glsl/value.h"
 
+#include <fmt/format.h>
+
 namespace nacre::glsl {
 
 Value zero(const Type& type) {
@@ -60,6 +62,15 @@ Value convert(const Value& value, const Type& to) {
     result.parts.push_back(convert(part, value.type.base, to.base));
   }
   return result;
+}
+
+std::string type_list(std::span<const Value> values) {
+  std::string text;
+  for (const Value& value : values) {
+    if (!text.empty()) text += ", ";
+    text += to_string(value.type);
+  }
+  return fmt::format("({})", text);
 }
 
 }  // namespace nacre::glsl

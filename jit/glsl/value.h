@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Value {
 inline Value make(Float x) { return {float_type, {x.ref()}, {}}; }
 inline Value make(Int x) { return {int_type, {x.ref()}, {}}; }
 inline Value make(Bool x) { return {bool_type, {x.ref()}, {}}; }
+
+/// "(vec3, float)".
+std::string type_list(std::span<const Value> values);
 
 /// Zero, false, of every part.
 Value zero(const Type& type);
