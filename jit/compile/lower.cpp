@@ -7,6 +7,7 @@
 #include "jit/passes/contract.h"
 #include "jit/passes/derive.h"
 #include "jit/passes/expand_math.h"
+#include "jit/passes/flatten.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {
@@ -34,6 +35,10 @@ Program lower(Program program, const CompileOptions& options, std::vector<StageR
     assert(is_too_large(program, options) || verify(program).empty());
   };
   run("slice", [](const Program& p) { return p; });
+  if (is_over()) return program;
+
+  // What costs less than a branch is computed for all lanes.
+  run("flatten", [&](const Program& p) { return flatten_regions(p, options.max_instructions); });
   if (is_over()) return program;
 
   // Footprint derivatives become arithmetic on derivative channels.

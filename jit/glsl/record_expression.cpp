@@ -170,11 +170,7 @@ Value Recording::unary_value(const Expression& expression, const Value& operand)
 
 Value Recording::binary_value(const Expression& expression, const Value& a) {
   const Level level(*this, expression.place, 450);
-  const bool is_lazy = expression.text == "&&" || expression.text == "||";
-  if (is_lazy &&
-      (expression.operands[1]->has_effect || expression.operands[1]->cost >= cheap_branch)) {
-    return look_ahead(expression, a);
-  }
+  if (expression.text == "&&" || expression.text == "||") return look_ahead(expression, a);
   const Value b = evaluate(*expression.operands[1]);
   if (std::optional<Value> result = binary(expression.text, a, b)) return *result;
   error(expression.place, "glsl-type",
@@ -191,7 +187,7 @@ Value Recording::look_ahead(const Expression& expression, const Value& first) {
   scoped([&] {
     const Slot slot = push("", left);
     branch(
-        is_and ? left.truth(0) : !left.truth(0), expression.operands[1]->cost, expression.place,
+        is_and ? left.truth(0) : !left.truth(0), expression.place,
         [&] {
           variables_[slot].value =
               expect(evaluate(*expression.operands[1]), bool_type, expression.place);
@@ -202,7 +198,7 @@ Value Recording::look_ahead(const Expression& expression, const Value& first) {
   return result;
 }
 
-/// Both sides are computed; what they assign holds in the lanes that take them.
+/// Each side is evaluated, and assigns, in the lanes that take it.
 Value Recording::conditional(const Expression& expression, const Value& asked) {
   const Level level(*this, expression.place, 950);
   const Value condition = expect(asked, bool_type, expression.place);
@@ -212,8 +208,8 @@ Value Recording::conditional(const Expression& expression, const Value& asked) {
   Value a;
   Value b;
   branch(
-      condition.truth(0), 0, expression.place, [&] { a = evaluate(*expression.operands[1]); },
-      [&] { b = evaluate(*expression.operands[2]); });
+      condition.truth(0), expression.place, [&] { a = evaluate(*expression.operands[1]); },
+      [&] { b = evaluate(*expression.operands[2]); }, {&a, &b});
   if (converts(a.type, b.type)) {
     a = convert(a, b.type);
   } else {

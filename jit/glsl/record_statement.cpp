@@ -49,9 +49,7 @@ void Recording::execute_list(const Statement& block, std::size_t from) {
     const Bool go_on = running();
     if (go_on.is_constant(true)) continue;
     if (go_on.is_constant(false) || i + 1 == block.body.size()) return;
-    int cost = 0;
-    for (std::size_t k = i + 1; k < block.body.size(); ++k) cost += block.body[k]->cost;
-    branch(go_on, cost, block.body[i + 1]->place, [&] { execute_list(block, i + 1); }, [] {});
+    branch(go_on, block.body[i + 1]->place, [&] { execute_list(block, i + 1); }, [] {});
     return;
   }
 }
@@ -76,10 +74,8 @@ void Recording::declare(const Statement& statement) {
 void Recording::if_statement(const Statement& statement) {
   const Level level(*this, statement.place, 600);
   const Value condition = expect(evaluate(*statement.condition), bool_type, statement.place);
-  int cost = 0;
-  for (const StatementPtr& side : statement.body) cost = std::max(cost, side->cost);
   branch(
-      condition.truth(0), cost, statement.place, [&] { execute(*statement.body[0]); },
+      condition.truth(0), statement.place, [&] { execute(*statement.body[0]); },
       [&] {
         if (statement.body.size() > 1) execute(*statement.body[1]);
       });
@@ -167,10 +163,10 @@ void Recording::unroll(const Statement& statement, int trips) {
   for (int i = 0; i < trips; ++i) {
     const Bool go_on = running();
     if (go_on.is_constant(false)) return;
-    branch(go_on, body.cost, body.place, [&] { run_body(body); }, [] {});
+    branch(go_on, body.place, [&] { run_body(body); }, [] {});
     branch(
-        own_counter ? Bool(true) : running(), 0, statement.place,
-        [&] { evaluate(*statement.step); }, [] {});
+        own_counter ? Bool(true) : running(), statement.place, [&] { evaluate(*statement.step); },
+        [] {});
   }
 }
 
@@ -213,7 +209,7 @@ void Recording::iterate(const Statement& loop, const Statement& body, std::optio
   Bool go_on = stays;
   if (!stays.is_constant(false)) {
     branch(
-        stays, 0, loop.place,
+        stays, loop.place,
         [&] {
           if (loop.step) evaluate(*loop.step);
         },
@@ -250,9 +246,7 @@ void Recording::do_loop(const Statement& statement) {
     frame().broke = broke;
     frame().continued = broke + 1;
     run_body(*statement.body[0]);
-    branch(
-        running(), cheap_branch, statement.place, [&] { iterate(statement, *statement.body[0]); },
-        [] {});
+    branch(running(), statement.place, [&] { iterate(statement, *statement.body[0]); }, [] {});
   });
   frame().broke = outer_broke;
   frame().continued = outer_continued;

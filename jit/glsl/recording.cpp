@@ -38,17 +38,6 @@ void Recording::restore(const Parts& parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) variables_[base_ + i].value.parts = parts[i];
 }
 
-/// Where the condition holds, what was `taken`; else what the variables are now.
-void Recording::choose(Bool condition, const Parts& taken) {
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    std::vector<Ref>& parts = variables_[base_ + i].value.parts;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      if (is_same(parts[k], taken[i][k])) continue;
-      parts[k] = record(Op::select, {condition.ref(), taken[i][k], parts[k]});
-    }
-  }
-}
-
 Recording::Slot Recording::push(std::string_view name, Value value, bool constant) {
   std::size_t before = 0;
   if (!variables_.empty()) {

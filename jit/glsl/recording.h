@@ -113,16 +113,20 @@ class Recording {
   Bool running();
 
   // Control flow (recording.cpp).
+  /// What the sides of a branch give, beside what they assign; outside its lanes zero.
+  struct Sides {
+    Value* then = nullptr;
+    Value* otherwise = nullptr;
+  };
   template <class Then, class Otherwise>
-  void branch(Bool condition, int cost, Place place, Then&& then, Otherwise&& otherwise);
+  void branch(Bool condition, Place place, Then&& then, Otherwise&& otherwise, Sides sides = {});
   using Parts = std::vector<std::vector<Ref>>;  ///< Of all variables.
   template <class Body>
-  void region(Bool where, const Parts& before, const Parts& outside, Body&& body);
+  void region(Bool where, const Parts& before, const Parts& outside, Body&& body, Value* result);
   template <class Body>
   void scoped(Body&& body);
   Parts snapshot(Place place);
   void restore(const Parts& parts);
-  void choose(Bool condition, const Parts& taken);
   static bool is_same(Ref a, Ref b) { return a.recorder == b.recorder && a.id == b.id; }
 
   // Calls (recording.cpp).
@@ -149,9 +153,6 @@ class Recording {
   Bool mask_ = true;           ///< Lanes for which the current branch is taken.
 };
 
-/// A branch below this cost is computed in every lane and selected from.
-inline constexpr int cheap_branch = 24;
-
 /// Runs `body` and drops the variables that it declared.
 template <class Body>
 void Recording::scoped(Body&& body) {
@@ -160,45 +161,43 @@ void Recording::scoped(Body&& body) {
   variables_.resize(size);
 }
 
-/// Records both sides, each seeing the variables as they are now, and gives every
-/// variable the value of the side that a lane takes.
+/// Records both sides as regions, each seeing the variables as they are now, and gives
+/// every variable the value of the side that a lane takes.
 template <class Then, class Otherwise>
-void Recording::branch(Bool condition, int cost, Place place, Then&& then, Otherwise&& otherwise) {
+void Recording::branch(Bool condition, Place place, Then&& then, Otherwise&& otherwise,
+                       Sides sides) {
   if (condition.is_constant(true)) return scoped(then);
   if (condition.is_constant(false)) return scoped(otherwise);
   const Bool mask = mask_;
   const auto before = snapshot(place);
-  if (cost < cheap_branch) {
-    mask_ = mask & condition;
-    scoped(then);
-    const auto taken = snapshot(place);
-    restore(before);
-    mask_ = mask & !condition;
-    scoped(otherwise);
-    choose(condition, taken);
-  } else {
-    mask_ = mask & condition;
-    region(condition, before, before, then);
-    const auto after = snapshot(place);
-    restore(before);
-    mask_ = mask & !condition;
-    region(!condition, before, after, otherwise);
-  }
+  mask_ = mask & condition;
+  region(condition, before, before, then, sides.then);
+  const auto after = snapshot(place);
+  restore(before);
+  mask_ = mask & !condition;
+  region(!condition, before, after, otherwise, sides.otherwise);
   mask_ = mask;
 }
 
 template <class Body>
-void Recording::region(Bool where, const Parts& before, const Parts& outside, Body&& body) {
-  context_.recorder.begin_if(where.ref());
+void Recording::region(Bool where, const Parts& before, const Parts& outside, Body&& body,
+                       Value* result) {
+  Recorder& recorder = context_.recorder;
+  recorder.begin_if(where.ref());
   scoped(body);
   for (std::size_t i = 0; i < before.size(); ++i) {
     std::vector<Ref>& parts = variables_[base_ + i].value.parts;
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const bool changed = !is_same(parts[k], before[i][k]);
-      parts[k] = changed ? context_.recorder.merge(parts[k], outside[i][k]) : outside[i][k];
+      parts[k] = changed ? recorder.merge(parts[k], outside[i][k]) : outside[i][k];
     }
   }
-  context_.recorder.end_if();
+  if (result != nullptr) {
+    for (Ref& part : result->parts) {
+      if (!part.is_constant()) part = recorder.merge(part, {nullptr, 0, part.type});
+    }
+  }
+  recorder.end_if();
 }
 
 }  // namespace nacre::glsl

@@ -23,19 +23,6 @@ bool is_numeric_node(const GraphNode& node) {
                      [](const GraphNodeOutput& output) { return is_numeric(output.type); });
 }
 
-// Rough multiples of an addition; only whether a branch is worth a test depends on them.
-double cost_of(const GraphNode& node) {
-  const std::string_view category = node.category;
-  for (std::string_view part : {"noise", "fractal", "flake", "image", "hextile"}) {
-    if (category.find(part) != std::string_view::npos) return 100;
-  }
-  for (std::string_view function : {"sin", "cos", "tan", "asin", "acos", "atan2", "exp", "ln",
-                                    "power", "rotate2d", "rotate3d", "rgbtohsv", "hsvtorgb"}) {
-    if (category == function) return 10;
-  }
-  return 2;
-}
-
 class Planner {
  public:
   explicit Planner(const Graph& graph) : graph_(graph), home_(graph.nodes.size(), unread) {
@@ -50,10 +37,6 @@ class Planner {
     for (BranchPlan::Branch& branch : plan_.branches) {
       std::reverse(branch.nodes.begin(), branch.nodes.end());
     }
-    // Inner branches come after outer ones.
-    for (std::size_t b = plan_.branches.size(); b-- > 1;) {
-      plan_.branches[plan_.branches[b].parent].cost += plan_.branches[b].cost;
-    }
     return std::move(plan_);
   }
 
@@ -65,7 +48,6 @@ class Planner {
     std::uint32_t& home = home_[number];
     if (home == unread || !is_numeric_node(node)) home = BranchPlan::whole;
     plan_.branches[home].nodes.push_back(number);
-    plan_.branches[home].cost += cost_of(node);
     if (chooses(node) && plan_.branches[home].depth < max_depth) {
       plan_.of_node[number] = {open_branch(home), open_branch(home)};
     }
@@ -80,7 +62,7 @@ class Planner {
   std::uint32_t open_branch(std::uint32_t parent) {
     const auto number = static_cast<std::uint32_t>(plan_.branches.size());
     const std::uint32_t depth = plan_.branches[parent].depth + 1;
-    plan_.branches.push_back({parent, depth, {}, 0});
+    plan_.branches.push_back({parent, depth, {}});
     return number;
   }
 

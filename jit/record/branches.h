@@ -20,8 +20,6 @@ struct BranchPlan {
     std::uint32_t parent = whole;
     std::uint32_t depth = 0;
     std::vector<std::uint32_t> nodes;  ///< Ascending.
-    /// An estimate of what the nodes cost, inner branches included: one addition is 1.
-    double cost = 0;
   };
   std::vector<Branch> branches;  ///< Branch 0 first.
   /// By node: the branches of a conditional's in1 and in2; 0 and 0 for others.

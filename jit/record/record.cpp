@@ -27,10 +27,6 @@ Scalar scalar_of(Type type) {
   return Scalar::f32;
 }
 
-/// A branch that costs less is computed for all lanes: testing the mask, and what the
-/// compiler cannot move across the test, cost about as much.
-constexpr double worth_a_test = 30;
-
 BranchPlan all_at_once(const Graph& graph) {
   BranchPlan plan;
   plan.branches.resize(1);
@@ -185,8 +181,8 @@ class GraphRecorder {
   }
 
   /// The condition alone, and then the branches: a side that a constant excludes not at
-  /// all, and an expensive one only where some lane takes it. The result has the bits
-  /// that selecting between both sides would give.
+  /// all, the others where some lane takes them (flatten_regions() undoes the cheap ones). The
+  /// result has the bits that selecting between both sides would give.
   bool record_choice(std::uint32_t number, const NodeBody& body) {
     const GraphNode& node = graph_.nodes[number];
     Ports compared;
@@ -206,30 +202,10 @@ class GraphRecorder {
       out = side(node, taken ? "in1" : "in2");
       return true;
     }
-    const bool first_apart = plan_.branches[first].cost >= worth_a_test;
-    const bool second_apart = plan_.branches[second].cost >= worth_a_test;
-    if (!first_apart && !record_branch(first)) return false;
-    if (!second_apart && !record_branch(second)) return false;
-    const Recorded zero = zero_of(out.type);
-    if (first_apart) {
-      const auto taken =
-          record_where(holds, first, node, "in1", second_apart ? zero : side(node, "in2"));
-      if (!taken) return false;
-      out = *taken;
-    }
-    if (second_apart) {
-      const auto taken =
-          record_where(!holds, second, node, "in2", first_apart ? out : side(node, "in1"));
-      if (!taken) return false;
-      out = *taken;
-    }
-    if (!first_apart && !second_apart) {
-      const Recorded a = side(node, "in1"), b = side(node, "in2");
-      for (std::size_t i = 0; i < a.parts.size(); ++i) {
-        out.parts.push_back(nacre::record(Op::select, {holds.ref(), a.parts[i], b.parts[i]}));
-      }
-    }
-    return true;
+    const auto taken = record_where(holds, first, node, "in1", zero_of(out.type));
+    const auto other = taken ? record_where(!holds, second, node, "in2", *taken) : std::nullopt;
+    if (other) out = *other;
+    return other.has_value();
   }
 
   /// The branch's side of a choice in the lanes where `mask` holds, `otherwise` in others.

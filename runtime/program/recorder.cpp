@@ -60,6 +60,31 @@ bool is_limit(const std::vector<Instruction>& code, Ref x, Ref limit) {
   return is_zero(product.operands[0]) || is_zero(product.operands[1]);
 }
 
+/// The operands of a select without what its condition makes pointless: a negation, which
+/// swaps the sides, and on each side a choice by the same condition.
+std::array<Ref, 3> simple_choice(const std::vector<Instruction>& code,
+                                 std::span<const Ref> operands) {
+  std::array<Ref, 3> choice{operands[0], operands[1], operands[2]};
+  const auto definition = [&](Ref x) { return x.is_constant() ? nullptr : &code[x.id]; };
+  const auto become = [&](Ref& x, ValueId id) {
+    const bool is_literal = code[id].op == Op::constant;
+    x = is_literal ? Ref{nullptr, code[id].imm, x.type} : Ref{x.recorder, id, x.type};
+  };
+  while (const Instruction* negation = definition(choice[0])) {
+    if (negation->op != Op::bnot) break;
+    become(choice[0], negation->operands[0]);
+    std::swap(choice[1], choice[2]);
+  }
+  if (choice[0].is_constant()) return choice;
+  for (const std::size_t side : {1u, 2u}) {
+    while (const Instruction* inner = definition(choice[side])) {
+      if (inner->op != Op::select || inner->operands[0] != choice[0].id) break;
+      become(choice[side], inner->operands[side]);
+    }
+  }
+  return choice;
+}
+
 }  // namespace
 
 std::size_t Recorder::KeyHash::operator()(const Instruction& key) const {
@@ -133,6 +158,22 @@ Ref Recorder::emit(Op op, std::span<const Ref> operands, std::uint32_t imm) {
   if (const std::optional<Ref> literal = fold_literals(op, operands, imm)) return *literal;
   if (const std::optional<Ref> equal = simplify(op, operands)) return *equal;
   if (op == Op::max && is_limit(code().code, operands[0], operands[1])) return operands[1];
+  std::array<Ref, 3> choice;
+  if (op == Op::select) {
+    choice = simple_choice(code().code, operands);
+    operands = choice;
+    if (const std::optional<Ref> equal = simplify(op, operands)) return *equal;
+    if (choice[1].type == Scalar::b1) {
+      // A side that is the condition itself is what the condition is there.
+      const auto is_condition = [&](Ref x) { return !x.is_constant() && x.id == choice[0].id; };
+      if (choice[1].is_constant(1u) || is_condition(choice[1])) {
+        return emit(Op::bor, std::array{choice[0], choice[2]});
+      }
+      if (choice[2].is_constant(0u) || is_condition(choice[2])) {
+        return emit(Op::band, std::array{choice[0], choice[1]});
+      }
+    }
+  }
   Instruction instruction = leaf(op, result_type(op, operands), imm);
   instruction.count = static_cast<std::uint8_t>(operands.size());
   bool varying = false;

@@ -1,7 +1,9 @@
 #include "runtime/program/transform.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,8 +15,13 @@ namespace {
 
 class Transformer {
  public:
-  Transformer(const Program& program, const Replacement& replace, std::size_t most)
-      : program_(program), replace_(replace), most_(most), functions_(program.functions.size(), 0) {
+  Transformer(const Program& program, const Replacement& replace, std::size_t most,
+              const Flattening& flattens)
+      : program_(program),
+        replace_(replace),
+        most_(most),
+        flattens_(flattens),
+        functions_(program.functions.size(), 0) {
     recorder_.adopt_interface(program);
   }
 
@@ -54,6 +61,10 @@ class Transformer {
       for (const ValueId operand : function.operands(instruction)) {
         operands.push_back(values_[operand]);
       }
+      if (instruction.op == Op::if_any) {
+        const bool is_flat = flattens_ && flattens_(function, i);
+        ifs_.push_back(is_flat ? std::optional(operands[0]) : std::nullopt);
+      }
       values_[i] = again(instruction, operands);
       if (!values_[i].is_constant()) here = std::max<std::size_t>(here, values_[i].id);
       if (done_ + here > most_) return false;
@@ -74,9 +85,16 @@ class Transformer {
         return recorder_.input(channel.name, channel.type);
       }
       case Op::argument: return recorder_.argument(instruction.imm);
-      case Op::if_any: recorder_.begin_if(operands[0]); return {};
-      case Op::merge: return recorder_.merge(operands[0], operands[1]);
-      case Op::end_if: recorder_.end_if(); return {};
+      case Op::if_any:
+        if (!ifs_.back()) recorder_.begin_if(operands[0]);
+        return {};
+      case Op::merge:
+        if (!ifs_.back()) return recorder_.merge(operands[0], operands[1]);
+        return recorder_.emit(Op::select, std::array{*ifs_.back(), operands[0], operands[1]});
+      case Op::end_if:
+        if (!ifs_.back()) recorder_.end_if();
+        ifs_.pop_back();
+        return {};
       case Op::loop: recorder_.begin_loop(operands[0], instruction.imm); return {};
       case Op::carry: return recorder_.carry(operands[0]);
       case Op::next: return recorder_.next(operands[0], operands[1]);
@@ -102,18 +120,22 @@ class Transformer {
   const Program& program_;
   const Replacement& replace_;
   const std::size_t most_;
+  const Flattening& flattens_;
   std::size_t done_ = 0;  ///< Instructions of the functions before this one.
   Recorder recorder_;
   std::vector<std::uint32_t> functions_;  ///< Old index to new.
   std::vector<Ref> values_;               ///< Old value to new, in this function.
   std::vector<Ref> results_;              ///< Of the last call.
   std::vector<Ref>* gives_ = nullptr;
+  /// Of the if_any regions that are open: their masks where they are flattened.
+  std::vector<std::optional<Ref>> ifs_;
 };
 
 }  // namespace
 
-Program transform(const Program& program, const Replacement& replace, std::size_t most) {
-  return Transformer(program, replace, most).run();
+Program transform(const Program& program, const Replacement& replace, std::size_t most,
+                  const Flattening& flattens) {
+  return Transformer(program, replace, most, flattens).run();
 }
 
 Program too_large(std::size_t most) {

@@ -17,13 +17,17 @@ namespace nacre {
 using Replacement = std::function<std::optional<Ref>(
     Recorder& recorder, const Instruction& instruction, std::span<const Ref> operands)>;
 
+/// Whether the if_any region that instruction `open` of a function opens is to be
+/// flattened: its body is recorded for all lanes, and its merges become selects.
+using Flattening = std::function<bool(const Function& function, std::size_t open)>;
+
 /// Records a Program again, instruction by instruction, with some replaced.
 /// Folding, simplification and sharing happen on the way; what becomes unused
 /// is removed and varying marked. Channels, slots and textures keep their
 /// order. This is the frame of most passes. Ends early, with as many instructions and one
-/// that no engine is to run, once there are more than `most`.
+/// that no engine is to run, once there are more than `most`. `flattens` may be empty.
 Program transform(const Program& program, const Replacement& replace,
-                  std::size_t most = std::size_t{1} << 31);
+                  std::size_t most = std::size_t{1} << 31, const Flattening& flattens = {});
 
 /// What a pass gives that would make more than `most` instructions: so many and one more,
 /// which mean nothing.
