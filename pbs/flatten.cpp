@@ -2,6 +2,7 @@
 #include <unordered_map>
 
 #include "pbs/bsdf.h"
+#include "runtime/program/origin.h"
 
 namespace nacre {
 
@@ -88,6 +89,7 @@ class Flattener {
     ended_ = may_go_on_ && !may_go_on_();
     if (ended_) return;
     if (view_.left_out != nullptr) leaf.report(view_);
+    const ScopedOrigin origin(*view_.recorder, leaf.lobe()->name());
     leaf.lobe()->prepare(view_, max_component(total) > 0.0f);
     lobes_.push_back({leaf.lobe(), total});
   }
@@ -119,6 +121,8 @@ class Flattener {
       if (waits) continue;
       // A lobe that has readers to come: in which lanes it counts is not known yet.
       const LobeBsdf* leaf = bsdf->leaf();
+      const ScopedOrigin origin(*view_.recorder,
+                                leaf == nullptr ? "layering" : leaf->lobe()->name());
       if (state.readers > 0 && leaf != nullptr && !leaf->lobe()->is_opaque()) {
         leaf->lobe()->prepare(view_, Bool(true));
       }

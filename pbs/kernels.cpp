@@ -1,6 +1,7 @@
 #include "pbs/kernels.h"
 
 #include "runtime/node/geometry.h"
+#include "runtime/program/origin.h"
 #include "runtime/value/control.h"
 
 namespace nacre {
@@ -59,6 +60,7 @@ class SurfaceRecorder {
   /// The lobes seen from `view`, with weights and probabilities. For the real
   /// view direction they are kept, and what is left out goes to the manifest.
   std::vector<Term> select_lobes(const View& view, bool from_viewer) {
+    const ScopedOrigin origin(recorder_, "layering");
     const std::vector<WeightedLobe> lobes =
         flatten(surface_.bsdf, view, [this] { return may_go_on(); });
     std::vector<Term> terms;
@@ -70,6 +72,7 @@ class SurfaceRecorder {
         continue;
       }
       Term term{each.lobe, max(each.weight, Color3(0.0f)), Float(0.0f)};
+      const ScopedOrigin of_lobe(recorder_, each.lobe->name());
       if (request_.lobe_mask) term.weight = masked(*each.lobe, term.weight);
       term.probability = max_component(term.weight * each.lobe->albedo(view));
       // A weight of NaN must not silence the other lobes.
@@ -102,6 +105,7 @@ class SurfaceRecorder {
     Total total;
     for (const Term& term : terms) {
       if (!may_go_on()) break;
+      const ScopedOrigin origin(recorder_, term.lobe->name());
       const LobeValue none{.f = Color3(0.0f), .pdf = 0.0f};
       const LobeValue value =
           if_any(term.probability > 0.0f, none, [&] { return term.lobe->evaluate(view, wi); });
@@ -131,6 +135,7 @@ class SurfaceRecorder {
   }
 
   void record_sample() {
+    const ScopedOrigin origin(recorder_, "sampling");
     const Float3 u = channel3(recorder_, "u");
     LobeSample chosen{.wi = Float3(0.0f, 0.0f, 1.0f), .valid = false};
     Int lobe = -1;
@@ -139,6 +144,7 @@ class SurfaceRecorder {
     Float below = 0.0f;
     for (std::size_t i = 0; i < terms_.size() && may_go_on(); ++i) {
       const Term& term = terms_[i];
+      const ScopedOrigin of_lobe(recorder_, term.lobe->name());
       const Float above = i + 1 == terms_.size() ? Float(2.0f) : below + term.probability;
       const Bool mine = (u.z >= below) & (u.z < above) & (term.probability > 0.0f);
       // The number that chose the lobe is uniform again within its interval.
@@ -185,6 +191,7 @@ class SurfaceRecorder {
     Color3 total = Color3(0.0f);
     for (const Term& term : terms_) {
       if (!may_go_on()) break;
+      const ScopedOrigin origin(recorder_, term.lobe->name());
       total = fma(term.weight, term.lobe->albedo(view_), total);
     }
     kernels_.albedo = {
@@ -192,6 +199,7 @@ class SurfaceRecorder {
   }
 
   void record_emission() {
+    const ScopedOrigin origin(recorder_, "emission");
     const Color3 emitted = radiance(surface_.edf, view_);
     if (is_zero(emitted)) {
       kernels_.manifest.push_back("emission: always black");

@@ -124,6 +124,7 @@ class Deriver {
   /// The instruction recorded again, and its tangents beside it.
   Dual again(ValueId id) {
     const Instruction& instruction = function_->code[id];
+    recorder_.set_origin(instruction.origin);
     const auto at = [&](std::size_t k) -> const Dual& { return values_[instruction.operands[k]]; };
     Dual dual;
     switch (instruction.op) {

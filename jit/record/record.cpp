@@ -7,6 +7,7 @@
 
 #include "jit/record/branches.h"
 #include "jit/record/source_bodies.h"
+#include "runtime/program/origin.h"
 #include "runtime/report_stop.h"
 
 namespace nacre {
@@ -101,6 +102,7 @@ class GraphRecorder {
 
   bool record_node(std::uint32_t number) {
     const GraphNode& node = graph_.nodes[number];
+    const ScopedOrigin origin(recorder_, node.path);
     const NodeSource* source = source_of(node);
     const Bodies::Binding* bound = source == nullptr ? bodies_.binding(node.nodedef) : nullptr;
     const NodeBody* body = bound == nullptr ? nullptr : bound->body;

@@ -24,8 +24,14 @@ struct Instruction {
   std::uint8_t count = 0;  ///< Operands in `operands`; 0 for call.
   std::uint32_t imm = 0;
   std::array<ValueId, 3> operands{no_value, no_value, no_value};
+  /// What it was recorded for: an index into Program::origins. Says nothing of what it
+  /// computes, so equal instructions may differ in it, and no digest or text has it.
+  std::uint32_t origin = 0;
 
-  bool operator==(const Instruction&) const = default;
+  bool operator==(const Instruction& other) const {
+    return op == other.op && type == other.type && varying == other.varying &&
+           count == other.count && imm == other.imm && operands == other.operands;
+  }
 };
 
 /// Straight code with nested regions, in order of execution. Function 0 of a
@@ -84,6 +90,8 @@ struct Program {
   std::vector<ParameterSlot> parameters;
   std::vector<Table> tables;
   std::vector<TextureSlot> textures;
+  /// Nodes by path and lobes by name, for people who ask what costs what; 0: nobody's.
+  std::vector<std::string> origins{""};
 
   Function& entry() { return functions.front(); }
   const Function& entry() const { return functions.front(); }

@@ -116,6 +116,14 @@ void Recorder::adopt_interface(const Program& program) {
   program_.parameters = program.parameters;
   program_.tables = program.tables;
   program_.textures = program.textures;
+  program_.origins = program.origins;
+}
+
+std::uint32_t Recorder::begin_origin(std::string_view name) {
+  const auto next = static_cast<std::uint32_t>(program_.origins.size());
+  const auto [place, is_new] = origin_numbers_.try_emplace(std::string(name), next);
+  if (is_new) program_.origins.emplace_back(name);
+  return std::exchange(origin_, place->second);
 }
 
 Ref Recorder::input(std::string_view name, Scalar type) {
@@ -221,6 +229,7 @@ bool Recorder::in_scope(ValueId id) const {
 Ref Recorder::append(Instruction instruction, bool varying) {
   auto& list = code().code;
   const auto id = static_cast<ValueId>(list.size());
+  instruction.origin = origin_;
   list.push_back(instruction);
   ++size_;
   Open& open = open_.back();

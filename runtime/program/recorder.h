@@ -25,6 +25,11 @@ class Recorder {
   /// their order; before anything is recorded.
   void adopt_interface(const Program& program);
 
+  /// What is recorded from now on is for `name`; what another has recorded before and shares
+  /// stays the other's. Returns what it was for.
+  std::uint32_t begin_origin(std::string_view name);
+  void set_origin(std::uint32_t origin) { origin_ = origin; }
+
   // -- Leaves. The same name always gives the same value. --
 
   /// An input channel of the batch.
@@ -127,6 +132,8 @@ class Recorder {
   void close_region(Op op);
   bool in_scope(ValueId id) const;
 
+  std::uint32_t origin_ = 0;
+  std::unordered_map<std::string, std::uint32_t> origin_numbers_;
   Program program_;
   std::vector<Open> open_;
   std::uint32_t next_number_ = 1;

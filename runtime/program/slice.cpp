@@ -173,7 +173,8 @@ void resolve_keeps(Program& program, Keeps keeps) {
         {std::string(state_prefix) + std::to_string(instruction.imm), instruction.type});
     instruction = {.op = Op::input,
                    .type = instruction.type,
-                   .imm = static_cast<std::uint32_t>(program.inputs.size() - 1)};
+                   .imm = static_cast<std::uint32_t>(program.inputs.size() - 1),
+                   .origin = instruction.origin};
   }
   for (ValueId& operand : entry.pool) operand = meaning[operand];
 }

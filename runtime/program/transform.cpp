@@ -57,6 +57,7 @@ class Transformer {
     values_.assign(function.code.size(), Ref{});
     for (std::size_t i = 0; i < function.code.size(); ++i) {
       const Instruction& instruction = function.code[i];
+      recorder_.set_origin(instruction.origin);
       std::vector<Ref> operands;
       for (const ValueId operand : function.operands(instruction)) {
         operands.push_back(values_[operand]);
