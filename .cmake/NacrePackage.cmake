@@ -13,6 +13,7 @@ list(TRANSFORM nacre_archives REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARI
 add_library(nacre SHARED ${nacre_objects})
 add_library(nacre::nacre ALIAS nacre)
 target_link_libraries(nacre PRIVATE ${nacre_archives})
+add_dependencies(nacre nacre_compile_worker)
 target_sources(nacre PUBLIC FILE_SET HEADERS
   BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${nacre_headers})
 target_compile_features(nacre INTERFACE cxx_std_20)
@@ -33,6 +34,8 @@ target_link_options(nacre PRIVATE
 install(TARGETS nacre EXPORT nacre
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre)
+# The library finds this from its own place, and so does a program that has it inside.
+install(TARGETS nacre_compile_worker RUNTIME DESTINATION libexec/nacre)
 # Programs find this folder from their own place: <bin>/../share/nacre/libraries.
 install(DIRECTORY "${NACRE_MATERIALX_LIBRARIES}/" DESTINATION share/nacre/libraries
   PATTERN .requirement EXCLUDE)

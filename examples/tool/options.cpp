@@ -130,6 +130,8 @@ void CommonOptions::add_compile(CLI::App& command) {
                   "lin_rec709, or the role scene_linear of a configuration that has no way there)")
       ->type_name("NAME");
   command.add_flag("--no-cache", no_cache, "Neither read nor write compiled kernels");
+  command.add_flag("--compile-here", compile_here,
+                   "Compile in this process, which a fault of LLVM's ends; else in others");
 }
 
 Accuracy CommonOptions::parsed_accuracy() const {
@@ -199,6 +201,7 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   if (!config) return opened;
   system.ocio_config = *config;
   system.compile_threads = options.threads;
+  system.compile_apart = !options.compile_here && options.parsed_backend() == Backend::jit;
   system.textures = options.texture_limits;
   if (!options.no_cache) {
     system.cache = options.cache.empty() ? default_cache_folder() : fs::path(options.cache);

@@ -31,6 +31,7 @@ struct CommonOptions {
   int anisotropy = default_anisotropy;
   int threads = 0;
   bool no_cache = false;
+  bool compile_here = false;
   std::string cache;
   bool strict = false;
   bool quiet = false;

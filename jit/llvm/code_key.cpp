@@ -14,7 +14,7 @@ namespace nacre {
 namespace {
 
 /// To be raised when what kernels do or expect changes and no build id tells.
-constexpr int code_version = 3;
+constexpr int version = 3;
 
 /// The object file that is loaded at an address, and the id its linker gave it.
 struct BuildId {
@@ -86,12 +86,17 @@ std::string llvm_version() {
 
 }  // namespace
 
+std::string code_version() {
+  return fmt::format("nacre kernel {} of {} operations, llvm {}", version, op_count,
+                     llvm_version());
+}
+
 std::string code_key(const Program& program, const CodegenOptions& options) {
   // The name last: it may be any text.
   const bool is_counted = StepLimit(program, options.max_steps).is_counted();
-  return fmt::format("nacre kernel {} build {} llvm {}\n{}\n{}{}\n{}", code_version, build_id(),
-                     llvm_version(), to_hex(code_digest(program)), options.key(),
-                     is_counted ? " counted" : "", program.name);
+  return fmt::format("{} build {}\n{}\n{}{}\n{}", code_version(), build_id(),
+                     to_hex(code_digest(program)), options.key(), is_counted ? " counted" : "",
+                     program.name);
 }
 
 }  // namespace nacre

@@ -36,6 +36,10 @@ struct ObjectCode {
 /// The entry's name: "nacre_<start of the Program's code_digest()>_<name>_w16".
 std::string entry_symbol(const Program& program, const CodegenOptions& options);
 
+/// The way in which code is made and wants to be called: equal in a library and in a process
+/// that compiles for it.
+std::string code_version();
+
 /// Everything that decides what compile_object() gives, as text: the Program's
 /// code_digest(), the options, this build of Nacre and the LLVM it runs with. Objects
 /// may stand for each other if and only if their keys are equal.

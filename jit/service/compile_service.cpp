@@ -23,9 +23,11 @@ namespace {
 class Workshop {
  public:
   Workshop(const ServiceOptions& options, std::shared_ptr<JitSession> session,
-           std::unique_ptr<KernelCache> cache, Diagnostics no_session)
+           std::unique_ptr<Compiler> compiler, std::unique_ptr<KernelCache> cache,
+           Diagnostics no_session)
       : options_(options),
         session_(std::move(session)),
+        compiler_(std::move(compiler)),
         cache_(std::move(cache)),
         no_session_(std::move(no_session)),
         threads_(session_ == nullptr ? 1 : options.threads) {}
@@ -52,7 +54,7 @@ class Workshop {
     } else {
       refused = no_session_;
     }
-    auto made = std::make_unique<Workshop>(options_, std::move(session),
+    auto made = std::make_unique<Workshop>(options_, std::move(session), compiler_->heir(),
                                            cache_ == nullptr ? nullptr : cache_->reopened(),
                                            std::move(refused));
     made->has_warned_ = session_ == nullptr;
@@ -138,7 +140,8 @@ class Workshop {
       known = job;
       forget_dead();
     }
-    threads_.add([this, job] { job->run(*session_, cache_.get(), compiling_); }, urgent);
+    threads_.add([this, job] { job->run(*session_, *compiler_, cache_.get(), compiling_); },
+                 urgent);
     return job;
   }
 
@@ -152,6 +155,7 @@ class Workshop {
   const Process process_;
   const ServiceOptions options_;
   const std::shared_ptr<JitSession> session_;  ///< Null where there is no JIT.
+  const std::unique_ptr<Compiler> compiler_;
   const std::unique_ptr<KernelCache> cache_;
   const Diagnostics no_session_;         ///< Why there is no JIT.
   std::atomic<bool> has_warned_ = true;  ///< Of that.
@@ -216,10 +220,13 @@ std::unique_ptr<CompileService> CompileService::create(const ServiceOptions& opt
   if (session == nullptr) {
     diagnostics.warning("no-jit", {}, "kernels are interpreted: " + refused.to_string());
   }
+  std::unique_ptr<Compiler> compiler =
+      options.worker.empty() ? make_compiler_here()
+                             : make_compiler_apart(options.worker, options.worker_limits);
   std::unique_ptr<KernelCache> cache;
   if (!options.cache.empty()) cache = KernelCache::open(options.cache, diagnostics);
   return std::make_unique<Service>(std::make_unique<Workshop>(
-      options, std::move(session), std::move(cache), std::move(refused)));
+      options, std::move(session), std::move(compiler), std::move(cache), std::move(refused)));
 }
 
 std::shared_ptr<CompiledKernel> CompileService::request(Program program,

@@ -7,6 +7,7 @@
 
 #include "jit/llvm/codegen.h"
 #include "jit/llvm/session.h"
+#include "jit/worker/compiler.h"
 #include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
 #include "runtime/stop.h"
@@ -35,6 +36,9 @@ struct ServiceOptions {
   int threads = 0;              ///< That compile; 0: one a core.
   std::filesystem::path cache;  ///< Folder of compiled kernels; empty: none is kept.
   SessionOptions session;
+  /// nacre-compile-worker, which compiles in processes of its own; empty: in this one.
+  std::filesystem::path worker = {};
+  WorkerLimits worker_limits = {};
 };
 
 /// Compiles Programs on its own threads (with stacks of 16 MiB). Programs that

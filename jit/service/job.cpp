@@ -44,13 +44,14 @@ bool CompileJob::unwanted() {
   return true;
 }
 
-void CompileJob::run(JitSession& session, KernelCache* cache, std::atomic<int>& compiling) {
+void CompileJob::run(JitSession& session, Compiler& compiler, KernelCache* cache,
+                     std::atomic<int>& compiling) {
   Diagnostics said;
   CompileStats stats;
   std::shared_ptr<const LoadedCode> code;
   ++compiling;
   try {
-    code = make(session, cache, said, stats);
+    code = make(session, compiler, cache, said, stats);
   } catch (const std::bad_alloc&) {
     said.error("out-of-memory", {}, "can't compile a kernel: memory is short", {}, program_->name);
   }
@@ -67,8 +68,9 @@ void CompileJob::run(JitSession& session, KernelCache* cache, std::atomic<int>& 
   ended_.notify_all();
 }
 
-std::shared_ptr<const LoadedCode> CompileJob::make(JitSession& session, KernelCache* cache,
-                                                   Diagnostics& said, CompileStats& stats) {
+std::shared_ptr<const LoadedCode> CompileJob::make(JitSession& session, Compiler& compiler,
+                                                   KernelCache* cache, Diagnostics& said,
+                                                   CompileStats& stats) {
   const auto load = [&](const ObjectCode& object, Diagnostics& diagnostics) {
     return timed(stats.link, [&] { return session.load(object, diagnostics); });
   };
@@ -85,13 +87,13 @@ std::shared_ptr<const LoadedCode> CompileJob::make(JitSession& session, KernelCa
       }
     }
   }
-  const auto object = compile(cache, said, stats);
+  const auto object = compile(compiler, cache, said, stats);
   return object && !unwanted() ? load(*object, said) : nullptr;
 }
 
-std::optional<ObjectCode> CompileJob::compile(KernelCache* cache, Diagnostics& said,
-                                              CompileStats& stats) {
-  auto object = compile_object(*program_, options_, said, &stats, [this] { return unwanted(); });
+std::optional<ObjectCode> CompileJob::compile(Compiler& compiler, KernelCache* cache,
+                                              Diagnostics& said, CompileStats& stats) {
+  auto object = compiler.compile(*program_, options_, said, stats, [this] { return unwanted(); });
   if (object && cache != nullptr) {
     timed(stats.cache, [&] {
       cache->store(key_, *object, said);

@@ -29,9 +29,10 @@ class CompileJob {
   /// One less does.
   void leave();
 
-  /// Cache, or LLVM and cache; then the linker. Sets the state. `compiling` counts while
+  /// Cache, or compiler and cache; then the linker. Sets the state. `compiling` counts while
   /// that goes on.
-  void run(JitSession& session, KernelCache* cache, std::atomic<int>& compiling);
+  void run(JitSession& session, Compiler& compiler, KernelCache* cache,
+           std::atomic<int>& compiling);
   /// Ends it without code, if it has not ended; running, it stops at the next stage.
   void give_up();
   bool wait() const;
@@ -45,8 +46,10 @@ class CompileJob {
   Diagnostics diagnostics() const;
 
  private:
-  std::optional<ObjectCode> compile(KernelCache* cache, Diagnostics& said, CompileStats& stats);
-  std::shared_ptr<const LoadedCode> make(JitSession& session, KernelCache* cache, Diagnostics& said,
+  std::optional<ObjectCode> compile(Compiler& compiler, KernelCache* cache, Diagnostics& said,
+                                    CompileStats& stats);
+  std::shared_ptr<const LoadedCode> make(JitSession& session, Compiler& compiler,
+                                         KernelCache* cache, Diagnostics& said,
                                          CompileStats& stats);
   /// Given up, now or before, because nobody waits for it.
   bool unwanted();

@@ -41,6 +41,10 @@ struct SystemOptions {
   /// Where compiled kernels are kept between runs; empty: nowhere.
   std::filesystem::path cache = {};
   int compile_threads = 0;  ///< 0: one a core.
+  /// Compile in processes of their own, so that a fault of LLVM's (a crash, a hang, no
+  /// memory) costs a kernel its speed and not the host its life; with a warning if there is
+  /// no nacre-compile-worker.
+  bool compile_apart = false;
 };
 
 /// Which side of a surface; the front is where the geometric normal points.

@@ -44,8 +44,17 @@ std::unique_ptr<SystemParts> SystemParts::create(const SystemOptions& options,
     if (parts->colors == nullptr) return nullptr;
   }
   parts->textures = std::make_unique<TextureStore>(options.textures);
-  parts->service = CompileService::create(
-      {.threads = options.compile_threads, .cache = options.cache, .session = {}}, diagnostics);
+  ServiceOptions service{.threads = options.compile_threads, .cache = options.cache, .session = {}};
+  if (options.compile_apart) {
+    service.worker = find_worker();
+    if (service.worker.empty()) {
+      diagnostics.warning(
+          "no-worker", {},
+          "there is no nacre-compile-worker, so kernels are compiled in this process",
+          "one beside the library, or NACRE_COMPILE_WORKER=FILE");
+    }
+  }
+  parts->service = CompileService::create(service, diagnostics);
   return parts;
 }
 

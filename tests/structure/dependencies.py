@@ -23,8 +23,8 @@ MAY_INCLUDE = {
 # The longest folder that holds a file decides.
 JIT_STAGES = ("jit/document", "jit/graph/look", "jit/graph", "jit/graph/color",
               "jit/graph/resolve", "jit/graph/build", "jit/graph/check", "jit/ocio", "jit/glsl",
-              "jit/record", "jit/passes", "jit/llvm", "jit/cache", "jit/service", "jit/compile",
-              "jit/shading")
+              "jit/record", "jit/passes", "jit/llvm", "jit/cache", "jit/worker",
+              "jit/service", "jit/compile", "jit/shading")
 
 # Start of an include from outside -> the folders that may have it.
 QUARANTINE = {
@@ -34,7 +34,7 @@ QUARANTINE = {
     "gtest/": ("tests",),
     "gmock/": ("tests",),
     "llvm-c/": ("jit/llvm",),
-    "llvm/": ("jit/llvm",),
+    "llvm/": ("jit/llvm", "tests/jit"),
     "nlohmann/": ("bench", "examples", "tests"),
     "pugixml": ("jit/document",),
 }
