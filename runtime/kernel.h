@@ -11,24 +11,32 @@ namespace nacre {
 /// A texture as a kernel sees it: one array of 32-bit words laid out as
 /// runtime/texture/layout.h says.
 struct TextureBinding {
-  const std::uint32_t* words = nullptr;
-  std::uint64_t count = 0;  ///< Words; a fetch beyond them reads word 0.
+  const std::uint32_t* words = nullptr;  ///< On a boundary of 64 bytes.
+  std::uint64_t count = 0;               ///< Words; a fetch beyond them reads word 0.
 };
 
 /// Look-ups that a kernel leaves to the host: textures too large to be
 /// resident. Arrays hold `lanes` floats; rgba holds 4 * lanes, r of all lanes first.
 struct TextureCall {
-  std::uint32_t slot;
+  std::uint32_t slot;   ///< Index in Program::textures.
   std::uint32_t modes;  ///< As Op::texture_call's imm.
-  std::uint32_t lanes;
+  std::uint32_t lanes;  ///< Points of the call.
+  /// Coordinates as the node has them, before the address mode.
+  /// @{
   const float* u;
   const float* v;
+  /// @}
+  /// How they change along the axes x and y of the footprint.
+  /// @{
   const float* dudx;
   const float* dvdx;
   const float* dudy;
   const float* dvdy;
-  float* rgba;
+  /// @}
+  float* rgba;  ///< To be filled in; 0 before.
 };
+/// Answers a call; may be called by all threads that run kernels. `user` is
+/// KernelArguments::texture_user.
 using TextureCallback = void (*)(void* user, const TextureCall* call);
 
 /// What a kernel reads and writes: plain C layout, all memory the host's.
@@ -36,13 +44,13 @@ using TextureCallback = void (*)(void* user, const TextureCall* call);
 /// int32; booleans as int32 0 or 1). Arrays need only their natural alignment.
 /// Inputs and outputs must not overlap.
 struct KernelArguments {
-  const void* const* inputs = nullptr;        ///< One array a Program::inputs entry.
-  void* const* outputs = nullptr;             ///< One array a Program::outputs entry.
-  const std::uint32_t* parameters = nullptr;  ///< One slot a Program::parameters entry.
-  const TextureBinding* textures = nullptr;   ///< One a Program::textures entry.
-  TextureCallback texture_callback = nullptr;
-  void* texture_user = nullptr;
-  std::uint64_t count = 0;  ///< Points.
+  const void* const* inputs = nullptr;         ///< One array a Program::inputs entry.
+  void* const* outputs = nullptr;              ///< One array a Program::outputs entry.
+  const std::uint32_t* parameters = nullptr;   ///< One slot a Program::parameters entry.
+  const TextureBinding* textures = nullptr;    ///< One a Program::textures entry.
+  TextureCallback texture_callback = nullptr;  ///< Null: such look-ups give 0.
+  void* texture_user = nullptr;                ///< Handed to it as it is.
+  std::uint64_t count = 0;                     ///< Points.
   /// Not 0: end soon. Looked at between passes, and after each round of loops that are
   /// counted, so within a few milliseconds. Must not go back to 0 during a run. Null: never.
   const std::atomic<std::uint32_t>* stop = nullptr;

@@ -12,6 +12,7 @@ namespace nacre {
 /// enough that nothing goes on for more than about a tenth of a second after it is due.
 class Stop {
  public:
+  /// Goes on whatever the date does.
   using Clock = std::chrono::steady_clock;
 
   /// Never.
@@ -33,13 +34,18 @@ class Stop {
     return sooner;
   }
 
+  /// Somebody asked for it.
   bool is_requested() const { return token_.stop_requested(); }
+  /// The deadline has come.
   bool is_late() const {
     return deadline_ != Clock::time_point::max() && Clock::now() >= deadline_;
   }
+  /// Either.
   bool is_due() const { return is_requested() || is_late(); }
 
+  /// Without a source: nobody can ask.
   const std::stop_token& token() const { return token_; }
+  /// time_point::max() where there is none.
   Clock::time_point deadline() const { return deadline_; }
   /// What `within` was given for the deadline, for diagnostics; 0 without one.
   double seconds() const { return seconds_; }

@@ -19,10 +19,10 @@ namespace nacre {
 ///   stringarray, geomnamearray        texts
 ///   closures, shaders, material       nothing: "unconnected"
 struct Value {
-  Type type = Type::none;
-  std::vector<float> floats;
-  std::vector<std::int32_t> ints;
-  std::vector<std::string> texts;
+  Type type = Type::none;          ///< None: no value.
+  std::vector<float> floats;       ///< Matrices row by row.
+  std::vector<std::int32_t> ints;  ///< Booleans, too.
+  std::vector<std::string> texts;  ///< As in the document, references of XML resolved.
 
   bool operator==(const Value&) const = default;
 };

@@ -12,19 +12,20 @@ namespace nacre {
 /// One image as a node body sees it while recording: what is known of it now,
 /// and the slot under which the kernel will find it.
 struct TextureSource {
+  /// How a kernel gets its texels.
   enum class State {
     resident,  ///< Texels through Op::texel, laid out as runtime/texture/layout.h says.
     on_host,   ///< Too large: look up through Op::texture_call.
     missing,   ///< No image: the node's default colour.
   };
-  State state = State::missing;
+  State state = State::missing;          ///< Decided while recording.
   Int slot;                              ///< A literal.
   texture_layout::TexelFormat format{};  ///< Fixed in the kernel.
   int channels = 0;                      ///< In the file, at most 4.
   bool single = false;                   ///< One texel: the same everywhere.
 };
 
-/// What a file name with or without <UDIM> / <UVTILE> stands for.
+/// What a file name with or without `<UDIM>` / `<UVTILE>` stands for.
 struct TextureSources {
   std::vector<TextureSource> images;  ///< One, or one a tile; empty: missing.
   /// For tile sets the table of runtime/texture/tile_set.h; empty for one image.

@@ -33,12 +33,14 @@ double cost_once(const Function& function, std::size_t first, const std::vector<
 /// What engines need to end a Program in time: see RunStatus::too_many_steps.
 class StepLimit {
  public:
+  /// For a Program as the engine runs it.
   StepLimit(const Program& program, std::uint64_t max_steps);
 
   /// Whether steps must be counted while it runs; if not, it cannot take too many.
   bool is_counted() const { return is_counted_; }
   /// Whether a run can end as too_many_steps at all.
   bool can_fail() const { return can_fail_; }
+  /// As given.
   std::uint64_t max_steps() const { return max_steps_; }
   /// Passes after which KernelArguments::stop is worth a look: a few milliseconds.
   std::uint64_t passes_between_looks() const { return passes_between_looks_; }

@@ -8,6 +8,7 @@
 
 namespace nacre {
 
+/// The one bit pattern of NaN that can be seen; see Op.
 inline constexpr std::uint32_t canonical_nan = 0x7fc00000u;
 
 /// What `op` gives for operands of these bits, or nothing where the operation

@@ -134,21 +134,24 @@ enum class Op : std::uint8_t {
 
 /// How an operation looks: for the printer, the verifier and the passes.
 struct OpInfo {
-  Op op;
-  std::string_view name;
+  Op op;                  ///< The one that the row is of.
+  std::string_view name;  ///< "add", as texts of Programs have it.
   /// One letter an operand: f, i, b, or x for any (all x of one operation
   /// agree); "*" for as many as there are.
   std::string_view operands;
   Scalar result;    ///< none also where the instruction itself says (x).
   bool any_result;  ///< The result's type is that of the x operands.
-  bool commutes;
+  bool commutes;    ///< Two operands may change places.
 };
 
+/// The row of an operation.
 const OpInfo& info(Op op);
 /// In the imm of a loop: more rounds than its bound are no result, but an error.
 inline constexpr std::uint32_t loop_must_end = 0x80000000u;
+/// Rounds that the imm of a loop allows.
 constexpr std::uint32_t loop_bound(std::uint32_t imm) { return imm & ~loop_must_end; }
 
+/// Operations there are.
 inline constexpr int op_count = static_cast<int>(Op::store) + 1;
 
 /// Opens a region: if_any, loop.
@@ -160,6 +163,7 @@ bool is_structural(Op op);
 /// sin ... pow.
 bool is_transcendental(Op op);
 
+/// "f32", "i32", "b1" or "none".
 std::string_view scalar_name(Scalar scalar);
 
 }  // namespace nacre

@@ -14,20 +14,23 @@ namespace nacre {
 /// A value is named by the index of the instruction that defines it, within
 /// its function.
 using ValueId = std::uint32_t;
+/// In place of an operand that there is not.
 inline constexpr ValueId no_value = ~ValueId{0};
 
 /// One operation. `call` keeps its operands in the function's pool.
 struct Instruction {
-  Op op = Op::constant;
-  Scalar type = Scalar::none;
-  bool varying = false;    ///< Differs from lane to lane; see mark_varying().
-  std::uint8_t count = 0;  ///< Operands in `operands`; 0 for call.
-  std::uint32_t imm = 0;
+  Op op = Op::constant;        ///< What it computes.
+  Scalar type = Scalar::none;  ///< Of its value.
+  bool varying = false;        ///< Differs from lane to lane; see mark_varying().
+  std::uint8_t count = 0;      ///< Operands in `operands`; 0 for call.
+  std::uint32_t imm = 0;       ///< As the operation says: an index, bits or a number.
+  /// Earlier values of its function; `count` of them.
   std::array<ValueId, 3> operands{no_value, no_value, no_value};
   /// What it was recorded for: an index into Program::origins. Says nothing of what it
   /// computes, so equal instructions may differ in it, and no digest or text has it.
   std::uint32_t origin = 0;
 
+  /// All but `origin`.
   bool operator==(const Instruction& other) const {
     return op == other.op && type == other.type && varying == other.varying &&
            count == other.count && imm == other.imm && operands == other.operands;
@@ -38,36 +41,37 @@ struct Instruction {
 /// Program is the entry; the others are outlined bodies with `argument` and
 /// `give` in place of inputs and stores.
 struct Function {
-  std::string name;
-  std::vector<Scalar> arguments;
-  std::vector<Scalar> results;
-  std::vector<Instruction> code;
+  std::string name;               ///< Of an outlined body, as outline() was given it.
+  std::vector<Scalar> arguments;  ///< None of the entry.
+  std::vector<Scalar> results;    ///< None of the entry.
+  std::vector<Instruction> code;  ///< A ValueId is an index in it.
   /// Operands of calls, and of texture_call: Instruction::operands[0] is the
   /// first of them in the pool, operands[1] how many.
   std::vector<ValueId> pool;
 
+  /// Those of an instruction of this function, wherever they are.
   std::span<const ValueId> operands(const Instruction& instruction) const;
 };
 
-/// Where an input channel comes from, by name: "P.x", "wi.y", "state.7".
+/// An input or output of a kernel, one array of a batch, by name: "P.x", "wi.y", "state.7".
 struct Channel {
-  std::string name;
-  Scalar type = Scalar::f32;
+  std::string name;           ///< Unique among the inputs, or the outputs.
+  Scalar type = Scalar::f32;  ///< Of its elements, four bytes each.
   bool operator==(const Channel&) const = default;
 };
 
 /// A four-byte slot of the parameter block.
 struct ParameterSlot {
-  std::string name;  ///< "SR_gold/base_color.x", "frame", ...
-  Scalar type = Scalar::f32;
-  std::uint32_t value = 0;  ///< The bits it has in the document.
+  std::string name;           ///< "SR_gold/base_color.x", "frame", ...
+  Scalar type = Scalar::f32;  ///< b1: 0 or 1.
+  std::uint32_t value = 0;    ///< The bits it has in the document.
   bool operator==(const ParameterSlot&) const = default;
 };
 
 /// A constant table of floats, for `table`.
 struct Table {
-  std::string name;
-  std::vector<float> values;
+  std::string name;           ///< Unique in a Program.
+  std::vector<float> values;  ///< At least one.
   bool operator==(const Table&) const = default;
 };
 
@@ -79,21 +83,24 @@ struct TextureSlot {
 
 /// How exact the transcendental functions and the closure approximations are.
 enum class Accuracy : std::uint8_t { precise, standard, fast };
+/// "precise", "standard" or "fast".
 std::string_view accuracy_name(Accuracy accuracy);
 
 /// What a kernel computes for every point of a batch.
 struct Program {
-  std::string name;
-  std::vector<Function> functions{1};
-  std::vector<Channel> inputs;
-  std::vector<Channel> outputs;
-  std::vector<ParameterSlot> parameters;
-  std::vector<Table> tables;
-  std::vector<TextureSlot> textures;
+  std::string name;                       ///< For people: "sample", "outputs".
+  std::vector<Function> functions{1};     ///< The entry, then callees before their callers.
+  std::vector<Channel> inputs;            ///< Their order is that of KernelArguments::inputs.
+  std::vector<Channel> outputs;           ///< Their order is that of KernelArguments::outputs.
+  std::vector<ParameterSlot> parameters;  ///< Their order is that of the block.
+  std::vector<Table> tables;              ///< Part of the kernel; nothing to bind.
+  std::vector<TextureSlot> textures;      ///< Their order is that of KernelArguments::textures.
   /// Nodes by path and lobes by name, for people who ask what costs what; 0: nobody's.
   std::vector<std::string> origins{""};
 
+  /// Function 0.
   Function& entry() { return functions.front(); }
+  /// Function 0.
   const Function& entry() const { return functions.front(); }
 };
 

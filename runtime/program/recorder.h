@@ -28,6 +28,7 @@ class Recorder {
   /// What is recorded from now on is for `name`; what another has recorded before and shares
   /// stays the other's. Returns what it was for.
   std::uint32_t begin_origin(std::string_view name);
+  /// Back to what begin_origin() returned.
   void set_origin(std::uint32_t origin) { origin_ = origin; }
 
   // -- Leaves. The same name always gives the same value. --
@@ -68,14 +69,22 @@ class Recorder {
 
   // -- Regions; use if_any() and loop() of runtime/value/control.h. --
 
+  /// Opens a region for the lanes of `mask`, a b1.
   void begin_if(Ref mask);
+  /// In the open if_any region: `inner` in its lanes, `outer` elsewhere, to be used behind it.
+  /// After everything else in the region.
   Ref merge(Ref inner, Ref outer);
+  /// Closes the region that begin_if opened last.
   void end_if();
   /// `imm` as of Op::loop: a bound, or one with loop_must_end.
   void begin_loop(Ref mask, std::uint32_t imm);
+  /// At the beginning of the open loop: a value that a lane takes from round to round.
   Ref carry(Ref initial);
+  /// At the end of the open loop: what a carry becomes; its last value, to be used behind it.
   Ref next(Ref carry, Ref value);
+  /// Last in the open loop: lanes where `condition`, a b1, is false go no further.
   void again(Ref condition);
+  /// Closes the region that begin_loop opened last.
   void end_loop();
 
   // -- Outlined functions; use outline() of runtime/value/control.h. --
@@ -85,6 +94,7 @@ class Recorder {
   /// Starts a function; its arguments follow by argument(). Values of the
   /// function around it can't be used until end_function().
   void begin_function(std::string key, std::string name, std::span<const Scalar> arguments);
+  /// Argument `index` of the function that begin_function started last.
   Ref argument(std::uint32_t index);
   /// Ends it and returns its index in the Program.
   std::uint32_t end_function(std::span<const Ref> results);
@@ -100,6 +110,7 @@ class Recorder {
   /// What was recorded, whole: nothing removed, varying not yet marked. Valid
   /// as a Program only if stores were recorded; see slice.h for entry points.
   const Program& program() const { return program_; }
+  /// The same, moved out; the Recorder is of no use afterwards.
   Program take();
 
   /// The operand as a value id of the current function; literals are recorded.

@@ -12,8 +12,8 @@ namespace nacre {
 
 /// A named result of an entry point.
 struct SliceOutput {
-  std::string name;
-  Ref value;
+  std::string name;  ///< Of the channel: "f.x".
+  Ref value;         ///< Recorded at top level of the entry, or a literal.
 };
 
 /// What `slice` does with keep marks (Recorder::keep).

@@ -22,6 +22,7 @@ class ReferenceKernel : public Kernel {
   virtual RunStatus run_double(const KernelArguments& arguments) const = 0;
 };
 
+/// Never null. `max_steps` as of StepLimit.
 std::unique_ptr<ReferenceKernel> make_reference(Program program,
                                                 std::uint64_t max_steps = default_max_steps);
 

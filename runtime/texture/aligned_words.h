@@ -16,9 +16,13 @@ class AlignedWords {
   /// an event to report rather than an exception.
   static AlignedWords allocate(std::size_t count);
 
+  /// No words: none were asked for, or none could be had.
   bool empty() const { return count_ == 0; }
+  /// All words; valid while this lives.
+  /// @{
   std::span<std::uint32_t> span() { return {words_.get(), count_}; }
   std::span<const std::uint32_t> span() const { return {words_.get(), count_}; }
+  /// @}
 
  private:
   struct Free {

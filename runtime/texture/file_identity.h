@@ -12,15 +12,16 @@ namespace nacre {
 /// written, even within a second and with as many bytes. (Not when it was written twice in
 /// one tick of the file system's clock, a few milliseconds, in place and with as many bytes.)
 struct FileIdentity {
-  std::uint64_t device = 0;
-  std::uint64_t inode = 0;
-  std::uint64_t bytes = 0;
-  std::int64_t modified = 0;  ///< Nanoseconds since 1970; so `changed`, which nobody can set.
-  std::int64_t changed = 0;
+  std::uint64_t device = 0;   ///< Of the file system.
+  std::uint64_t inode = 0;    ///< Of the file on it.
+  std::uint64_t bytes = 0;    ///< Its size.
+  std::int64_t modified = 0;  ///< Nanoseconds since 1970.
+  std::int64_t changed = 0;   ///< The same, of contents or properties; nobody can set it.
 
   auto operator<=>(const FileIdentity&) const = default;
 };
 
+/// From what the system says of an open file or a path.
 FileIdentity identity_of(const struct stat& status);
 
 /// All zero where there is no such file.

@@ -15,17 +15,23 @@ namespace nacre {
 /// Lookups of one call: structure of arrays of `count` floats. u, v are needed;
 /// derivatives (of uv, per unit of screen x and y) may be null and then are zero.
 struct HostLookup {
-  int count = 0;
+  int count = 0;  ///< Points.
+  /// (0, 0) is the lower left corner of the image.
+  /// @{
   const float* u = nullptr;
   const float* v = nullptr;
+  /// @}
+  /// Null: zero.
+  /// @{
   const float* dudx = nullptr;
   const float* dvdx = nullptr;
   const float* dudy = nullptr;
   const float* dvdy = nullptr;
-  TextureFilter filter = TextureFilter::linear;
-  AddressMode u_mode = AddressMode::periodic;
-  AddressMode v_mode = AddressMode::periodic;
-  int max_anisotropy = 1;
+  /// @}
+  TextureFilter filter = TextureFilter::linear;  ///< As sampling.h says.
+  AddressMode u_mode = AddressMode::periodic;    ///< Where u is outside [0, 1].
+  AddressMode v_mode = AddressMode::periodic;    ///< Where v is outside [0, 1].
+  int max_anisotropy = 1;                        ///< 1 .. largest_anisotropy.
 };
 
 /// An image too large to be resident, sampled as sampling.h says from tiles that
@@ -40,12 +46,14 @@ struct HostLookup {
 /// Thread-safe. Does not need or keep any floating-point state beyond rounding to nearest.
 class HostTexture {
  public:
+  /// A file that `cache` has opened for the image `info`.
   HostTexture(std::shared_ptr<TileCache> cache, std::shared_ptr<TileCache::File> file,
               const ImageInfo& info);
 
   /// Four arrays of `count` floats; channels the image lacks are 0 and alpha 1.
   void lookup(const HostLookup& points, const std::array<float*, 4>& rgba) const;
 
+  /// Reads of neighbouring texels that failed so far: those were 0.
   std::uint64_t read_failures() const { return read_failures_.load(std::memory_order_relaxed); }
 
  private:

@@ -15,14 +15,15 @@ namespace nacre {
 /// Numbers of the file, as far as the choice of a texel format goes.
 enum class SampleType { unsigned8, unsigned16, half, floating };
 
+/// What the header of a file says of an image.
 struct ImageInfo {
-  int width = 0;  ///< Of the full (display) window.
-  int height = 0;
-  int channels = 0;       ///< That are kept: 1..4.
-  int first_channel = 0;  ///< Number of the first of them in the file.
-  int subimage = 0;
-  SampleType samples = SampleType::unsigned8;
-  FileIdentity file;  ///< What was opened.
+  int width = 0;                               ///< Of the full (display) window.
+  int height = 0;                              ///< Of the full (display) window.
+  int channels = 0;                            ///< That are kept: 1..4.
+  int first_channel = 0;                       ///< Number of the first of them in the file.
+  int subimage = 0;                            ///< Number of the part or page in the file.
+  SampleType samples = SampleType::unsigned8;  ///< As the file has them.
+  FileIdentity file;                           ///< What was opened.
 };
 
 /// One image of a file, decoded row by row: the only reader of images there is, for
@@ -45,6 +46,7 @@ class ImageReader {
   /// "stopped".
   std::optional<Diagnostic> open(const std::string& path, const std::string& layer,
                                  const ImageLimits& limits, const Stop& stop = {});
+  /// After open() without an error.
   const ImageInfo& info() const { return info_; }
 
   /// Calls `row(y, samples)` for the full window's rows, y = 0 the TOP one, in order,

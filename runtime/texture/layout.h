@@ -86,6 +86,7 @@
 /// recorded, and 16-bit height fields stay exact.
 namespace nacre::texture_layout {
 
+/// How the words of a texel hold its components.
 enum class TexelFormat : std::uint32_t {
   r32f = 0,
   rgba8 = 1,
@@ -94,12 +95,14 @@ enum class TexelFormat : std::uint32_t {
   rgba32f = 4
 };
 
+/// Word 0 of every array.
 inline constexpr std::uint32_t magic_and_version = 0x4e545801;  // "NTX" and version 1
+/// Texels begin behind them.
 inline constexpr int header_words = 64;
-inline constexpr int max_levels = 16;  ///< Entries of a table; 15 are enough for 16384.
-inline constexpr int max_size = 16384;
-inline constexpr int tile_log2 = 3;
-inline constexpr int alignment = 64;  ///< Bytes, of the array.
+inline constexpr int max_levels = 16;   ///< Entries of a table; 15 are enough for 16384.
+inline constexpr int max_size = 16384;  ///< Texels of either side.
+inline constexpr int tile_log2 = 3;     ///< Tiles are 8 x 8 texels.
+inline constexpr int alignment = 64;    ///< Bytes, of the array.
 
 /// Flag: no image could be read. The array then is one 1x1 r32f level holding 0;
 /// the sampler returns the node's default.
@@ -131,6 +134,7 @@ enum Word : int {
   word_level_size = 48,
 };
 
+/// log2 of the words of one texel.
 constexpr int texel_words_log2(TexelFormat format) {
   switch (format) {
     case TexelFormat::r32f: return 0;
@@ -142,6 +146,7 @@ constexpr int texel_words_log2(TexelFormat format) {
   return 0;
 }
 
+/// Texels of a level where level 0 has `extent`.
 constexpr int level_extent(int extent, int level) {
   return (extent >> level) > 1 ? extent >> level : 1;
 }
@@ -151,15 +156,17 @@ int level_count(int width, int height);
 
 /// What the header says, computed before anything is allocated.
 struct Plan {
-  TexelFormat format = TexelFormat::r32f;
-  int channels = 1;
-  int width = 1;
-  int height = 1;
-  int levels = 1;
+  TexelFormat format = TexelFormat::r32f;  ///< Of all levels.
+  int channels = 1;                        ///< That are kept: 1..4.
+  int width = 1;                           ///< Of level 0.
+  int height = 1;                          ///< Of level 0.
+  int levels = 1;                          ///< The last is 1x1.
+  /// First words, by level; past the last that of the last.
   std::array<std::uint32_t, max_levels> level_start{};
-  std::array<std::uint32_t, max_levels> level_row{};
-  std::uint32_t total_words = header_words;
+  std::array<std::uint32_t, max_levels> level_row{};  ///< Words in one row of tiles, by level.
+  std::uint32_t total_words = header_words;           ///< The header included.
 
+  /// Of the whole array.
   std::uint64_t bytes() const { return std::uint64_t{total_words} * 4; }
 };
 

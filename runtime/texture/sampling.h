@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+/// @file
 /// What a texture lookup means: the recorded sampler, the host path and the tests'
 /// oracle all implement this page.
 ///
@@ -54,24 +55,28 @@
 ///            Catmull-Rom would interpolate but overshoot. Used on both levels.
 namespace nacre {
 
-inline constexpr int default_anisotropy = 32;
-inline constexpr int largest_anisotropy = 64;
+inline constexpr int default_anisotropy = 32;  ///< Of ShaderOptions; OpenImageIO's, too.
+inline constexpr int largest_anisotropy = 64;  ///< Who asks for more gets this.
 
+/// How texels are weighed; see above.
 enum class TextureFilter { closest, linear, cubic };
+/// What coordinates outside [0, 1] mean.
 enum class AddressMode { constant, clamp, periodic, mirror };
 
 /// Filter and address modes as one number: the immediate of Op::texture_call.
 struct TextureModes {
-  TextureFilter filter = TextureFilter::linear;
-  AddressMode u = AddressMode::periodic;
-  AddressMode v = AddressMode::periodic;
-  int max_anisotropy = 1;  ///< 1 .. largest_anisotropy.
+  TextureFilter filter = TextureFilter::linear;  ///< How texels are weighed.
+  AddressMode u = AddressMode::periodic;         ///< Of the first coordinate.
+  AddressMode v = AddressMode::periodic;         ///< Of the second coordinate.
+  int max_anisotropy = 1;                        ///< 1 .. largest_anisotropy.
 };
+/// Four bits each from the lowest: filter, u, v, and the anisotropy above.
 constexpr std::uint32_t pack_modes(TextureModes modes) {
   return static_cast<std::uint32_t>(modes.filter) | static_cast<std::uint32_t>(modes.u) << 4 |
          static_cast<std::uint32_t>(modes.v) << 8 |
          static_cast<std::uint32_t>(modes.max_anisotropy) << 12;
 }
+/// The inverse.
 constexpr TextureModes unpack_modes(std::uint32_t packed) {
   return {static_cast<TextureFilter>(packed & 3u), static_cast<AddressMode>((packed >> 4) & 3u),
           static_cast<AddressMode>((packed >> 8) & 3u), static_cast<int>(packed >> 12)};

@@ -8,6 +8,7 @@
 
 namespace nacre {
 
+/// r, g, b, a.
 using Rgba = std::array<float, 4>;
 
 // half_to_float is that of runtime/program/fold.h. In integer steps, for a recorder: with m = h &

@@ -23,15 +23,21 @@ class Texture {
   /// An image that could not be read, and why.
   explicit Texture(Diagnostic problem);
 
+  /// As layout.h describes them, the header first.
   std::span<const std::uint32_t> words() const { return words_.span(); }
+  /// texture_missing, texture_on_host or 0.
   std::uint32_t flags() const { return words()[texture_layout::word_flags]; }
+  /// The image could not be read.
   bool missing() const { return (flags() & texture_layout::texture_missing) != 0; }
+  /// The texels are in words().
   bool resident() const { return flags() == 0; }
   /// Of the image in the file; 1 if it is missing.
   int width() const { return static_cast<int>(words()[texture_layout::word_image_width]); }
+  /// Of the image in the file; 1 if it is missing.
   int height() const { return static_cast<int>(words()[texture_layout::word_image_height]); }
 
   const HostTexture* host() const { return host_.get(); }  ///< Null unless on the host.
+  /// Why it is missing.
   const std::optional<Diagnostic>& problem() const { return problem_; }
   /// NaN and infinite samples of level 0 that became 0.
   std::uint64_t replaced_texels() const { return replaced_texels_; }
@@ -43,6 +49,6 @@ class Texture {
   std::uint64_t replaced_texels_ = 0;
 };
 
-using TextureHandle = std::shared_ptr<const Texture>;
+using TextureHandle = std::shared_ptr<const Texture>;  ///< Keeps the texture in memory.
 
 }  // namespace nacre

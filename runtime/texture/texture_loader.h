@@ -20,6 +20,7 @@ namespace nacre {
 /// `automatic` loses nothing; `half` halves float images, at 11 bits and |x| <= 65504.
 enum class TexelPolicy { automatic, half, full };
 
+/// By the table above.
 texture_layout::TexelFormat texel_format(const ImageInfo& info, TexelPolicy policy);
 
 /// The layout an image gets.

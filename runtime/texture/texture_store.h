@@ -21,7 +21,7 @@ namespace nacre {
 struct TextureKey {
   std::string path;   ///< Resolved by the caller, against the roots it trusts.
   std::string layer;  ///< See ImageReader; empty: the first.
-  TexelPolicy policy = TexelPolicy::automatic;
+  TexelPolicy policy = TexelPolicy::automatic;  ///< How samples become texels.
 
   auto operator<=>(const TextureKey&) const = default;
 };
@@ -33,6 +33,7 @@ enum class MissingImages {
   use_default  ///< It is, with a warning.
 };
 
+/// What a store may keep in memory, and accept.
 struct TextureOptions {
   /// Bytes of texels kept in memory, unused textures included.
   std::uint64_t budget = std::uint64_t{2} << 30;
@@ -40,20 +41,21 @@ struct TextureOptions {
   std::uint64_t host_cache = std::uint64_t{256} << 20;
   /// Of every image. The store keeps to sides of 16384, which its layout can hold.
   ImageLimits limits;
-  TileLimits tiles;  ///< Of what a name with <UDIM> or <UVTILE> stands for.
+  TileLimits tiles;  ///< Of what a name with `<UDIM>` or `<UVTILE>` stands for.
 };
 
+/// What a store has, and has done since it was made.
 struct TextureStatistics {
-  std::uint64_t resident_bytes = 0;
-  std::uint64_t peak_resident_bytes = 0;
-  std::uint64_t resident_textures = 0;
-  std::uint64_t host_textures = 0;     ///< Known to the store now, looked up through the host.
-  std::uint64_t missing_textures = 0;  ///< Known to the store now, with a problem.
-  std::uint64_t loads = 0;             ///< Times an image was opened.
-  std::uint64_t hits = 0;              ///< Requests that found their texture loaded.
-  std::uint64_t evictions = 0;         ///< Unused textures dropped for room.
-  std::uint64_t replaced_texels = 0;   ///< NaN and infinite samples, over all loads.
-  std::uint64_t read_failures = 0;     ///< Lookups through the host that read 0 instead.
+  std::uint64_t resident_bytes = 0;       ///< Of the arrays of all resident textures, used or not.
+  std::uint64_t peak_resident_bytes = 0;  ///< The most that there were at once.
+  std::uint64_t resident_textures = 0;    ///< Known to the store now, texels in memory.
+  std::uint64_t host_textures = 0;        ///< Known to the store now, looked up through the host.
+  std::uint64_t missing_textures = 0;     ///< Known to the store now, with a problem.
+  std::uint64_t loads = 0;                ///< Times an image was opened.
+  std::uint64_t hits = 0;                 ///< Requests that found their texture loaded.
+  std::uint64_t evictions = 0;            ///< Unused textures dropped for room.
+  std::uint64_t replaced_texels = 0;      ///< NaN and infinite samples, over all loads.
+  std::uint64_t read_failures = 0;        ///< Lookups through the host that read 0 instead.
 };
 
 /// Textures by file, shared by all that ask for the same key. A texture lives while a
@@ -71,6 +73,7 @@ struct TextureStatistics {
 /// same one loads once, and the other threads wait. Handles may outlive the store.
 class TextureStore {
  public:
+  /// An empty store.
   explicit TextureStore(const TextureOptions& options = {});
   TextureStore(const TextureStore&) = delete;
   TextureStore& operator=(const TextureStore&) = delete;
@@ -83,8 +86,10 @@ class TextureStore {
   /// Forgets every texture that no handle refers to.
   void drop_unused();
 
+  /// As given, within what the layout allows.
   const TextureOptions& options() const { return options_; }
 
+  /// As they are now.
   TextureStatistics statistics() const;
 
  private:

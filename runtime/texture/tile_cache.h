@@ -16,6 +16,7 @@ class TileCache {
   /// A file of the cache; valid while the cache lives.
   struct File;
 
+  /// Tiles of all files together stay within the budget.
   TileCache(std::uint64_t budget_bytes, const ImageLimits& limits);
   ~TileCache();
   TileCache(const TileCache&) = delete;
@@ -26,8 +27,11 @@ class TileCache {
   /// the cache yet cannot be read any more.
   std::shared_ptr<File> open(const std::string& path, const ImageInfo& info);
 
+  /// At least 1.
   static int level_count(const File& file);
+  /// Of the full window, at a level less than level_count().
   static int width(const File& file, int level);
+  /// Of the full window, at a level less than level_count().
   static int height(const File& file, int level);
 
   /// Pixels [x0, x1) x [y0, y1) of a level into `samples`, channels together, y from the

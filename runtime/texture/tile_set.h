@@ -13,21 +13,22 @@ namespace nacre {
 
 /// One file of a set: the image for u in [u, u+1), v in [v, v+1).
 struct TileFile {
-  int u = 0;
-  int v = 0;
-  std::string path;
+  int u = 0;         ///< Of the lower left corner, an integer.
+  int v = 0;         ///< Of the lower left corner, an integer.
+  std::string path;  ///< Of the image file.
 };
 
+/// What a set may cost.
 struct TileLimits {
-  std::size_t max_folder_entries = 100'000;
-  std::size_t max_tiles = 10'000;
-  std::size_t max_cells = 65'536;  ///< Of the rectangle around all tiles.
+  std::size_t max_folder_entries = 100'000;  ///< Of the folder that is listed.
+  std::size_t max_tiles = 10'000;            ///< Files of one set.
+  std::size_t max_cells = 65'536;            ///< Of the rectangle around all tiles.
 };
 
-/// True if the file name has <UDIM> or <UVTILE>.
+/// True if the file name has `<UDIM>` or `<UVTILE>`.
 bool has_tile_token(std::string_view path);
 
-/// Finds the files that a name with <UDIM> or <UVTILE> stands for, by listing its folder.
+/// Finds the files that a name with `<UDIM>` or `<UVTILE>` stands for, by listing its folder.
 /// MaterialX 1.39 Specification, Filename Substitutions:
 ///
 ///   <UDIM>    1001 + floor(u) + 10 floor(v), four digits; u from 0 to 9
@@ -54,8 +55,8 @@ std::optional<std::vector<TileFile>> find_tiles(const std::string& pattern,
 /// A point whose cell lies outside, or holds no_tile, takes the node's default. Inside a
 /// tile the coordinates are u - floor(u), v - floor(v), and taps clamp at its edge.
 inline constexpr std::uint32_t tile_directory_magic = 0x4e545301;  // "NTS" and version 1
-inline constexpr std::uint32_t no_tile = 0xffffffffu;
-inline constexpr std::size_t tile_directory_header_words = 16;
+inline constexpr std::uint32_t no_tile = 0xffffffffu;              ///< In a cell without a file.
+inline constexpr std::size_t tile_directory_header_words = 16;     ///< Cells begin behind them.
 
 /// `tiles` as find_tiles gives them; not empty.
 std::vector<std::uint32_t> tile_directory(const std::vector<TileFile>& tiles);
