@@ -14,12 +14,12 @@ namespace nacre {
 
 class Bsdf;
 class LobeBsdf;
-using BsdfPtr = std::shared_ptr<const Bsdf>;
+using BsdfPtr = std::shared_ptr<const Bsdf>;  ///< Null: nothing is connected.
 
 /// A lobe with everything that stands above it multiplied out, for one view.
 struct WeightedLobe {
-  LobePtr lobe;
-  Color3 weight;
+  LobePtr lobe;   ///< Never null.
+  Color3 weight;  ///< Factor of all that the lobe gives; no literal zero.
 };
 
 /// What a BSDF lets pass, as `flatten` has found out; 1 where nothing is connected.
@@ -30,9 +30,12 @@ using Throughput = std::function<Color3(const BsdfPtr&)>;
 /// `flatten` makes of them.
 class Bsdf : public Closure {
  public:
+  /// Up to two closures that it is made of.
   using Parts = ClosureParts<Bsdf>;
+  /// Null for a part that is not there.
   explicit Bsdf(BsdfPtr first = nullptr, BsdfPtr second = nullptr)
       : parts_(std::move(first), std::move(second)) {}
+  /// Each may be null.
   const Parts& parts() const { return parts_; }
 
   /// Itself if it is a leaf, or null.
@@ -58,7 +61,9 @@ class LobeBsdf final : public Bsdf {
   /// `left_out` lists what the lobe does not model of its node; see View::left_out.
   LobeBsdf(LobePtr lobe, Float weight, std::vector<std::string> left_out = {})
       : lobe_(std::move(lobe)), weight_(weight), left_out_(std::move(left_out)) {}
+  /// Never null.
   const LobePtr& lobe() const { return lobe_; }
+  /// What the node's own input says.
   Float weight() const { return weight_; }
   const LobeBsdf* leaf() const override { return this; }
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
@@ -75,6 +80,7 @@ class LobeBsdf final : public Bsdf {
 /// renderer's to trace, and left out.
 class LayerBsdf final : public Bsdf {
  public:
+  /// Any may be null.
   LayerBsdf(BsdfPtr top, BsdfPtr base, VdfPtr medium = nullptr)
       : Bsdf(std::move(top), std::move(base)), medium_(std::move(medium)) {}
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
@@ -88,6 +94,7 @@ class LayerBsdf final : public Bsdf {
 /// fg in proportion mix, bg in proportion 1 - mix.
 class MixBsdf final : public Bsdf {
  public:
+  /// Either may be null; `mix` in [0, 1].
   MixBsdf(BsdfPtr fg, BsdfPtr bg, Float mix) : Bsdf(std::move(fg), std::move(bg)), mix_(mix) {}
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   bool shades(std::size_t i) const override;
@@ -97,15 +104,19 @@ class MixBsdf final : public Bsdf {
   Float mix_;
 };
 
+/// Both in one place: the weights stay, what they take from a layer underneath adds up.
 class AddBsdf final : public Bsdf {
  public:
+  /// Either may be null.
   AddBsdf(BsdfPtr in1, BsdfPtr in2) : Bsdf(std::move(in1), std::move(in2)) {}
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
 };
 
+/// in1 with its weight tinted. What it lets pass stays as it is.
 class MultiplyBsdf final : public Bsdf {
  public:
+  /// `tint` in [0, 1].
   MultiplyBsdf(BsdfPtr in1, Color3 tint) : Bsdf(std::move(in1)), tint_(tint) {}
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;

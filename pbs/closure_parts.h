@@ -14,9 +14,10 @@ namespace nacre {
 template <class T>
 class ClosureParts {
  public:
-  using Pointer = std::shared_ptr<const T>;
-  static constexpr std::size_t count = 2;
+  using Pointer = std::shared_ptr<const T>;  ///< Null: not connected.
+  static constexpr std::size_t count = 2;    ///< Of parts, connected or not.
 
+  /// Null for what is not connected.
   explicit ClosureParts(Pointer first = nullptr, Pointer second = nullptr)
       : parts_{std::move(first), std::move(second)} {}
   ~ClosureParts() {
@@ -32,6 +33,7 @@ class ClosureParts {
   ClosureParts(const ClosureParts&) = delete;
   ClosureParts& operator=(const ClosureParts&) = delete;
 
+  /// Part `i`, less than `count`; may be null.
   const Pointer& operator[](std::size_t i) const { return parts_[i]; }
 
  private:

@@ -30,7 +30,10 @@ struct KernelRequest {
 ///   opacity   out: opacity, transmission.x .y .z: of a ray that meets the
 ///             surface, 1 - opacity + opacity * transmission goes straight on
 struct SurfaceKernels {
+  /// Channels as listed above.
+  /// @{
   std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity;
+  /// @}
   /// One line for each thing that was left out, with the reason.
   std::vector<std::string> manifest;
   /// Those lines of it that change the picture, such as a medium inside.
@@ -40,6 +43,7 @@ struct SurfaceKernels {
   bool complete = true;  ///< Else `may_go_on` said no, and the rest is of no use.
 };
 
+/// Bits of the channel `flags` of sample.
 enum SampleFlag : std::int32_t {
   sample_valid = 1,  ///< Else weight and pdfs are 0.
   sample_delta = 2,  ///< pdf is a discrete probability; evaluate gives 0.

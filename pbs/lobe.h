@@ -22,6 +22,7 @@ struct LobeValue {
   Float pdf;  ///< Of wi, by solid angle, given wo; 0 where the lobe does not scatter.
 };
 
+/// A direction that a lobe chose.
 struct LobeSample {
   Float3 wi;           ///< Unit, world space; anything where not valid.
   Bool valid;          ///< False: the sample is lost (its energy is, too).
@@ -32,6 +33,8 @@ struct LobeSample {
   Float delta_probability = 0.0f;
 };
 
+/// Calls f on every recorded scalar, in order; see runtime/value/vector.h.
+/// @{
 template <class F>
 void visit(LobeValue& value, F&& f) {
   visit(value.f, f), f(value.pdf);
@@ -41,6 +44,7 @@ void visit(LobeSample& sample, F&& f) {
   visit(sample.wi, f), f(sample.valid), f(sample.delta);
   visit(sample.delta_weight, f), f(sample.delta_probability);
 }
+/// @}
 
 /// One term of a BSDF, of weight 1. Its members are recorded values, prepared
 /// and kept (pbs/view.h: keep) by the node body that makes it; the functions
@@ -53,6 +57,7 @@ void visit(LobeSample& sample, F&& f) {
 class Lobe {
  public:
   virtual ~Lobe() = default;
+  /// For MaterialKernels::lobes: the category of its node.
   virtual std::string_view name() const = 0;
   /// One or more LobeKind bits.
   virtual std::int32_t kinds() const = 0;
@@ -61,6 +66,7 @@ class Lobe {
   /// the lobe counts in no others. Called at top level before the functions below.
   virtual void prepare(const View& view, Bool mask) const { (void)view, (void)mask; }
 
+  /// wi: unit, world space, on any side.
   virtual LobeValue evaluate(const View& view, Float3 wi) const = 0;
   /// u: three independent numbers in [0, 1).
   virtual LobeSample sample(const View& view, Float3 u) const = 0;
@@ -74,6 +80,6 @@ class Lobe {
   /// pass; opaque lobes 0 whatever their weight (the library's 1.39.5 closures).
   virtual bool is_opaque() const { return false; }
 };
-using LobePtr = std::shared_ptr<const Lobe>;
+using LobePtr = std::shared_ptr<const Lobe>;  ///< Shared by all that read its node.
 
 }  // namespace nacre

@@ -15,10 +15,11 @@ class Surface final : public Closure {
   EdfPtr edf;                          ///< Null: does not emit.
   Float opacity = 1.0f;                ///< Presence: 0 as if it were not there.
   Color3 transmission = Color3(0.0f);  ///< What passes straight through where present.
-  Bool thin_walled = false;
+  Bool thin_walled = false;  ///< Has no inside: light that enters leaves at the same point.
 };
-using SurfacePtr = std::shared_ptr<const Surface>;
+using SurfacePtr = std::shared_ptr<const Surface>;  ///< Null: no surface is connected.
 
+/// The Surface that a port carries; null where nothing is connected.
 SurfacePtr as_surface(const ClosurePtr& closure);
 
 }  // namespace nacre

@@ -12,11 +12,11 @@ namespace nacre {
 /// medium under a BSDF is the renderer's to trace.
 class Vdf final : public Closure {
  public:
-  Color3 absorption = Color3(0.0f);
-  Color3 scattering = Color3(0.0f);
-  Float anisotropy = 0.0f;
+  Color3 absorption = Color3(0.0f);  ///< Per unit of length.
+  Color3 scattering = Color3(0.0f);  ///< Per unit of length.
+  Float anisotropy = 0.0f;           ///< 0: all directions alike.
 };
-using VdfPtr = std::shared_ptr<const Vdf>;
+using VdfPtr = std::shared_ptr<const Vdf>;  ///< Null: no medium.
 
 /// Null where the closure is none.
 VdfPtr as_vdf(const ClosurePtr& closure);

@@ -17,6 +17,7 @@ class LeftOut {
   void add(const std::string& line) {
     if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
   }
+  /// In the order they came.
   const std::vector<std::string>& lines() const { return lines_; }
 
  private:
@@ -25,18 +26,23 @@ class LeftOut {
 
 /// From where a closure is looked at, while recording.
 struct View {
-  Recorder* recorder = nullptr;
-  Accuracy accuracy = Accuracy::standard;
-  Float3 wo;                 ///< Unit, world space, from the point to the viewer.
-  Bool thin_walled = false;  ///< Light that enters leaves at the same point.
+  Recorder* recorder = nullptr;            ///< Where closures record; never null.
+  Accuracy accuracy = Accuracy::standard;  ///< What closures aim at.
+  Float3 wo;                               ///< Unit, world space, from the point to the viewer.
+  Bool thin_walled = false;                ///< Light that enters leaves at the same point.
   /// Where closures put down what of them the kernels leave out; null: nowhere.
   LeftOut* left_out = nullptr;
 };
 
 /// A local frame: x and y tangents, z the normal; unit and orthogonal.
 struct Frame {
+  /// World space.
+  /// @{
   Float3 x, y, z;
+  /// @}
+  /// A vector of world space by its components along x, y and z.
   Float3 to_local(Float3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+  /// The inverse.
   Float3 to_world(Float3 v) const {
     return fma(Float3(v.x), x, fma(Float3(v.y), y, Float3(v.z) * z));
   }
@@ -59,10 +65,12 @@ Color3 product(Color3 x, Color3 y);
 
 /// Keeps a value for the kernels after `begin`; see Recorder::keep. A value
 /// that is an input channel itself is read again instead.
+/// @{
 Float keep(Recorder& recorder, Float x);
 Int keep(Recorder& recorder, Int x);
 Bool keep(Recorder& recorder, Bool x);
 Float2 keep(Recorder& recorder, Float2 v);
 Float3 keep(Recorder& recorder, Float3 v);
+/// @}
 
 }  // namespace nacre
