@@ -9,15 +9,17 @@
 
 namespace nacre {
 
+/// What runs a Program.
 enum class Backend : std::uint8_t {
   jit,          ///< Machine code through LLVM.
   interpreter,  ///< Ready at once; the same bits.
   reference,    ///< Double precision, slow: the oracle.
 };
 
+/// How a Program becomes a kernel, and what that may cost.
 struct CompileOptions {
-  Accuracy accuracy = Accuracy::standard;
-  Backend backend = Backend::jit;
+  Accuracy accuracy = Accuracy::standard;  ///< Of the transcendental functions and closures.
+  Backend backend = Backend::jit;          ///< What runs the kernel.
   /// 1, 4, 8, 16; 0: the widest that pays on this machine; else an error. JIT only.
   int lanes = 0;
   /// Treat every value as varying: slower, and must change no result.

@@ -7,9 +7,9 @@ namespace nacre {
 
 /// What one stage of the way from a document to a kernel made, for people who look into it.
 struct StageReport {
-  std::string name;  ///< "graph", "record", "sample: derive", "sample: expand_math", ...
-  double milliseconds = 0.0;
-  std::size_t nodes = 0;         ///< Of the graph, after that stage.
+  std::string name;           ///< "graph", "record", "sample: derive", "sample: expand_math", ...
+  double milliseconds = 0.0;  ///< Wall clock.
+  std::size_t nodes = 0;      ///< Of the graph, after that stage.
   std::size_t instructions = 0;  ///< Of all functions, after the stage.
   std::string text;              ///< What came out; only if asked for.
 };

@@ -36,34 +36,35 @@ class Definitions {
   /// All there are, library first, then in document order.
   std::vector<const NodeDef*> all() const;
 
-  /// The <nodegraph> that implements a nodedef, named by the graph's `nodedef`
-  /// or by an <implementation>; null if there is none.
+  /// The `<nodegraph>` that implements a nodedef, named by the graph's `nodedef`
+  /// or by an `<implementation>`; null if there is none.
   const Element* graph_of(const NodeDef& def) const;
 
-  /// The <implementation> that gives a nodedef by text: an attribute `file` with
+  /// The `<implementation>` that gives a nodedef by text: an attribute `file` with
   /// a function of the GLSL subset, or `sourcecode`, for our target, for none, or
   /// for MaterialX's own GLSL generator. Null if there is none.
   const Element* source_of(const NodeDef& def) const;
 
   /// What the document has to implement a nodedef of the library here: graphs, and
-  /// <implementation>s that name one or have a text. The library's own go before them.
+  /// `<implementation>`s that name one or have a text. The library's own go before them.
   std::span<const Element* const> replacements(const NodeDef& def) const;
 
-  /// The nodedef that a <nodegraph> implements, named by it or by an <implementation>,
+  /// The nodedef that a `<nodegraph>` implements, named by it or by an `<implementation>`,
   /// for whatever target; null for a compound graph.
   const NodeDef* implemented_by(const Element& graph) const;
 
-  /// The <typedef> of that name if it has members, or null.
+  /// The `<typedef>` of that name if it has members, or null.
   const StructType* struct_type(std::string_view name) const;
 
-  /// The <geompropdef> of that name, or null.
+  /// The `<geompropdef>` of that name, or null.
   const Element* geompropdef(std::string_view name) const;
 
   /// Size of a unit in the base unit of its type: 0.01 for "centimeter".
   struct Unit {
     std::string_view type;  ///< "distance", "angle"
-    double scale = 1;
+    double scale = 1;       ///< Base units in one of it.
   };
+  /// By its name in a document; nothing for one that no unit definition has.
   std::optional<Unit> unit(std::string_view name) const;
 
   /// Element at the root by a reference made in `user`: in its namespace first,

@@ -14,27 +14,39 @@ namespace nacre {
 class Document;
 class Element;
 
+/// An attribute of an element. Both texts live as long as the document; references of XML are
+/// resolved.
 struct Attribute {
-  std::string_view name;
-  std::string_view value;
+  std::string_view name;   ///< "nodename", as the file has it.
+  std::string_view value;  ///< What stands between the quotes.
 };
 
 /// The children of an element in document order.
 class ElementRange {
  public:
+  /// A forward iterator over siblings.
   class Iterator {
    public:
+    /// What std::iterator_traits asks for.
+    /// @{
     using iterator_category = std::forward_iterator_tag;
     using value_type = const Element;
     using difference_type = std::ptrdiff_t;
     using pointer = const Element*;
     using reference = const Element&;
+    /// @}
 
+    /// The end.
     Iterator() = default;
+    /// At an element; null: the end.
     explicit Iterator(const Element* at) : at_(at) {}
+    /// Not at the end.
     const Element& operator*() const { return *at_; }
+    /// Not at the end.
     const Element* operator->() const { return at_; }
+    /// To the next sibling; not at the end.
     Iterator& operator++();
+    /// To the next sibling; returns where it was.
     Iterator operator++(int);
     bool operator==(const Iterator&) const = default;
 
@@ -42,9 +54,13 @@ class ElementRange {
     const Element* at_ = nullptr;
   };
 
+  /// The element and its later siblings; null: none.
   explicit ElementRange(const Element* first) : first_(first) {}
+  /// For range-based loops.
+  /// @{
   Iterator begin() const { return Iterator(first_); }
   Iterator end() const { return Iterator(nullptr); }
+  /// @}
 
  private:
   const Element* first_;
@@ -59,16 +75,22 @@ class Element {
   /// The `name` attribute; "" without one. "ns:name" if it came through an
   /// include from a document with a namespace.
   std::string_view name() const { return name_; }
+  /// In the order of the file.
   std::span<const Attribute> attributes() const { return {attributes_, attribute_count_}; }
   /// Value of an attribute; "" if it is not there.
   std::string_view attribute(std::string_view name) const;
+  /// Tells an attribute that is "" from none.
   bool has_attribute(std::string_view name) const;
   /// An attribute of this element or of its nearest ancestor that has it; "".
   std::string_view inherited_attribute(std::string_view name) const;
 
+  /// Null for the root.
   const Element* parent() const { return parent_; }
+  /// The sibling behind it, or null.
   const Element* next() const { return next_; }
+  /// In document order.
   ElementRange children() const { return ElementRange(first_child_); }
+  /// Of its own, not of theirs.
   std::size_t child_count() const { return child_count_; }
   /// The child of that name, or null. Constant time in large scopes.
   const Element* child(std::string_view name) const;

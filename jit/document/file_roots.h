@@ -12,7 +12,9 @@ class FileRoots {
  public:
   /// "" is the current folder.
   void add(const std::filesystem::path& folder);
+  /// Whether the file lies below one of them, there or not.
   bool hold(const std::filesystem::path& file) const;
+  /// No folder was added, so nothing lies below.
   bool empty() const { return folders_.empty(); }
 
  private:

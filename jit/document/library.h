@@ -15,10 +15,13 @@ namespace nacre {
 /// and threads.
 class Library {
  public:
+  /// Reads the definitions of a document; faults of its nodedefs are reported.
   Library(std::unique_ptr<Document> document, Diagnostics& diagnostics)
       : document_(std::move(document)), definitions_(*document_, nullptr, diagnostics) {}
 
+  /// All files as one tree.
   const Document& document() const { return *document_; }
+  /// What it declares, by name.
   const Definitions& definitions() const { return definitions_; }
 
  private:
@@ -26,8 +29,9 @@ class Library {
   Definitions definitions_;
 };
 
+/// How a data library is read.
 struct LibraryOptions {
-  ReadOptions read;
+  ReadOptions read;  ///< Search paths, limits and whether comments are kept.
   /// Also the GLSL texts of the data library itself (the folder that has a
   /// "stdlib"), for those who want them run: nothing else needs them, and they
   /// are a quarter of what there is to read.

@@ -15,17 +15,18 @@ namespace nacre {
 
 /// What a document may cost, so that no file can exhaust the machine.
 struct ReadLimits {
-  std::size_t file_bytes = std::size_t{64} << 20;
-  std::size_t total_bytes = std::size_t{256} << 20;
-  int files = 1024;
-  int include_depth = 256;
-  int xml_depth = 256;
-  std::size_t elements = 4'000'000;  ///< In one file.
+  std::size_t file_bytes = std::size_t{64} << 20;    ///< Of one file.
+  std::size_t total_bytes = std::size_t{256} << 20;  ///< Of all files of the document.
+  int files = 1024;                                  ///< All that are read, the main one counted.
+  int include_depth = 256;                           ///< Files that include one another.
+  int xml_depth = 256;                               ///< Elements within one another.
+  std::size_t elements = 4'000'000;                  ///< In one file.
   /// Of nodedefs, instances, looks and types that inherit from one another: each chain,
   /// both ends counted. Kept by the document for whoever follows them.
   std::size_t inheritance = 64;
 };
 
+/// How a document is read.
 struct ReadOptions {
   /// Where includes are looked for after the including file's own folder.
   std::vector<std::filesystem::path> search_paths;
@@ -35,8 +36,8 @@ struct ReadOptions {
   /// Keep comments, processing instructions, text and blank lines for
   /// `write_document`. Elements are the same without.
   bool keep_comments = false;
-  ReadLimits limits;
-  Stop stop;  ///< Ends reading early, as an error.
+  ReadLimits limits;  ///< Exceeding one is an error.
+  Stop stop;          ///< Ends reading early, as an error.
 };
 
 /// Reads a document and all it includes. Nothing if there was an error; the

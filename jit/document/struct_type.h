@@ -9,16 +9,19 @@
 
 namespace nacre {
 
-/// A <typedef> with members (MaterialX 1.39 Specification, "Custom Data Types"), members
+/// A `<typedef>` with members (MaterialX 1.39 Specification, "Custom Data Types"), members
 /// that are structures themselves replaced by theirs. A port of such a type is one port
 /// for each leaf, called PORT.MEMBER: a structure flows as its leaves, side by side.
 struct StructType {
+  /// A member that is no structure itself.
   struct Leaf {
-    std::string path;  ///< ".ss", ".st_0.ss"
-    Type type = Type::none;
+    std::string path;          ///< ".ss", ".st_0.ss"
+    Type type = Type::none;    ///< Of its values.
     std::string default_text;  ///< What the member's `value` says; "" if nothing.
   };
+  /// As ports name the type.
   std::string_view name;
+  /// In the order in which values list them.
   std::vector<Leaf> leaves;
 };
 

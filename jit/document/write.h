@@ -6,6 +6,7 @@
 
 namespace nacre {
 
+/// How a document is written.
 struct WriteOptions {
   /// Write what other files gave as the document's own; otherwise their elements
   /// are left out and the <xi:include>s stay. Where such an element names files,

@@ -12,9 +12,11 @@
 
 namespace nacre {
 
+/// Something of a document that can be compiled.
 struct FoundOutput {
-  std::string name;  ///< As build_graph takes it: "NG_marble/out", "out".
-  Type type = Type::none;
+  std::string name;        ///< As build_graph takes it: "NG_marble/out", "out".
+  Type type = Type::none;  ///< None for one the standard does not have.
+  /// Of its element.
   SourceLocation where;
 };
 
@@ -22,13 +24,17 @@ struct FoundOutput {
 /// order. Graphs that implement nodedefs are not among them.
 std::vector<FoundOutput> find_outputs(const Document& document);
 
+/// A material node and what its inputs name.
 struct FoundMaterial {
-  std::string name;
+  std::string name;  ///< As ShadingSystem::compile_material takes it.
   /// Nodes or graphs the shader inputs name; "" where nothing is connected.
+  /// @{
   std::string surfaceshader;
   std::string backsurfaceshader;
   std::string displacementshader;
   std::string volumeshader;
+  /// @}
+  /// Of the node.
   SourceLocation where;
 };
 

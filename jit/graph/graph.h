@@ -15,17 +15,18 @@ namespace nacre {
 
 /// What feeds an input of a node or an output of a graph.
 struct Source {
+  /// Which of the members say it.
   enum class Kind : std::uint8_t {
     unconnected,  ///< A closure, shader or material input that nothing feeds.
     literal,      ///< `value`
     link,         ///< Output `output` of node `node`.
     parameter,    ///< Parameter `parameter`; its value is in Graph::parameters.
   };
-  Kind kind = Kind::unconnected;
-  std::uint32_t node = 0;
-  std::uint32_t output = 0;
-  std::uint32_t parameter = 0;
-  Value value;
+  Kind kind = Kind::unconnected;  ///< Which of the following count.
+  std::uint32_t node = 0;         ///< Of a link: index in Graph::nodes, before the reader's own.
+  std::uint32_t output = 0;       ///< Of a link: index in GraphNode::outputs.
+  std::uint32_t parameter = 0;    ///< Of a parameter: index in Graph::parameters.
+  Value value;                    ///< Of a literal.
 
   /// Only for a literal of type filename. `colorspace`: the space the image is
   /// encoded in ("" or "none": as it is). Conversion to the working space is in
@@ -39,15 +40,17 @@ struct Source {
   bool operator==(const Source&) const = default;
 };
 
+/// An input of a node, with what feeds it.
 struct GraphInput {
-  std::string name;
-  Type type = Type::none;
-  Source source;
+  std::string name;        ///< As the nodedef has it.
+  Type type = Type::none;  ///< That of the nodedef, and of `source`.
+  Source source;           ///< A literal where nobody said anything: the default.
 };
 
+/// An output of a node.
 struct GraphNodeOutput {
-  std::string name;
-  Type type = Type::none;
+  std::string name;        ///< As the nodedef has it.
+  Type type = Type::none;  ///< That of the nodedef.
   /// The nodedef's `default` of this output; type none if it names none.
   Value default_value;
 };
@@ -59,7 +62,7 @@ struct GraphNode {
   std::string path;      ///< For people: "NG_marble/mix1", "SR/fresnel/mix1" once inlined.
   std::vector<GraphInput> inputs;        ///< Every input of the nodedef, in its order.
   std::vector<GraphNodeOutput> outputs;  ///< Every output of the nodedef, in its order.
-  SourceLocation where;
+  SourceLocation where;                  ///< Of the instance.
 
   /// The input of that name, or null.
   const GraphInput* input(std::string_view name) const;
@@ -68,29 +71,33 @@ struct GraphNode {
 /// A value that the author wrote on an instance or a graph's interface, numeric
 /// and not uniform, so that it may change without recompiling.
 struct Parameter {
-  std::string path;  ///< Public name: "NG_marble/mix1/fg", "SR_marble/base_color".
-  Type type = Type::none;
+  std::string path;        ///< Public name: "NG_marble/mix1/fg", "SR_marble/base_color".
+  Type type = Type::none;  ///< Numeric.
   Value value;             ///< As written: before unit and colour conversion.
   std::string colorspace;  ///< Of `value`; "" if none was given or needed.
   std::string unit;        ///< Of `value`; "" if none was given.
   std::string nodedef;     ///< Of the instance it is written on; "" for a graph's interface.
   std::string input;       ///< Name of the input it is written on.
   std::string ui_name;     ///< From the input or the nodedef's input; all ui_* may be empty.
-  Value ui_min, ui_max;    ///< Type none when not given. uisoftmin / uimin.
-  SourceLocation where;
+  /// Type none when not given. uisoftmin / uimin.
+  /// @{
+  Value ui_min, ui_max;
+  /// @}
+  SourceLocation where;  ///< Of the input it is written on.
 };
 
+/// Something that was asked for.
 struct GraphOutput {
-  std::string name;  ///< "NG_marble/out", "out"; for a material "surfaceshader" and so on.
-  Type type = Type::none;
-  Source source;
+  std::string name;           ///< "NG_marble/out", "out"; for a material "surfaceshader" and so on.
+  Type type = Type::none;     ///< That of `source`.
+  Source source;              ///< What feeds it.
   SourceLocation where = {};  ///< Of what was asked for.
 };
 
-/// What implements a nodedef by text: MaterialX's <implementation> with `file`
+/// What implements a nodedef by text: MaterialX's `<implementation>` with `file`
 /// or `sourcecode`, in the GLSL subset of jit/glsl.
 struct NodeSource {
-  std::string nodedef;
+  std::string nodedef;   ///< The one it implements: "ND_my_noise_float".
   std::string file;      ///< With `function`; relative to `document`.
   std::string text;      ///< Instead of a file: an expression, "{{in1}} + {{in2}}", or with
                          ///< `function` the text of one.
@@ -99,7 +106,7 @@ struct NodeSource {
   /// Allowed values of string inputs; a text gets the index of one.
   std::vector<std::pair<std::string, std::vector<std::string>>> enums;
   std::vector<SourceTable> tables;  ///< Bound to the uniform samplers of the text.
-  SourceLocation where;
+  SourceLocation where;             ///< Of the `<implementation>`.
 };
 
 /// Typed nodes and connections, and nothing else: nodedefs resolved, node graphs
@@ -108,9 +115,9 @@ struct NodeSource {
 /// links only to nodes before it. Fill one in from any scene format, with
 /// GraphBuilder or by hand; check it with `verify`.
 struct Graph {
-  std::vector<GraphNode> nodes;
-  std::vector<Parameter> parameters;
-  std::vector<GraphOutput> outputs;
+  std::vector<GraphNode> nodes;       ///< In an order in which they can be computed.
+  std::vector<Parameter> parameters;  ///< What may change without another topology.
+  std::vector<GraphOutput> outputs;   ///< In the order asked for.
   /// For nodes whose nodedef has neither a body nor a graph; each nodedef once.
   std::vector<NodeSource> sources;
   /// Main file of the document that it was built from, "" without one: the files that a

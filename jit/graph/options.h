@@ -22,16 +22,17 @@ class ColorConfig;
 enum class Preference : std::uint8_t {
   body,    ///< Our body or the host's, else the node graph, else the text.
   graph,   ///< The node graph, else as above.
-  source,  ///< The text of an <implementation>, else as above.
+  source,  ///< The text of an `<implementation>`, else as above.
 };
 
+/// How a document, or what a GraphBuilder was told, becomes a Graph.
 struct GraphOptions {
   /// True for nodedefs that have a body of ours: they become nodes even where
   /// the library has a graph for them. Empty: those without a graph are taken to
   /// have one. A nodedef with neither, and no implementation by text, passes its
   /// `defaultinput` or `default` through, with a warning.
   std::function<bool(std::string_view nodedef)> is_native;
-  Preference prefer = Preference::body;
+  Preference prefer = Preference::body;  ///< Where there is a choice.
   /// Colour spaces of the host, looked at before those that are built in. Where it
   /// lacks one end of a conversion the built-in spaces serve, if they have both; and one
   /// of each meet at its role aces_interchange.

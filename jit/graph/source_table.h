@@ -12,8 +12,10 @@ namespace nacre {
 /// Numbers that never change once made, and a digest that stands for them.
 class TableValues {
  public:
+  /// Takes the numbers and computes the digest.
   explicit TableValues(std::vector<float> values);
 
+  /// For ever the same.
   const std::vector<float>& values() const { return values_; }
   /// SHA-256 over the values, as 64 hexadecimal digits.
   const std::string& digest() const { return digest_; }
@@ -28,12 +30,13 @@ class TableValues {
 /// edge, and between texel centres the numbers are linear along every axis (OpenGL 4.6
 /// core profile, 8.14.2, clamp to edge).
 struct SourceTable {
+  /// What a look-up between texel centres gives.
   enum class Filter : std::uint8_t { nearest, linear };
 
-  std::string name;
+  std::string name;                          ///< Of the sampler in the text.
   std::array<std::size_t, 3> size{1, 1, 1};  ///< Texels along x, y, z; all at least 1.
   std::size_t channels = 3;                  ///< 1 to 4; what is missing reads as (0, 0, 0, 1).
-  Filter filter = Filter::linear;
+  Filter filter = Filter::linear;            ///< Along all axes.
   /// The channels of a texel side by side, then x, y, z.
   std::shared_ptr<const TableValues> values;
 };

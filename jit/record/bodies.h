@@ -17,10 +17,11 @@ namespace nacre {
 /// nodedefs: one of a node pack gets it only where it has the ports of one of those.
 class Bodies {
  public:
+  /// The body that records a nodedef.
   struct Binding {
-    const NodeBody* body = nullptr;
-    const NodeDef* def = nullptr;  ///< What declares the ports.
-    bool is_of_host = false;
+    const NodeBody* body = nullptr;  ///< Lives as long as the Bodies.
+    const NodeDef* def = nullptr;    ///< What declares the ports.
+    bool is_of_host = false;         ///< It came by add().
   };
 
   /// `library` must outlive it.
@@ -32,7 +33,9 @@ class Bodies {
 
   /// Null: no native body, use the graph.
   const Binding* binding(std::string_view nodedef) const;
+  /// Its body alone, or null.
   const NodeBody* find(std::string_view nodedef) const;
+  /// Whether it has one.
   bool contains(std::string_view nodedef) const { return binding(nodedef) != nullptr; }
 
  private:

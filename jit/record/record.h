@@ -26,10 +26,11 @@ enum class ParameterMode {
            ///< ".x", ".y", ... for components; one kernel fits all variants.
 };
 
+/// How a Graph is recorded.
 struct RecordOptions {
-  Accuracy accuracy = Accuracy::standard;
-  ParameterMode parameters = ParameterMode::frozen;
-  TextureProvider* textures = nullptr;
+  Accuracy accuracy = Accuracy::standard;            ///< What bodies aim at.
+  ParameterMode parameters = ParameterMode::frozen;  ///< Of the graph's parameters.
+  TextureProvider* textures = nullptr;               ///< Null: no node has an image.
   /// Runs the graph's `sources`; null: nodes that need one are errors.
   SourceBodies* sources = nullptr;
   /// Compute what only one side of a conditional node needs only where it is taken;

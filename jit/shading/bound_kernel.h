@@ -18,11 +18,13 @@ class RecordedTextures;
 /// by any number of threads; holds what it needs alive.
 class BoundKernel {
  public:
+  /// `textures` may be null for a Program that reads none.
   BoundKernel(std::shared_ptr<const Kernel> kernel,
               std::shared_ptr<const RecordedTextures> textures);
 
   /// Inputs, outputs, parameters and textures, in the order run() wants them.
   const Program& program() const { return kernel_->program(); }
+  /// The code without its bindings.
   const Kernel& kernel() const { return *kernel_; }
 
   /// The parameter block as the document has it, to be changed and passed to run().

@@ -16,15 +16,19 @@
 #include "pbs/kernels.h"
 #include "runtime/texture/texture_store.h"
 
+/// The interface of libnacre. A ShadingSystem makes kernels of documents or graphs; hosts bind
+/// arrays to them and run them.
 namespace nacre {
 
 /// A node implemented by the host: `record` reads the inputs of the call and
 /// sets its outputs by recording, as the bodies in nodes/ do.
 struct HostBody {
   std::string nodedef;  ///< "ND_my_noise_float", declared by one of the libraries.
+  /// Called for each such node that is recorded, by any thread that compiles.
   std::function<void(NodeCall& call)> record;
 };
 
+/// What a ShadingSystem is made of.
 struct SystemOptions {
   /// The MaterialX data library first, then node packs: files or folders.
   std::vector<std::filesystem::path> libraries;
@@ -37,7 +41,7 @@ struct SystemOptions {
   /// load_ocio_config); empty: none. A host with colour spaces of its own gives
   /// GraphOptions::colors instead, which counts before this.
   std::filesystem::path ocio_config = {};
-  TextureOptions textures = {};
+  TextureOptions textures = {};  ///< Limits of the one store that all kernels share.
   /// Where compiled kernels are kept between runs; empty: nowhere.
   std::filesystem::path cache = {};
   int compile_threads = 0;  ///< 0: one a core.
@@ -50,10 +54,11 @@ struct SystemOptions {
 /// Which side of a surface; the front is where the geometric normal points.
 enum class Side { front, back };
 
+/// How a material or outputs are compiled.
 struct ShaderOptions {
-  CompileOptions compile;
-  ParameterMode parameters = ParameterMode::frozen;
-  KernelRequest kernels;
+  CompileOptions compile;                            ///< Engine, accuracy and limits.
+  ParameterMode parameters = ParameterMode::frozen;  ///< Whether values may change later.
+  KernelRequest kernels;                             ///< Of a material: which, and of what lobes.
   /// `is_native` and `stop` (that of `compile`) are filled in, and `colors` where it is null.
   GraphOptions graph;
   bool lazy = true;  ///< See RecordOptions.
@@ -74,18 +79,24 @@ struct ShaderOptions {
 
 /// Outputs of node graphs as one kernel: channel "<name>", or "<name>.x" ... for
 /// types of several components, in the order asked for. A medium, displacement or light
-/// has the channels of pbs/shader_channels.h.
+/// has several channels, which follow the name and a dot:
+///
+///   VDF                 absorption.x .y .z, scattering.x .y .z, anisotropy
+///   volumeshader        the same, and emission.x .y .z per unit of length, towards wo
+///   displacementshader  offset.x .y .z, world space
+///   lightshader         intensity.x .y .z; but for `light` direction.x .y .z
 struct OutputKernel {
+  /// One of the outputs, and where its channels stand.
   struct Output {
-    std::string name;  ///< "NG_marble/out"
-    Type type = Type::none;
-    std::size_t first_channel = 0;
-    std::size_t channels = 0;   ///< component_count(type) of a numeric type.
-    SourceLocation where = {};  ///< Of the node that it is of.
+    std::string name;               ///< "NG_marble/out"
+    Type type = Type::none;         ///< Numeric, a medium, a displacement or a light.
+    std::size_t first_channel = 0;  ///< In Program::outputs.
+    std::size_t channels = 0;       ///< component_count(type) of a numeric type.
+    SourceLocation where = {};      ///< Of the node that it is of.
   };
-  BoundKernel kernel;
-  std::vector<Output> outputs;
-  std::vector<StageReport> stages;
+  BoundKernel kernel;               ///< All outputs at once.
+  std::vector<Output> outputs;      ///< In the order asked for.
+  std::vector<StageReport> stages;  ///< Of all that was done, in order.
 };
 
 /// True for types that an output may have to be a kernel by itself: numbers, media,
@@ -93,25 +104,32 @@ struct OutputKernel {
 /// compile_outputs refuses them ("not-numeric").
 bool has_kernel(Type type);
 
-/// The kernels of one material; see pbs/kernels.h for the channels of its surface and
-/// pbs/shader_channels.h for the rest. A kernel that has nothing to compute is absent; a
+/// The kernels of one material; see SurfaceKernels for the channels of its surface and
+/// OutputKernel for the others. A kernel that has nothing to compute is absent; a
 /// volumematerial has `volume` alone, a material without a surface shader `displacement`.
 struct MaterialKernels {
-  bool has_surface = true;
+  bool has_surface = true;  ///< The material has a surface shader.
   /// The back shows another shader: to be compiled with ShaderOptions::side and used
-  /// where dot(Ng, wo) < 0. Else these kernels are those of both sides (pbs/sides.h).
+  /// where dot(Ng, wo) < 0. Else these kernels are those of both sides (MaterialX PBS 1.39,
+  /// "Surfaces").
   bool has_back = false;
   /// Stores the state channels "state.<k>" that sample and evaluate read.
-  std::optional<BoundKernel> begin;
+  std::optional<BoundKernel> begin;  ///< Absent too where nothing needs a state.
+  /// One question about the point each; SurfaceKernels lists what they read and store.
+  /// @{
   std::optional<BoundKernel> sample, evaluate, albedo, emission, opacity;
+  /// @}
   /// Only if requested: evaluate for one point and n directions. Its inputs are
   /// wi.*; every other channel of evaluate, state and geometry, is a slot of the
   /// parameter block under the channel's name, for the host to fill from the point.
   std::optional<BoundKernel> evaluate_at;
+  /// Channels as of the types displacementshader and volumeshader in OutputKernel.
+  /// @{
   std::optional<BoundKernel> displacement, volume;
+  /// @}
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
-  std::vector<std::string> lobes;
+  std::vector<std::string> lobes;     ///< Names; the channel `lobe` of sample counts in this order.
   std::vector<std::string> manifest;  ///< What was left out, and why.
   /// Those lines of it that a renderer would have to do itself, for the picture lacks them.
   std::vector<std::string> not_modelled;
@@ -131,9 +149,11 @@ class ShadingSystem {
   ShadingSystem(const ShadingSystem&) = delete;
   ShadingSystem& operator=(const ShadingSystem&) = delete;
 
+  /// The data library and node packs of SystemOptions::libraries.
   const Library& library() const;
   /// What to give build_graph or GraphBuilder for a Graph meant for this system.
   GraphOptions graph_options(const ShaderOptions& options) const;
+  /// The images of all kernels, for statistics and to drop unused ones.
   TextureStore& textures();
 
   /// Graph outputs as build_graph names them, all in one kernel.
@@ -153,9 +173,10 @@ class ShadingSystem {
   /// every stage but the last, machine code.
   void check(const Document& document, const ShaderOptions& options, Diagnostics& diagnostics);
 
-  // The same from a Graph that no document was needed for.
+  /// The same from a Graph that no document was needed for: all its outputs.
   std::unique_ptr<OutputKernel> compile_outputs(const Graph& graph, const ShaderOptions& options,
                                                 Diagnostics& diagnostics);
+  /// The same from a Graph whose outputs are shaders, named as GraphRequest::material has them.
   std::unique_ptr<MaterialKernels> compile_material(const Graph& graph,
                                                     const ShaderOptions& options,
                                                     Diagnostics& diagnostics);

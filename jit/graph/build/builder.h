@@ -29,13 +29,16 @@ namespace nacre {
 /// reported by `finish`; it never throws. The library must outlive the builder.
 class GraphBuilder {
  public:
+  /// Stands for a node of this builder.
   struct Node {
-    std::uint32_t index;
+    std::uint32_t index;  ///< Counts the calls of add_node.
   };
+  /// Stands for a parameter of this builder.
   struct ParameterId {
-    std::uint32_t index;
+    std::uint32_t index;  ///< Counts the calls of parameter().
   };
 
+  /// An empty graph, of nodes that `library` declares.
   explicit GraphBuilder(const Library& library);
   ~GraphBuilder();
   GraphBuilder(const GraphBuilder&) = delete;
@@ -48,10 +51,13 @@ class GraphBuilder {
            std::string_view unit = {});
   /// `output` may be left out if the source has one only.
   void connect(Node node, std::string_view input, Node source, std::string_view output = {});
+  /// A parameter as the source; the types must agree.
   void connect(Node node, std::string_view input, ParameterId source);
   /// A live value of a numeric type, to feed any number of inputs.
   ParameterId parameter(std::string path, const Value& value, std::string_view colorspace = {},
                         std::string_view unit = {});
+  /// Asks for an output of a node under that name; those of a material are named as
+  /// GraphRequest::material has them. `output` as in connect().
   void output(std::string name, Node source, std::string_view output = {});
 
   /// The graph, or nothing after an error. May be called once.

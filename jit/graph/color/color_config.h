@@ -15,7 +15,7 @@ struct ColorTransform {
   /// In the GLSL subset of jit/glsl; defines `vec4 function(vec4 rgba)`. A colour
   /// without alpha is transformed with alpha 1.
   std::string text;
-  std::string function;
+  std::string function;             ///< Its name in the text.
   std::vector<SourceTable> tables;  ///< What the text declares as uniform samplers.
 };
 
@@ -23,6 +23,7 @@ struct ColorTransform {
 /// (jit/ocio/ocio_config.h) or a host's own. Members may be called from any thread.
 class ColorConfig {
  public:
+  /// One colour space.
   struct Space {
     std::string name;      ///< The space's own, for whatever name it was found by.
     bool is_data = false;  ///< Numbers that are no colours; they are never converted.
