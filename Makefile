@@ -25,7 +25,7 @@ OWN_LIBRARIES = $(abspath $(if $(filter file,$(origin BUILD)),build,$(BUILD)))/m
 NACRE_MATERIALX_LIBRARIES ?= $(OWN_LIBRARIES)
 
 .DEFAULT_GOAL := build
-.PHONY: bench build clean configure demo deps format format-check fuzz help install \
+.PHONY: bench build clean configure demo deps docs format format-check fuzz help install \
         materialx mutants test test-clang test-full \
         test-sanitized tidy
 
@@ -97,6 +97,13 @@ materialx: deps ## Fetch the MaterialX data library (pinned, hash checked)
 	@test -f "$(NACRE_MATERIALX_LIBRARIES)/stdlib/stdlib_defs.mtlx" \
 	  && test "$(NACRE_MATERIALX_LIBRARIES)" != "$(OWN_LIBRARIES)" \
 	  || .ci/fetch-materialx "$(NACRE_MATERIALX_LIBRARIES)"
+
+docs: configure ## The interface of the library as pages in out/docs
+	@.ci/install-packages .packages-docs.txt
+	rm -rf "$(OUT)/docs"
+	mkdir -p "$(OUT)/docs"
+	NACRE_DOCS="$(OUT)/docs" doxygen "$(BUILD)/Doxyfile"
+	@echo "The pages begin at $(OUT)/docs/index.html"
 
 install: build ## Install into PREFIX (default /usr/local)
 	cmake --install "$(BUILD)" --prefix "$(or $(PREFIX),/usr/local)"

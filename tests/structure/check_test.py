@@ -121,6 +121,10 @@ class Checks(unittest.TestCase):
         self.write(".packages.txt", "cmake\ncmake\n")
         self.assert_finds(form.packages, ".packages.txt:")
 
+    def test_unsorted_packages_of_one_target(self):
+        self.write(".packages-docs.txt", "graphviz\ndoxygen\n")
+        self.assert_finds(form.packages, ".packages-docs.txt:")
+
 
 if __name__ == "__main__":
     unittest.main()

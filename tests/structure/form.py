@@ -70,10 +70,14 @@ def marked_lists(root: pathlib.Path) -> list[str]:
 
 
 def packages(root: pathlib.Path) -> list[str]:
-    """The list of Debian packages is in order."""
-    lines = (root / ".packages.txt").read_text(encoding="utf-8").split("\n")
-    fault = out_of_order([line for line in lines if line and not line.startswith("#")])
-    return [f".packages.txt: {fault}"] if fault else []
+    """The lists of Debian packages are in order."""
+    faults = []
+    for path in sorted(root.glob(".packages*.txt")):
+        lines = path.read_text(encoding="utf-8").split("\n")
+        fault = out_of_order([line for line in lines if line and not line.startswith("#")])
+        if fault:
+            faults.append(f"{path.name}: {fault}")
+    return faults
 
 
 CHECKS = (length, cmake_lists, marked_lists, packages)

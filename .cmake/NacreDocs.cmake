@@ -1,0 +1,8 @@
+# What `make docs` gives to Doxygen: the headers that are installed, and pages that lead to them.
+# Configuring needs no Doxygen.
+get_property(nacre_docs_input GLOBAL PROPERTY NACRE_PUBLIC_HEADERS)
+list(APPEND nacre_docs_input
+  "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/.docs/index.md")
+list(TRANSFORM nacre_docs_input REPLACE "(.+)" "\"\\1\"")
+list(JOIN nacre_docs_input " \\\n  " nacre_docs_input)
+configure_file(.docs/Doxyfile.in Doxyfile @ONLY)

@@ -1,0 +1,6 @@
+# What Doxygen has to be told of comments that are written for the headers' own readers.
+
+# Tables and code stand two blanks in; Markdown wants four.
+s|^\( *///\)   |\1      |
+# A defaulted comparison needs no words where it stands.
+s|operator[=<].* = default;$|& ///< Member by member.|
