@@ -19,7 +19,7 @@ using BsdfPtr = std::shared_ptr<const Bsdf>;  ///< Null: nothing is connected.
 /// A lobe with everything that stands above it multiplied out, for one view.
 struct WeightedLobe {
   LobePtr lobe;   ///< Never null.
-  Color3 weight;  ///< Factor of all that the lobe gives; no literal zero.
+  Color3 weight;  ///< Factor of all that the lobe gives; never all literal zeros.
 };
 
 /// What a BSDF lets pass, as `flatten` has found out; 1 where nothing is connected.

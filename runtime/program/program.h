@@ -63,7 +63,7 @@ struct Channel {
 /// A four-byte slot of the parameter block.
 struct ParameterSlot {
   std::string name;           ///< "SR_gold/base_color.x", "frame", ...
-  Scalar type = Scalar::f32;  ///< b1: 0 or 1.
+  Scalar type = Scalar::f32;  ///< Of a b1 every slot but 0 is true.
   std::uint32_t value = 0;    ///< The bits it has in the document.
   bool operator==(const ParameterSlot&) const = default;
 };
