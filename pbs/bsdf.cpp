@@ -1,5 +1,9 @@
 #include "pbs/bsdf.h"
 
+#include <utility>
+
+#include "runtime/node/node_call.h"
+
 namespace nacre {
 
 namespace {
@@ -25,6 +29,13 @@ Color3 LobeBsdf::throughput(const View& view, Color3, Color3) const {
 
 void LobeBsdf::report(const View& view) const {
   for (const std::string& line : left_out_) view.left_out->add(line);
+}
+
+void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out) {
+  Recorder& recorder = call.recorder();
+  const Float weight = keep(recorder, clamp(call.number("weight"), 0.0f, 1e6f));
+  call.set(
+      std::make_shared<LobeBsdf>(std::move(lobe), weight, std::move(left_out), recorder.origin()));
 }
 
 Color3 LayerBsdf::part_weight(std::size_t i, Color3 weight, const Throughput& passes) const {

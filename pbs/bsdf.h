@@ -14,12 +14,14 @@ namespace nacre {
 
 class Bsdf;
 class LobeBsdf;
+class NodeCall;
 using BsdfPtr = std::shared_ptr<const Bsdf>;  ///< Null: nothing is connected.
 
 /// A lobe with everything that stands above it multiplied out, for one view.
 struct WeightedLobe {
-  LobePtr lobe;   ///< Never null.
-  Color3 weight;  ///< Factor of all that the lobe gives; never all literal zeros.
+  LobePtr lobe;              ///< Never null.
+  Color3 weight;             ///< Factor of all that the lobe gives; never all literal zeros.
+  std::uint32_t origin = 0;  ///< The node that it is of, by Recorder::origin().
 };
 
 /// What a BSDF lets pass, as `flatten` has found out; 1 where nothing is connected.
@@ -59,12 +61,15 @@ class Bsdf : public Closure {
 class LobeBsdf final : public Bsdf {
  public:
   /// `left_out` lists what the lobe does not model of its node; see View::left_out.
-  LobeBsdf(LobePtr lobe, Float weight, std::vector<std::string> left_out = {})
-      : lobe_(std::move(lobe)), weight_(weight), left_out_(std::move(left_out)) {}
+  LobeBsdf(LobePtr lobe, Float weight, std::vector<std::string> left_out = {},
+           std::uint32_t origin = 0)
+      : lobe_(std::move(lobe)), weight_(weight), left_out_(std::move(left_out)), origin_(origin) {}
   /// Never null.
   const LobePtr& lobe() const { return lobe_; }
   /// What the node's own input says.
   Float weight() const { return weight_; }
+  /// As in WeightedLobe.
+  std::uint32_t origin() const { return origin_; }
   const LobeBsdf* leaf() const override { return this; }
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
@@ -74,7 +79,11 @@ class LobeBsdf final : public Bsdf {
   LobePtr lobe_;
   Float weight_;
   std::vector<std::string> left_out_;
+  std::uint32_t origin_;
 };
+
+/// Sets a node's output to its lobe, times its input "weight": in [0, 1e6].
+void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out = {});
 
 /// top over base: base is seen through what top lets pass. A medium behind top is the
 /// renderer's to trace, and left out.

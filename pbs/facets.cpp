@@ -59,10 +59,6 @@ Color3 FacetFresnel::mean(Recorder& recorder, const GgxReflection& reflection, c
   return choose(inside ^ (index() < 1.0f), leaving, plain);
 }
 
-Float prepare_weight(NodeCall& call) {
-  return keep(call.recorder(), clamp(call.number("weight"), 0.0f, 1e6f));
-}
-
 Color3 prepare_tint(Recorder& recorder, Color3 tint) {
   return keep(recorder, min(max(tint, Color3(0.0f)), Color3(1e6f)));
 }

@@ -64,9 +64,6 @@ class FacetFresnel {
   virtual bool is_dielectric() const { return false; }
 };
 using FacetFresnelPtr = std::shared_ptr<const FacetFresnel>;
-
-/// The input weight: at least 0, finite, kept.
-Float prepare_weight(NodeCall& call);
 /// A colour that scales a lobe: at least 0, finite.
 Color3 prepare_tint(Recorder& recorder, Color3 tint);
 

@@ -89,9 +89,9 @@ class Flattener {
     ended_ = may_go_on_ && !may_go_on_();
     if (ended_) return;
     if (view_.left_out != nullptr) leaf.report(view_);
-    const ScopedOrigin origin(*view_.recorder, leaf.lobe()->name());
+    const ScopedOrigin origin(*view_.recorder, leaf.origin());
     leaf.lobe()->prepare(view_, max_component(total) > 0.0f);
-    lobes_.push_back({leaf.lobe(), total});
+    lobes_.push_back({leaf.lobe(), total, leaf.origin()});
   }
 
   /// Of the parts first, without recursion; each node is asked once.
@@ -122,7 +122,7 @@ class Flattener {
       // A lobe that has readers to come: in which lanes it counts is not known yet.
       const LobeBsdf* leaf = bsdf->leaf();
       const ScopedOrigin origin(*view_.recorder,
-                                leaf == nullptr ? "layering" : leaf->lobe()->name());
+                                leaf == nullptr ? view_.recorder->origin() : leaf->origin());
       if (state.readers > 0 && leaf != nullptr && !leaf->lobe()->is_opaque()) {
         leaf->lobe()->prepare(view_, Bool(true));
       }

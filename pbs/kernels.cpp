@@ -13,6 +13,7 @@ struct Term {
   LobePtr lobe;
   Color3 weight;
   Float probability;  ///< With which `sample` picks it.
+  std::uint32_t origin = 0;
 };
 
 /// A pair of directions evaluated over all lobes.
@@ -71,8 +72,8 @@ class SurfaceRecorder {
         if (from_viewer) note(*each.lobe, "of a kind that was not requested");
         continue;
       }
-      Term term{each.lobe, max(each.weight, Color3(0.0f)), Float(0.0f)};
-      const ScopedOrigin of_lobe(recorder_, each.lobe->name());
+      Term term{each.lobe, max(each.weight, Color3(0.0f)), Float(0.0f), each.origin};
+      const ScopedOrigin of_lobe(recorder_, each.origin);
       if (request_.lobe_mask) term.weight = masked(*each.lobe, term.weight);
       term.probability = max_component(term.weight * each.lobe->albedo(view));
       // A weight of NaN must not silence the other lobes.
@@ -105,7 +106,7 @@ class SurfaceRecorder {
     Total total;
     for (const Term& term : terms) {
       if (!may_go_on()) break;
-      const ScopedOrigin origin(recorder_, term.lobe->name());
+      const ScopedOrigin origin(recorder_, term.origin);
       const LobeValue none{.f = Color3(0.0f), .pdf = 0.0f};
       const LobeValue value =
           if_any(term.probability > 0.0f, none, [&] { return term.lobe->evaluate(view, wi); });
@@ -144,7 +145,7 @@ class SurfaceRecorder {
     Float below = 0.0f;
     for (std::size_t i = 0; i < terms_.size() && may_go_on(); ++i) {
       const Term& term = terms_[i];
-      const ScopedOrigin of_lobe(recorder_, term.lobe->name());
+      const ScopedOrigin of_lobe(recorder_, term.origin);
       const Float above = i + 1 == terms_.size() ? Float(2.0f) : below + term.probability;
       const Bool mine = (u.z >= below) & (u.z < above) & (term.probability > 0.0f);
       // The number that chose the lobe is uniform again within its interval.
@@ -191,7 +192,7 @@ class SurfaceRecorder {
     Color3 total = Color3(0.0f);
     for (const Term& term : terms_) {
       if (!may_go_on()) break;
-      const ScopedOrigin origin(recorder_, term.lobe->name());
+      const ScopedOrigin origin(recorder_, term.origin);
       total = fma(term.weight, term.lobe->albedo(view_), total);
     }
     kernels_.albedo = {

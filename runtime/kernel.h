@@ -63,6 +63,9 @@ enum class RunStatus : std::uint8_t {
   /// A pass took more steps than the kernel may (runtime/program/cost.h), or a loop that
   /// must end by itself did not within its rounds.
   too_many_steps,
+  /// Not as many arrays as the Program has channels, or slots as it has parameters: nothing
+  /// was run.
+  wrong_arguments,
 };
 
 /// Compiled or interpreted code for one Program. Immutable and re-entrant: any

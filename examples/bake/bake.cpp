@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 #include "examples/bake/plane.h"
+#include "examples/common/leave_cores.h"
 #include "examples/common/run_on_threads.h"
 
 namespace nacre::host {
@@ -25,6 +27,15 @@ class Baker {
   }
 
   int components() const { return component_count(output_.type); }
+
+  /// What one call of the kernel gets: enough points to be worth it, few enough that it
+  /// soon sees that there is compiled code.
+  int points_of_a_strip() const {
+    constexpr std::size_t operations = std::size_t{1} << 28;
+    const std::size_t points =
+        operations / std::max<std::size_t>(1, instruction_count(kernel_.kernel.program()));
+    return static_cast<int>(std::clamp<std::size_t>(points, 256, 16384));
+  }
 
   /// Bytes that one row takes while it is computed.
   std::size_t row_bytes() const {
@@ -85,8 +96,7 @@ BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettin
   const Baker baker(kernel, output, settings);
   const auto row_texels =
       static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(baker.components());
-  // A strip is what one call of the kernel gets: enough points to be worth it.
-  const int strip_rows = std::clamp(16384 / settings.width, 1, settings.height);
+  const int strip_rows = std::clamp(baker.points_of_a_strip() / settings.width, 1, settings.height);
   const auto band_rows = static_cast<int>(std::clamp<std::size_t>(
       settings.memory / std::max<std::size_t>(1, baker.row_bytes()),
       static_cast<std::size_t>(strip_rows), static_cast<std::size_t>(settings.height)));
@@ -102,13 +112,19 @@ BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettin
     band.texels.resize(static_cast<std::size_t>(band.rows) * row_texels);
     const int strips = (band.rows + strip_rows - 1) / strip_rows;
     std::atomic<int> next_strip = 0;
-    run_on_threads(std::min(settings.threads, strips), [&] {
+    std::atomic<int> next_thread = 0;
+    const int threads = std::min(thread_count(settings.threads), strips);
+    run_on_threads(threads, [&] {
       try {
+        leave_cores(
+            next_thread++, threads, [&] { return kernel.kernel.is_pending() ? 1 : 0; },
+            [&] { return next_strip >= strips || ends != 0; });
         for (int strip = next_strip++; strip < strips && ends == 0; strip = next_strip++) {
           const int begin = strip * strip_rows;
           const RunStatus status =
               baker.strip(first + begin, std::min(strip_rows, band.rows - begin),
                           band.texels.data() + static_cast<std::size_t>(begin) * row_texels, ends);
+          assert(status != RunStatus::wrong_arguments);
           if (status != RunStatus::too_many_steps) continue;
           too_many_steps = true;
           ends = 1;

@@ -10,6 +10,10 @@
 
 namespace nacre::host {
 
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 void run_on_threads(int threads, const std::function<void()>& work) {
   std::mutex mutex;
   std::exception_ptr failure;
@@ -21,11 +25,10 @@ void run_on_threads(int threads, const std::function<void()>& work) {
       if (failure == nullptr) failure = std::current_exception();
     }
   };
-  const auto cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   {
     std::vector<std::jthread> others;
     try {
-      for (int i = 1; i < (threads > 0 ? threads : cores); ++i) others.emplace_back(guarded);
+      for (int i = 1; i < thread_count(threads); ++i) others.emplace_back(guarded);
     } catch (const std::system_error&) {
     } catch (const std::bad_alloc&) {
     }

@@ -52,12 +52,15 @@ int main(int argc, char** argv) {
     std::fputs(diagnostics.to_string().c_str(), stderr);
     return 1;
   };
-  const auto system = nacre::ShadingSystem::create({.libraries = {argv[1]}}, diagnostics);
+  // What goes wrong in LLVM then costs a kernel its speed, not this program its life.
+  const auto system =
+      nacre::ShadingSystem::create({.libraries = {argv[1]}, .compile_apart = true}, diagnostics);
   if (system == nullptr) return fail();
   const auto document = nacre::read_document(argv[2], {}, diagnostics);
   if (document == nullptr) return fail();
   const auto material = system->compile_material(*document, argv[3], {}, diagnostics);
   if (material == nullptr) return fail();
+  std::fputs(diagnostics.to_string().c_str(), stderr);  // Warnings, if there are any.
 
   // 1. Where the points are, and from where they are seen: on a plane, from 45 degrees.
   Channels channels;

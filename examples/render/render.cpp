@@ -6,6 +6,7 @@
 #include <new>
 #include <thread>
 
+#include "examples/common/leave_cores.h"
 #include "examples/common/run_on_threads.h"
 #include "examples/render/camera.h"
 #include "examples/render/render_context.h"
@@ -139,11 +140,16 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
   const std::vector<Tile> tiles = make_tiles(settings);
   Film film(settings.width, settings.height, context.any_matte);
   Shared shared;
-  const auto wanted = static_cast<int>(std::min<std::size_t>(
-      tiles.size(), settings.threads > 0 ? static_cast<std::size_t>(settings.threads)
-                                         : std::max(1u, std::thread::hardware_concurrency())));
-  run_on_threads(wanted, [&] {
+  const auto threads = static_cast<int>(
+      std::min(tiles.size(), static_cast<std::size_t>(thread_count(settings.threads))));
+  std::atomic<int> next_thread = 0;
+  run_on_threads(threads, [&] {
     try {
+      if (control.pending) {
+        leave_cores(next_thread++, threads, control.pending, [&] {
+          return shared.next_tile >= tiles.size() || control.stop.stop_requested();
+        });
+      }
       work(context, tiles, control, shared, film);
     } catch (...) {
       shared.next_tile = tiles.size();

@@ -60,6 +60,9 @@ struct RenderControl {
   std::stop_token stop;  ///< Ends the render between batches of samples.
   /// Called with the finished share, 0 to 1, from one thread at a time.
   std::function<void(double)> progress;
+  /// How many kernels are still being compiled, from any thread: as many threads wait, so
+  /// that compiling has cores. Empty: none.
+  std::function<int()> pending = {};
 };
 
 struct RenderStatistics {

@@ -125,6 +125,7 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
     }
     if (stop().is_due()) return;
   }
+  report_code(kernel->kernel, shader, diagnostics);
 }
 
 void bake_outputs(const BakeOptions& options, const Opened& opened,
@@ -247,6 +248,7 @@ void add_bake(CLI::App& app, int& status) {
       "(1, 0, 0), bitangent (0, 1, 0) and a viewer straight above; vertex colours are 0, "
       "properties have their defaults. What reads more than uv is named in a warning.");
   options->common.add_compile(command);
+  options->common.add_waiting(command);
   command.callback([options, &status] {
     status = guarded(options->common.file, [&] { return run(*options); });
   });

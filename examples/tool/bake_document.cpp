@@ -115,6 +115,7 @@ class MaterialBaker {
       return set_value(job, texel, shader.graph.output_space);
     }
     bake_texture(job, *kernel, settings, texture);
+    report_code(kernel->kernel, shader, diagnostics_);
   }
 
   /// A texture for every tile, of a matrix for every row; or a value, where all

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "examples/tool/inspect_cost.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
 #include "jit/graph/find.h"
@@ -20,6 +21,7 @@ struct InspectOptions {
   std::vector<std::string> outputs;
   std::vector<std::string> dumps;
   bool live = false;
+  bool cost = false;
   bool json = false;
 };
 
@@ -48,12 +50,6 @@ Json parameter_list(const Program& program) {
   return list;
 }
 
-std::size_t instruction_count(const Program& program) {
-  std::size_t count = 0;
-  for (const Function& function : program.functions) count += function.code.size();
-  return count;
-}
-
 Json describe(const BoundKernel& kernel) {
   const Program& program = kernel.program();
   Json textures = Json::array();
@@ -77,7 +73,7 @@ Json stage_list(const std::vector<StageReport>& stages) {
 }
 
 Json inspect_material(const Opened& opened, const std::string& material,
-                      const ShaderOptions& shader, Diagnostics& diagnostics) {
+                      const ShaderOptions& shader, bool with_cost, Diagnostics& diagnostics) {
   const auto kernels =
       opened.system->compile_material(*opened.document, material, shader, diagnostics);
   if (kernels == nullptr) return nullptr;
@@ -91,23 +87,31 @@ Json inspect_material(const Opened& opened, const std::string& material,
       {"evaluate", &kernels->evaluate}, {"albedo", &kernels->albedo},
       {"emission", &kernels->emission}, {"opacity", &kernels->opacity},
       {"volume", &kernels->volume},     {"displacement", &kernels->displacement}};
+  std::vector<NamedKernel> present;
   for (const auto& [name, kernel] : all) {
-    if (kernel->has_value()) list[name] = describe(**kernel);
+    if (!kernel->has_value()) continue;
+    list[name] = describe(**kernel);
+    present.emplace_back(name, &**kernel);
   }
   result["kernels"] = std::move(list);
+  if (with_cost) result["cost"] = kernel_costs(present, shader.compile, diagnostics);
   result["stages"] = stage_list(kernels->stages);
   return result;
 }
 
 Json inspect_output(const Opened& opened, const std::string& output, const ShaderOptions& shader,
-                    Diagnostics& diagnostics) {
+                    bool with_cost, Diagnostics& diagnostics) {
   const auto kernel =
       opened.system->compile_outputs(*opened.document, {output}, shader, diagnostics);
   if (kernel == nullptr) return nullptr;
-  return {{"output", output},
-          {"type", type_name(kernel->outputs.front().type)},
-          {"kernel", describe(kernel->kernel)},
-          {"stages", stage_list(kernel->stages)}};
+  Json result{{"output", output},
+              {"type", type_name(kernel->outputs.front().type)},
+              {"kernel", describe(kernel->kernel)}};
+  if (with_cost) {
+    result["cost"] = kernel_costs({{output, &kernel->kernel}}, shader.compile, diagnostics);
+  }
+  result["stages"] = stage_list(kernel->stages);
+  return result;
 }
 
 void print_kernel(const std::string& name, const Json& kernel) {
@@ -147,6 +151,7 @@ void print_text(const Json& result) {
                result["type"].get<std::string>());
     print_kernel("kernel", result["kernel"]);
   }
+  if (result.contains("cost")) print_costs(result["cost"]);
   fmt::print("  stages:\n");
   print_stages(result["stages"]);
 }
@@ -159,6 +164,11 @@ int run(const InspectOptions& options) {
     return report(diagnostics);
   }
   ShaderOptions shader = options.common.shader_options();
+  if (options.cost && shader.compile.backend != Backend::jit) {
+    diagnostics.error("bad-option", {}, "--cost measures compiled code", "--backend jit",
+                      options.common.backend);
+    return report(diagnostics);
+  }
   if (options.live) shader.parameters = ParameterMode::live;
   for (const std::string& dump : options.dumps) {
     if (dump == "program") shader.compile.keep_text = true;
@@ -178,7 +188,7 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& material : materials) {
-    add(inspect_material(opened, material, shader, diagnostics));
+    add(inspect_material(opened, material, shader, options.cost, diagnostics));
   }
   std::vector<std::string> outputs = options.outputs;
   if (everything) {
@@ -187,7 +197,7 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& output : outputs) {
-    add(inspect_output(opened, output, shader, diagnostics));
+    add(inspect_output(opened, output, shader, options.cost, diagnostics));
   }
   if (options.json) {
     // Names come from documents, which may hold bytes that are no UTF-8.
@@ -211,6 +221,8 @@ void add_inspect(CLI::App& app, int& status) {
       ->type_name("NAME");
   command.add_option("--dump", options->dumps, "Also the text of a stage; may be repeated")
       ->check(CLI::IsMember({"program", "llvm", "assembly"}));
+  command.add_flag("--cost", options->cost,
+                   "Run the kernels and say what time each node, lobe and function takes");
   command.add_flag("--live", options->live, "Keep parameters changeable");
   command.add_flag("--json", options->json, "For programs to read");
   options->common.add_compile(command);

@@ -146,6 +146,14 @@ std::uint32_t KernelShader::stride(std::uint32_t count) {
   return (count + host::lane_padding - 1) / host::lane_padding * host::lane_padding;
 }
 
+std::vector<const BoundKernel*> KernelShader::kernels() const {
+  std::vector<const BoundKernel*> all;
+  for (const Bound* bound : {&begin_, &sample_, &evaluate_, &emission_, &opacity_}) {
+    if (bound->kernel != nullptr) all.push_back(bound->kernel);
+  }
+  return all;
+}
+
 std::size_t KernelShader::state_bytes(std::uint32_t capacity) const {
   return kernels_->state.size() * stride(capacity) * sizeof(float);
 }

@@ -49,6 +49,8 @@ class KernelShader final : public host::Shader {
   /// `stop` is asked for when a kernel fails, and ends kernels; it lives as long.
   KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop);
 
+  /// Those that a render calls.
+  std::vector<const BoundKernel*> kernels() const;
   /// Whether a kernel took too many steps.
   bool has_failed() const { return failed_; }
 

@@ -134,6 +134,12 @@ void CommonOptions::add_compile(CLI::App& command) {
                    "Compile in this process, which a fault of LLVM's ends; else in others");
 }
 
+void CommonOptions::add_waiting(CLI::App& command) {
+  begins_at_once = true;
+  command.add_flag("--wait-for-code{false}", begins_at_once,
+                   "Begin when all is compiled, rather than interpret until then");
+}
+
 Accuracy CommonOptions::parsed_accuracy() const {
   if (accuracy == "precise") return Accuracy::precise;
   return accuracy == "fast" ? Accuracy::fast : Accuracy::standard;
@@ -153,6 +159,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.max_steps = compile_limits.max_steps;
   options.compile.max_seconds = compile_limits.max_seconds;
   options.compile.stop = stop();
+  options.compile.asynchronous = begins_at_once && options.compile.backend == Backend::jit;
   options.max_anisotropy = anisotropy;
   options.graph.prefer = graph_limits.prefer;
   options.graph.lenient = !strict;
@@ -229,6 +236,13 @@ void report_texels(ShadingSystem& system, Diagnostics& diagnostics) {
                       "files that stay as they are",
                       std::to_string(found.read_failures) + " lookups that failed");
   }
+}
+
+void report_code(const BoundKernel& kernel, const ShaderOptions& options,
+                 Diagnostics& diagnostics) {
+  if (!options.compile.asynchronous) return;
+  const Diagnostics said = kernel.diagnostics();
+  for (const Diagnostic& one : said.all()) diagnostics.add(one);
 }
 
 int report(const Diagnostics& diagnostics) {

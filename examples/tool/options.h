@@ -32,6 +32,7 @@ struct CommonOptions {
   int threads = 0;
   bool no_cache = false;
   bool compile_here = false;
+  bool begins_at_once = false;  ///< Rather than when all is compiled.
   std::string cache;
   bool strict = false;
   bool quiet = false;
@@ -43,6 +44,8 @@ struct CommonOptions {
 
   void add_document(CLI::App& command);
   void add_compile(CLI::App& command);
+  /// For what can begin before all is compiled: it is interpreted until then.
+  void add_waiting(CLI::App& command);
 
   Accuracy parsed_accuracy() const;
   Backend parsed_backend() const;
@@ -63,6 +66,9 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics);
 /// Says what was taken for 0 in images that could be had: numbers that are none, and what
 /// could no longer be read while it was looked up.
 void report_texels(ShadingSystem& system, Diagnostics& diagnostics);
+
+/// Adds what is to be said of code that was made while the kernel was used.
+void report_code(const BoundKernel& kernel, const ShaderOptions& options, Diagnostics& diagnostics);
 
 /// Prints diagnostics on standard error; the status they mean.
 int report(const Diagnostics& diagnostics);

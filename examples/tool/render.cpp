@@ -135,6 +135,29 @@ void report_failed(const Opened& opened, const std::vector<MeshAssignment>& assi
   }
 }
 
+int pending_kernels(const Shaders& shaders) {
+  int count = 0;
+  for (const auto& [key, both] : shaders) {
+    for (const KernelShader* shader : {both.front.get(), both.back.get()}) {
+      if (shader == nullptr) continue;
+      for (const BoundKernel* kernel : shader->kernels()) count += kernel->is_pending() ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+void report_shaders(const Shaders& shaders, const ShaderOptions& options,
+                    Diagnostics& diagnostics) {
+  for (const auto& [key, both] : shaders) {
+    for (const KernelShader* shader : {both.front.get(), both.back.get()}) {
+      if (shader == nullptr) continue;
+      for (const BoundKernel* kernel : shader->kernels()) {
+        report_code(*kernel, options, diagnostics);
+      }
+    }
+  }
+}
+
 /// What shades each mesh, and warnings of what those lack.
 void bind_shaders(const std::vector<MeshAssignment>& assignments, const Shaders& shaders,
                   const KernelShader& neutral, const std::string& scene_file, host::Scene& world,
@@ -208,11 +231,13 @@ int run(RenderOptions& options) {
   stop.follow(tool::stop().token());
   ProgressLine line("render", options.common.quiet);
   const host::RenderControl control{.stop = stop.token(),
-                                    .progress = [&](double share) { line.update(share); }};
+                                    .progress = [&](double share) { line.update(share); },
+                                    .pending = [&] { return pending_kernels(shaders); }};
   host::RenderStatistics statistics;
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
   report_invalid_results(statistics, diagnostics);
   report_failed(opened, assignments, shaders, diagnostics);
+  report_shaders(shaders, options.common.shader_options(), diagnostics);
   if (film && host::write_image(*film, options.out, options.write, diagnostics)) {
     file_is_written(options.out, options.common.quiet);
   }
@@ -304,6 +329,7 @@ void add_render(CLI::App& app, int& status) {
       ->check(number_within(0, host::largest_coordinate));
   add_scene_limits(command, options->scene_limits);
   options->common.add_compile(command);
+  options->common.add_waiting(command);
   command.callback([options, &status] {
     status = guarded(options->common.file, [&] { return run(*options); });
   });

@@ -12,12 +12,6 @@
 
 namespace nacre {
 
-std::size_t instruction_count(const Program& program) {
-  std::size_t count = 0;
-  for (const Function& function : program.functions) count += function.code.size();
-  return count;
-}
-
 bool is_too_large(const Program& program, const CompileOptions& options) {
   return instruction_count(program) > options.max_instructions;
 }

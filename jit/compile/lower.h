@@ -15,8 +15,6 @@ namespace nacre {
 Program lower(Program program, const CompileOptions& options,
               std::vector<StageReport>* stages = nullptr);
 
-/// Of all functions.
-std::size_t instruction_count(const Program& program);
 bool is_too_large(const Program& program, const CompileOptions& options);
 
 }  // namespace nacre

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "jit/llvm/function_emitter.h"
-#include "jit/llvm/hoist.h"
 #include "jit/llvm/run_state.h"
+#include "runtime/program/once.h"
 
 namespace nacre::codegen {
 
@@ -14,10 +14,11 @@ using llvm::Value;
 
 namespace {
 
-void emit_part(FunctionEmitter& e, const std::vector<bool>& hoisted, bool part) {
-  for (std::size_t i = 0; i < hoisted.size(); ++i) {
-    if (hoisted[i] == part) e.emit(static_cast<ValueId>(i));
+void emit_part(FunctionEmitter& e, const std::vector<bool>& once, bool part) {
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    if (once[i] == part) e.emit(static_cast<ValueId>(i));
   }
+  e.leave_part();
 }
 
 }  // namespace
@@ -25,15 +26,15 @@ void emit_part(FunctionEmitter& e, const std::vector<bool>& hoisted, bool part) 
 void emit_entry(ModuleEmitter& module, llvm::Function& into) {
   FunctionEmitter e(module, module.program().entry(), into, module.lanes());
   Builder& b = e.builder();
-  e.kernel_arguments = into.getArg(0);
+  e.begin_entry(into.getArg(0));
   const auto field = [&](std::size_t offset, llvm::Type* type, const char* name) {
     return e.load_invariant(type, e.byte_offset(e.kernel_arguments, offset), name);
   };
-  e.input_pointers = field(offsetof(KernelArguments, inputs), b.getPtrTy(), "inputs");
-  e.output_pointers = field(offsetof(KernelArguments, outputs), b.getPtrTy(), "outputs");
   Value* count = field(offsetof(KernelArguments, count), b.getInt64Ty(), "count");
-  const std::vector<bool> hoisted = hoistable(e.function());
-  emit_part(e, hoisted, true);
+  const std::vector<bool> once = once_per_call(e.function());
+  const Parts parts = cut_into_parts(e.function(), once, module.options());
+  e.cut(parts);
+  emit_part(e, once, true);
 
   BasicBlock* before = b.GetInsertBlock();
   BasicBlock* batch = BasicBlock::Create(module.context(), "batch", &into);
@@ -51,7 +52,7 @@ void emit_entry(ModuleEmitter& module, llvm::Function& into) {
     Value* left = e.load_steps_left();
     e.store_steps_left(b.CreateSelect(b.CreateICmpSLT(left, b.getInt64(0)), left, most));
   }
-  emit_part(e, hoisted, false);
+  emit_part(e, once, false);
   Value* following = b.CreateAdd(point, b.getInt64(static_cast<std::uint64_t>(module.lanes())));
   point->addIncoming(following, b.GetInsertBlock());
   Value* goes_on = b.CreateICmpULT(following, count);

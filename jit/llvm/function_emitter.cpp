@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "jit/llvm/run_state.h"
+#include "jit/llvm/word_run.h"
 #include "runtime/program/fold.h"
 
 namespace nacre::codegen {
@@ -12,15 +13,45 @@ FunctionEmitter::FunctionEmitter(ModuleEmitter& module, const Function& function
                                  llvm::Function& into, int lanes)
     : module_(module),
       function_(function),
-      into_(into),
+      into_(&into),
       lanes_(lanes),
+      lines_(module.lines_of(function, into)),
       builder_(llvm::BasicBlock::Create(into.getContext(), "entry", &into)),
-      values_(function.code.size(), nullptr) {}
+      values_(function.code.size(), nullptr) {
+  say_line(0);
+}
 
 void FunctionEmitter::emit(ValueId id) {
   const EmitOp op = emit_op(at(id).op);
   assert(op != nullptr && "a pass should have expanded this operation");
+  if (at(id).op == Op::constant) return;  // Made where it is used.
+  if (parts_ != nullptr && parts_->home[id] != part_) {
+    leave_part();
+    if (parts_->home[id] != 0) enter_part(parts_->home[id]);
+  }
+  say_line(id + 1);
   if (llvm::Value* value = op(*this, id)) define(id, kept(value));
+  // Not before: several phis stand together.
+  for (const ValueId made : to_store_) {
+    builder_.CreateAlignedStore(values_[made], place_of(made), align_of(made));
+  }
+  to_store_.clear();
+}
+
+void FunctionEmitter::say_line(std::uint32_t line) {
+  if (lines_ == nullptr) return;
+  builder_.SetCurrentDebugLocation(llvm::DILocation::get(module_.context(), line, 0, lines_));
+}
+
+void FunctionEmitter::define(ValueId id, llvm::Value* value) {
+  values_[id] = value;
+  if (parts_ != nullptr && parts_->place[id] != Parts::nowhere) to_store_.push_back(id);
+}
+
+std::vector<ValueId> FunctionEmitter::word_run(ValueId first) const {
+  return codegen::word_run(function_, first, [&](ValueId id) {
+    return parts_ == nullptr || parts_->same_home(first, id);
+  });
 }
 
 llvm::Value* FunctionEmitter::use(ValueId id, int lanes) {
@@ -33,13 +64,12 @@ llvm::Value* FunctionEmitter::use(ValueId id, int lanes) {
         return llvm::ConstantInt::getBool(module_.type(Scalar::b1, lanes), instruction.imm != 0);
     }
   }
-  assert(values_[id] != nullptr);
-  return unkept(spread(values_[id], lanes), instruction.type);
+  return unkept(spread(value_of(id), lanes), instruction.type);
 }
 
 llvm::Value* FunctionEmitter::keep(ValueId id, int lanes) {
   if (at(id).op == Op::constant) return kept(use(id, lanes));
-  return kept(spread(values_[id], lanes));
+  return kept(spread(value_of(id), lanes));
 }
 
 llvm::Value* FunctionEmitter::kept(llvm::Value* value) {
@@ -81,7 +111,7 @@ llvm::Constant* FunctionEmitter::f32_bits(std::uint32_t bits, int lanes) {
 
 llvm::AllocaInst* FunctionEmitter::scratch(llvm::Type* type, std::uint64_t count,
                                            const char* name) {
-  llvm::BasicBlock& first = into_.getEntryBlock();
+  llvm::BasicBlock& first = into_->getEntryBlock();
   Builder at_start(&first, first.getFirstInsertionPt());
   llvm::AllocaInst* slot =
       at_start.CreateAlloca(type, at_start.getInt32(static_cast<unsigned>(count)), name);

@@ -2,10 +2,12 @@
 
 // Needs LLVM; for the .cpp files of this folder.
 
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "jit/llvm/module_emitter.h"
+#include "jit/llvm/parts.h"
 #include "jit/llvm/region.h"
 #include "runtime/kernel.h"
 
@@ -18,8 +20,12 @@ class FunctionEmitter {
   /// `lanes`: of varying values; 1 in a function's scalar instance.
   FunctionEmitter(ModuleEmitter& module, const Function& function, llvm::Function& into, int lanes);
 
-  /// Emits instruction `id` where the builder stands.
+  /// Cuts what is emitted from here on into parts, which have to live as long.
+  void cut(const Parts& parts);
+  /// Emits instruction `id` where the builder stands, or in its part.
   void emit(ValueId id);
+  /// The builder stands in the function itself again.
+  void leave_part();
 
   const Function& function() const { return function_; }
   const Instruction& at(ValueId id) const { return function_.code[id]; }
@@ -44,8 +50,11 @@ class FunctionEmitter {
   llvm::Value* kept(llvm::Value* value);
   llvm::Value* unkept(llvm::Value* value, Scalar scalar);
   /// Values are defined in their kept_type().
-  void define(ValueId id, llvm::Value* value) { values_[id] = value; }
+  void define(ValueId id, llvm::Value* value);
+  /// In this part, or anywhere where there are none.
   llvm::Value* defined(ValueId id) const { return values_[id]; }
+  /// Reads of neighbouring words that are emitted at once: see word_run.h.
+  std::vector<ValueId> word_run(ValueId first) const;
   llvm::Value* spread(llvm::Value* scalar, int lanes);
 
   /// Whether any lane of a b1 is true, as a scalar.
@@ -71,21 +80,46 @@ class FunctionEmitter {
   /// The bits of x with every NaN as 0x7fc00000.
   llvm::Value* canonical_bits(llvm::Value* x);
 
+  /// The entry: loads what does not change from `arguments`, its RunState*.
+  void begin_entry(llvm::Value* arguments);
+
   llvm::Value* kernel_arguments = nullptr;  ///< RunState*, which begins with them.
   llvm::Value* input_pointers = nullptr;    ///< In the entry: arrays by channel,
   llvm::Value* output_pointers = nullptr;
-  llvm::Value* first_point = nullptr;  ///< and the batch's first index in them.
+  llvm::Value* first_point = nullptr;  ///< and the batch's first index in them, if any.
   std::vector<llvm::Value*> gives;     ///< Results of an outlined function, by index.
 
   std::vector<Region> regions;  ///< Open ones, outermost first.
 
  private:
+  /// What is the function's own while a part is emitted.
+  struct Outside {
+    llvm::Function* into;
+    llvm::BasicBlock* block;
+    llvm::DISubprogram* lines;
+    llvm::Value *kernel_arguments, *input_pointers, *output_pointers, *first_point, *frame;
+  };
+
+  /// Of LineTable; 0: of no instruction.
+  void say_line(std::uint32_t line);
+  void enter_part(std::uint32_t part);
+  /// A value as this part has it: from the frame if another one made it.
+  llvm::Value* value_of(ValueId id);
+  llvm::Value* place_of(ValueId id);
+  llvm::Align align_of(ValueId id) const;
+
   ModuleEmitter& module_;
   const Function& function_;
-  llvm::Function& into_;
+  llvm::Function* into_;
   int lanes_;
+  llvm::DISubprogram* lines_;  ///< May be null.
   Builder builder_;
   std::vector<llvm::Value*> values_;
+  const Parts* parts_ = nullptr;
+  std::uint32_t part_ = 0;
+  std::optional<Outside> outside_;
+  llvm::Value* frame_ = nullptr;
+  std::vector<ValueId> to_store_;  ///< Defined by what is being emitted, for other parts.
 };
 
 /// Emits one instruction and returns its value, or null if it has none.

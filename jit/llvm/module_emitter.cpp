@@ -22,6 +22,7 @@ ModuleEmitter::ModuleEmitter(const Program& program, const CodegenOptions& optio
       limit_(program, options.max_steps),
       tables_(program.tables.size(), nullptr) {
   if (limit_.is_counted()) costs_ = function_costs(program);
+  if (options.line_tables) lines_.emplace(module);
 }
 
 std::int64_t ModuleEmitter::steps_of_round(const Function& function, ValueId open) const {
@@ -36,6 +37,13 @@ void ModuleEmitter::emit(const std::string& symbol) {
   auto* entry = llvm::Function::Create(type, llvm::GlobalValue::ExternalLinkage, symbol, module_);
   set_attributes(*entry);
   emit_entry(*this, *entry);
+  if (lines_) lines_->finish();
+}
+
+llvm::DISubprogram* ModuleEmitter::lines_of(const Function& function, llvm::Function& into) {
+  const auto index = static_cast<std::size_t>(&function - program_.functions.data());
+  const bool is_ours = index < program_.functions.size();  // Helpers come from nowhere.
+  return lines_ && is_ours ? lines_->begin(into, index) : nullptr;
 }
 
 llvm::Type* ModuleEmitter::scalar_type(Scalar scalar) {

@@ -3,11 +3,13 @@
 // Needs LLVM; for the .cpp files of this folder.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "jit/llvm/features.h"
+#include "jit/llvm/line_table.h"
 #include "jit/llvm/llvm.h"
 #include "jit/llvm/options.h"
 #include "runtime/program/cost.h"
@@ -25,13 +27,14 @@ class ModuleEmitter {
   ModuleEmitter(const Program& program, const CodegenOptions& options, const Features& features,
                 llvm::Module& module);
 
-  /// Emits the entry, `void symbol(RunState*)`, and all it calls.
+  /// Emits the entry, `void symbol(RunState*)`, and all it calls. Once.
   void emit(const std::string& symbol);
 
   const Program& program() const { return program_; }
   const Features& features() const { return features_; }
   llvm::Module& module() { return module_; }
   llvm::LLVMContext& context() { return module_.getContext(); }
+  const CodegenOptions& options() const { return options_; }
   int lanes() const { return options_.lanes; }
   const StepLimit& limit() const { return limit_; }
   /// Steps of a round of the loop that instruction `open` of a function opens; only where
@@ -53,6 +56,10 @@ class ModuleEmitter {
   /// lanes = 1. Emitted when first asked for.
   llvm::Function* instance(std::uint32_t index, int lanes);
 
+  /// What the lines of `into` are in, which is made of a function of the Program; null if
+  /// nobody asks for lines.
+  llvm::DISubprogram* lines_of(const Function& function, llvm::Function& into);
+
   /// A function that only this module calls, by the fast convention; never inlined.
   llvm::Function* add_function(const std::string& name, llvm::FunctionType* type);
 
@@ -70,6 +77,7 @@ class ModuleEmitter {
   const CodegenOptions& options_;
   const Features& features_;
   llvm::Module& module_;
+  std::optional<LineTable> lines_;
   StepLimit limit_;
   std::vector<FunctionCost> costs_;  ///< Where they are counted.
   std::map<std::pair<std::uint32_t, int>, llvm::Function*> instances_;

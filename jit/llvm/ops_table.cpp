@@ -6,7 +6,6 @@
 #include "jit/llvm/gather.h"
 #include "jit/llvm/lookup.h"
 #include "jit/llvm/ops.h"
-#include "jit/llvm/word_run.h"
 #include "runtime/program/fold.h"
 
 namespace nacre::codegen {
@@ -56,7 +55,7 @@ Value* table(FunctionEmitter& e, ValueId id) {
   if (fits_registers(e.module().features(), values.size(), lanes)) {
     return look_up_in_registers(e, values, clamp(e, index, 0, last, lanes), lanes);
   }
-  const auto run = lanes > 1 ? word_run(e.function(), id) : std::vector<ValueId>{id};
+  const auto run = lanes > 1 ? e.word_run(id) : std::vector<ValueId>{id};
   if (run.size() > 1) {
     emit_run(e, run, index, lanes);
     return nullptr;

@@ -7,7 +7,6 @@
 #include "jit/llvm/gather.h"
 #include "jit/llvm/lanes.h"
 #include "jit/llvm/ops.h"
-#include "jit/llvm/word_run.h"
 
 namespace nacre::codegen {
 
@@ -146,7 +145,7 @@ Value* texel(FunctionEmitter& e, ValueId id) {
   Value* word = e.operand(instruction, 1, lanes);
   if (!e.is_wide(slot_id) || e.at(slot_id).op == Op::constant) {
     const Binding binding = load_binding(e, e.use(slot_id, 1));
-    const std::vector<ValueId> run = word_run(e.function(), id);
+    const std::vector<ValueId> run = e.word_run(id);
     if (lanes == 1 || run.size() == 1) return load_words(e, binding, word, lanes);
     emit_run(e, run, binding, word, lanes);
     return nullptr;

@@ -48,6 +48,13 @@ struct CodegenOptions {
   /// limit it is does not change the code.
   std::uint64_t max_steps = default_max_steps;
 
+  /// An entry of more than `uncut` instructions becomes functions of up to `part` of them, so
+  /// that LLVM's time grows with the size, and no faster. The results are the same.
+  std::uint32_t uncut = 20'000;
+  std::uint32_t part = 2'000;
+  /// Say of the code which instruction of the Program it is for: see CodeMap.
+  bool line_tables = false;
+
   /// A text that is equal for equal options only; part of the cache's key.
   std::string key() const;
 };

@@ -108,8 +108,9 @@ Target Target::host() {
 }
 
 std::string CodegenOptions::key() const {
-  return fmt::format("w{} {} tier{} cpu={} features={}", lanes, accuracy_name(accuracy),
-                     static_cast<int>(tier), target.cpu, target.features);
+  return fmt::format("w{} {} tier{} parts={}/{}{} cpu={} features={}", lanes,
+                     accuracy_name(accuracy), static_cast<int>(tier), part, uncut,
+                     line_tables ? " lines" : "", target.cpu, target.features);
 }
 
 int widest_lanes(const Target& target) {

@@ -33,7 +33,8 @@ constexpr std::size_t horizon = 64;
 
 }  // namespace
 
-std::vector<ValueId> word_run(const Function& function, ValueId first) {
+std::vector<ValueId> word_run(const Function& function, ValueId first,
+                              const std::function<bool(ValueId)>& goes_along) {
   const Instruction& start = function.code[first];
   const Place place = place_of(function, start);
   std::vector<ValueId> run(4, no_value);
@@ -42,7 +43,7 @@ std::vector<ValueId> word_run(const Function& function, ValueId first) {
   for (std::size_t i = first + 1; i < end; ++i) {
     const Instruction& instruction = function.code[i];
     if (opens_region(instruction.op) || closes_region(instruction.op)) break;
-    if (!same_array(instruction, start)) continue;
+    if (!same_array(instruction, start) || !goes_along(static_cast<ValueId>(i))) continue;
     const Place other = place_of(function, instruction);
     const std::uint32_t distance = other.offset - place.offset;
     if (other.base != place.base || distance == 0 || distance >= run.size()) continue;

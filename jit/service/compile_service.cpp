@@ -99,8 +99,8 @@ class Workshop {
   }
 
   std::shared_ptr<CompiledKernel> request_async(Program program, const CodegenOptions& options) {
-    if (session_ == nullptr) {
-      return interpreting_kernel(std::move(program), options.max_steps, no_session_);
+    if (session_ == nullptr) {  // Said when the service was made.
+      return interpreting_kernel(std::move(program), options.max_steps, {});
     }
     auto interpreter = make_interpreter(program, options.max_steps);
     auto shared = std::make_shared<const Program>(std::move(program));

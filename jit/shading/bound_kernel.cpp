@@ -1,9 +1,9 @@
 #include "jit/shading/bound_kernel.h"
 
-#include <cassert>
 #include <utility>
 
 #include "jit/record/textures.h"
+#include "jit/service/compile_service.h"
 
 namespace nacre {
 
@@ -12,6 +12,16 @@ BoundKernel::BoundKernel(std::shared_ptr<const Kernel> kernel,
     : kernel_(std::move(kernel)), textures_(std::move(textures)) {
   if (textures_ != nullptr) bindings_ = textures_->bindings();
   for (const ParameterSlot& slot : program().parameters) parameters_.push_back(slot.value);
+}
+
+bool BoundKernel::is_pending() const {
+  const auto* made = dynamic_cast<const CompiledKernel*>(kernel_.get());
+  return made != nullptr && made->state() == CompiledKernel::State::waiting;
+}
+
+Diagnostics BoundKernel::diagnostics() const {
+  const auto* made = dynamic_cast<const CompiledKernel*>(kernel_.get());
+  return made != nullptr ? made->diagnostics() : Diagnostics();
 }
 
 std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) const {
@@ -25,9 +35,10 @@ std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) c
 RunStatus BoundKernel::run(std::span<const void* const> inputs, std::span<void* const> outputs,
                            std::uint64_t count, std::span<const std::uint32_t> parameters,
                            const std::atomic<std::uint32_t>* stop) const {
-  assert(inputs.size() == program().inputs.size());
-  assert(outputs.size() == program().outputs.size());
-  assert(parameters.empty() || parameters.size() == parameters_.size());
+  const bool fits = inputs.size() == program().inputs.size() &&
+                    outputs.size() == program().outputs.size() &&
+                    (parameters.empty() || parameters.size() == parameters_.size());
+  if (!fits) return RunStatus::wrong_arguments;
   return kernel_->run({.inputs = inputs.data(),
                        .outputs = outputs.data(),
                        .parameters = parameters.empty() ? parameters_.data() : parameters.data(),

@@ -6,8 +6,10 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
 
 namespace nacre {
@@ -22,17 +24,30 @@ class BoundKernel {
   BoundKernel(std::shared_ptr<const Kernel> kernel,
               std::shared_ptr<const RecordedTextures> textures);
 
+  /// With the same textures and parameters, another kernel of the same Program.
+  BoundKernel with(std::shared_ptr<const Kernel> kernel) const {
+    return {std::move(kernel), textures_};
+  }
+
   /// Inputs, outputs, parameters and textures, in the order run() wants them.
   const Program& program() const { return kernel_->program(); }
   /// The code without its bindings.
   const Kernel& kernel() const { return *kernel_; }
+
+  /// Whether its code is still being made, and it is interpreted meanwhile; see
+  /// CompileOptions::asynchronous.
+  bool is_pending() const;
+  /// What there is to say of making it, once nothing is pending: why it stays interpreted,
+  /// say. Without `asynchronous`, compiling has said that already.
+  Diagnostics diagnostics() const;
 
   /// The parameter block as the document has it, to be changed and passed to run().
   const std::vector<std::uint32_t>& parameters() const { return parameters_; }
   /// Index of a slot in the block, if this kernel reads it.
   std::optional<std::size_t> parameter_index(std::string_view name) const;
 
-  /// See KernelArguments and RunStatus. `parameters` empty: those of the document.
+  /// See KernelArguments and RunStatus. `parameters` empty: those of the document. As many
+  /// of each as the Program has, else nothing is run: RunStatus::wrong_arguments.
   [[nodiscard]] RunStatus run(std::span<const void* const> inputs, std::span<void* const> outputs,
                               std::uint64_t count, std::span<const std::uint32_t> parameters = {},
                               const std::atomic<std::uint32_t>* stop = nullptr) const;

@@ -16,7 +16,9 @@ fs::path find_worker() {
   Dl_info here{};
   if (::dladdr(reinterpret_cast<const void*>(&find_worker), &here) == 0) return {};
   std::error_code ignored;
-  const fs::path folder = fs::weakly_canonical(here.dli_fname, ignored).parent_path();
+  fs::path own = here.dli_fname;
+  if (!own.is_absolute()) own = fs::read_symlink("/proc/self/exe", ignored);  // As it was called.
+  const fs::path folder = fs::weakly_canonical(own, ignored).parent_path();
   // Beside it in a build; from bin, lib and lib/x86_64-linux-gnu where it is installed.
   constexpr std::array<std::string_view, 4> places{
       "nacre-compile-worker", "bin/nacre-compile-worker", "../libexec/nacre/nacre-compile-worker",

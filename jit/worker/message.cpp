@@ -29,6 +29,9 @@ std::string to_bytes(const CompileRequest& request) {
   out.add(request.options.accuracy);
   out.add(request.options.tier);
   out.add(request.options.max_steps);
+  out.add(request.options.uncut);
+  out.add(request.options.part);
+  out.add(request.options.line_tables);
   out.add(request.seconds);
   out.add_text(to_bytes(request.program));
   return out.take();
@@ -44,6 +47,9 @@ std::optional<CompileRequest> request_from_bytes(std::string_view bytes) {
   request.options.accuracy = in.take<Accuracy>();
   request.options.tier = in.take<Tier>();
   request.options.max_steps = in.take<std::uint64_t>();
+  request.options.uncut = in.take<std::uint32_t>();
+  request.options.part = in.take<std::uint32_t>();
+  request.options.line_tables = in.take<bool>();
   request.seconds = in.take<double>();
   auto program = program_from_bytes(in.take_text());
   if (!program || !in.is_whole()) return std::nullopt;

@@ -59,7 +59,7 @@ void record_closure_burley_diffuse_bsdf(NodeCall& call) {
   auto lobe = std::make_shared<BurleyDiffuse>(prepare_normal(recorder, call.vector3("normal")),
                                               prepare_tint(recorder, call.vector3("color")),
                                               keep(recorder, saturate(call.number("roughness"))));
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call)));
+  set_lobe(call, std::move(lobe));
 }
 
 }  // namespace nacre

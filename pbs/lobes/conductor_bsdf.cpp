@@ -35,7 +35,7 @@ void record_closure_conductor_bsdf(NodeCall& call) {
       MicrofacetReflection::Options{.name = "conductor_bsdf",
                                     .retroreflective = call.boolean("retroreflective"),
                                     .opaque = true});
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call)));
+  set_lobe(call, std::move(lobe));
 }
 
 }  // namespace nacre

@@ -39,9 +39,8 @@ void record_closure_dielectric_bsdf(NodeCall& call) {
   const auto fresnel = std::make_shared<DielectricFresnel>(recorder, index, prepare_film(call));
   const MicrofacetReflection::Options options{
       .name = "dielectric_bsdf", .tint = tint, .retroreflective = call.boolean("retroreflective")};
-  call.set(std::make_shared<LobeBsdf>(
-      microfacet_lobe(recorder, call.text("scatter_mode"), prepare_facets(call), fresnel, options),
-      prepare_weight(call)));
+  set_lobe(call, microfacet_lobe(recorder, call.text("scatter_mode"), prepare_facets(call), fresnel,
+                                 options));
 }
 
 }  // namespace nacre

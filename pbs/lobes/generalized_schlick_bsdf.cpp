@@ -67,9 +67,7 @@ void record_closure_generalized_schlick_bsdf(NodeCall& call) {
   const MicrofacetReflection::Options options{.name = "generalized_schlick_bsdf",
                                               .retroreflective = call.boolean("retroreflective"),
                                               .grey_throughput = true};
-  call.set(std::make_shared<LobeBsdf>(
-      microfacet_lobe(recorder, mode, prepare_facets(call), fresnel, options),
-      prepare_weight(call)));
+  set_lobe(call, microfacet_lobe(recorder, mode, prepare_facets(call), fresnel, options));
 }
 
 }  // namespace nacre

@@ -122,7 +122,7 @@ void record_closure_oren_nayar_diffuse_bsdf(NodeCall& call) {
                              compensated_model(roughness, color), plain_model(roughness));
   auto lobe = std::make_shared<OrenNayar>(
       recorder, prepare_normal(recorder, call.vector3("normal")), color, model);
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call)));
+  set_lobe(call, std::move(lobe));
 }
 
 }  // namespace nacre

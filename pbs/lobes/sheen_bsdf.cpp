@@ -218,7 +218,7 @@ void record_closure_sheen_bsdf(NodeCall& call) {
     lobe = std::make_shared<ContyKullaSheen>(
         normal, color, keep(recorder, clamp(roughness, lowest_roughness, 1.0f)));
   }
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call)));
+  set_lobe(call, std::move(lobe));
 }
 
 }  // namespace nacre

@@ -18,7 +18,7 @@ void record_closure_subsurface_bsdf(NodeCall& call) {
   if (!is_zero(call.vector3("radius"))) {
     left_out.emplace_back("subsurface_bsdf: radius and anisotropy; light leaves where it enters");
   }
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call), std::move(left_out)));
+  set_lobe(call, std::move(lobe), std::move(left_out));
 }
 
 }  // namespace nacre

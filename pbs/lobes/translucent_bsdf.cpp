@@ -12,7 +12,7 @@ void record_closure_translucent_bsdf(NodeCall& call) {
   auto lobe = std::make_shared<LambertLobe>("translucent_bsdf", CosineLobe::Side::other,
                                             prepare_normal(recorder, call.vector3("normal")),
                                             prepare_tint(recorder, call.vector3("color")));
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), prepare_weight(call)));
+  set_lobe(call, std::move(lobe));
 }
 
 }  // namespace nacre

@@ -2,48 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "runtime/float_environment.h"
-#include "runtime/interpreter/lanes.h"
-#include "runtime/interpreter/registers.h"
-#include "runtime/program/fold.h"
+#include "runtime/interpreter/block.h"
+#include "runtime/interpreter/prepared.h"
 
 namespace nacre {
 
 namespace {
-
-constexpr std::uint32_t all_ones = ~0u;
-
-/// A function with its registers assigned and its regions' ends found.
-struct Prepared {
-  const Function* function;
-  RegisterMap registers;
-  std::vector<bool> once;
-  std::vector<std::size_t> end;  ///< By opening instruction: the closing one.
-  std::vector<double> round;     ///< By instruction that opens a loop: steps of a round.
-};
-
-Prepared prepare(const Function& function, const FunctionCost& cost) {
-  Prepared prepared{.function = &function,
-                    .registers = assign_registers(function),
-                    .once = once_per_call(function),
-                    .end = std::vector<std::size_t>(function.code.size(), 0),
-                    .round = std::vector<double>(function.code.size(), 0)};
-  for (const auto& [open, steps] : cost.rounds) prepared.round[open] = steps;
-  std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < function.code.size(); ++i) {
-    if (opens_region(function.code[i].op)) open.push_back(i);
-    if (!closes_region(function.code[i].op)) continue;
-    prepared.end[open.back()] = i;
-    open.pop_back();
-  }
-  return prepared;
-}
 
 bool any(const Register& mask) {
   return std::any_of(mask.begin(), mask.end(), [](std::uint32_t lane) { return lane != 0; });
@@ -54,21 +24,24 @@ class Run {
  public:
   Run(const Program& program, const std::vector<Prepared>& functions, const StepLimit& limit,
       const KernelArguments& args)
-      : program_(program), functions_(functions), limit_(limit), args_(args), ops_(lane_ops()) {}
+      : functions_(functions), limit_(limit), block_{program, args}, ops_(lane_ops()) {}
 
   RunStatus all_blocks() {
     const Prepared& entry = functions_.front();
     frames_.resize(entry.registers.count);
     Frame frame{.base = 0, .prepared = &entry};
-    fill_once(frame);
-    for (first_ = 0; first_ < args_.count; first_ += block_lanes) {
-      lanes_ = static_cast<int>(std::min<std::uint64_t>(block_lanes, args_.count - first_));
+    load_constants(frame);
+    steps_left_ = static_cast<double>(limit_.max_steps());
+    execute(frame, true);
+    const KernelArguments& args = block_.arguments;
+    for (; block_.first < args.count && steps_left_ >= 0; block_.first += block_lanes) {
+      block_.lanes =
+          static_cast<int>(std::min<std::uint64_t>(block_lanes, args.count - block_.first));
       steps_left_ = static_cast<double>(limit_.max_steps());
-      execute(frame);
-      if (steps_left_ < 0) return RunStatus::too_many_steps;
-      if (is_asked_to_stop()) return RunStatus::stopped;
+      execute(frame, false);
+      if (is_asked_to_stop() && steps_left_ >= 0) return RunStatus::stopped;
     }
-    return RunStatus::done;
+    return steps_left_ < 0 ? RunStatus::too_many_steps : RunStatus::done;
   }
 
  private:
@@ -87,7 +60,8 @@ class Run {
   };
 
   bool is_asked_to_stop() const {
-    return args_.stop != nullptr && args_.stop->load(std::memory_order_relaxed) != 0;
+    return block_.arguments.stop != nullptr &&
+           block_.arguments.stop->load(std::memory_order_relaxed) != 0;
   }
 
   Register& reg(const Frame& frame, ValueId id) {
@@ -97,34 +71,22 @@ class Run {
     return id == no_value ? nullptr : reg(frame, id).data();
   }
 
-  static std::uint32_t as_lane(const Instruction& constant) {
-    if (constant.type == Scalar::f32) return flush_denormal(constant.imm);
-    if (constant.type == Scalar::i32) return constant.imm;
-    return constant.imm != 0 ? all_ones : 0u;
-  }
-
-  /// Constants, and in the entry also what is uniform at top level.
-  void fill_once(const Frame& frame) {
+  void load_constants(const Frame& frame) {
     const Function& function = *frame.prepared->function;
-    const bool is_entry = frame.caller == nullptr;
     for (std::size_t i = 0; i < function.code.size(); ++i) {
-      const Instruction& instruction = function.code[i];
-      if (instruction.op == Op::constant) {
-        reg(frame, static_cast<ValueId>(i)).fill(as_lane(instruction));
-      } else if (is_entry && frame.prepared->once[i]) {
-        step(frame, static_cast<ValueId>(i), instruction);
-      }
+      if (function.code[i].op != Op::constant) continue;
+      block_.load_constant(reg(frame, static_cast<ValueId>(i)), function.code[i]);
     }
   }
 
-  void execute(const Frame& frame) {
+  /// What is computed once a call, or the rest.
+  void execute(const Frame& frame, bool once) {
     const Function& function = *frame.prepared->function;
-    const bool is_entry = frame.caller == nullptr;
     std::vector<LoopState> loops;
     for (std::size_t i = 0; i < function.code.size(); ++i) {
       const Instruction& instruction = function.code[i];
       const auto id = static_cast<ValueId>(i);
-      if (instruction.op == Op::constant || (is_entry && frame.prepared->once[i])) continue;
+      if (instruction.op == Op::constant || frame.prepared->once[i] != once) continue;
       switch (instruction.op) {
         case Op::if_any: i = open_if(frame, i); break;
         case Op::merge:
@@ -245,19 +207,18 @@ class Run {
       return;
     }
     switch (instruction.op) {
-      case Op::parameter: {
-        std::uint32_t bits = args_.parameters[instruction.imm];
-        if (instruction.type == Scalar::f32) bits = flush_denormal(bits);
-        if (instruction.type == Scalar::b1) bits = bits != 0 ? all_ones : 0u;
-        reg(frame, id).fill(bits);
-        break;
-      }
-      case Op::input: load_input(frame, id, instruction); break;
+      case Op::parameter: block_.load_parameter(reg(frame, id), instruction); break;
+      case Op::input: block_.load_input(reg(frame, id), instruction); break;
       case Op::argument:
         reg(frame, id) = reg(*frame.caller, frame.arguments[instruction.imm]);
         break;
-      case Op::table: load_table(frame, id, instruction); break;
-      case Op::texel: load_texel(frame, id, instruction); break;
+      case Op::table:
+        block_.load_table(reg(frame, id), instruction, reg(frame, instruction.operands[0]));
+        break;
+      case Op::texel:
+        block_.load_texel(reg(frame, id), reg(frame, instruction.operands[0]),
+                          reg(frame, instruction.operands[1]));
+        break;
       case Op::call: call(frame, instruction); break;
       case Op::texture_call: texture_call(frame, instruction); break;
       case Op::result: reg(frame, id) = results_[instruction.imm]; break;
@@ -265,43 +226,8 @@ class Run {
         results_pending_.resize(frame.prepared->function->results.size());
         results_pending_[instruction.imm] = reg(frame, instruction.operands[0]);
         break;
-      case Op::store: store(frame, instruction); break;
+      case Op::store: block_.store(reg(frame, instruction.operands[0]), instruction); break;
       default: assert(false && "an operation that the passes should have expanded");
-    }
-  }
-
-  void load_input(const Frame& frame, ValueId id, const Instruction& instruction) {
-    const auto* source = static_cast<const std::uint32_t*>(args_.inputs[instruction.imm]) + first_;
-    Register& to = reg(frame, id);
-    for (int k = 0; k < block_lanes; ++k) {
-      // Beyond the batch the last point is repeated: no lane takes a way of its own.
-      const std::uint32_t bits = source[std::min(k, lanes_ - 1)];
-      if (instruction.type == Scalar::f32) to[k] = flush_denormal(bits);
-      if (instruction.type == Scalar::i32) to[k] = bits;
-      if (instruction.type == Scalar::b1) to[k] = bits != 0 ? all_ones : 0u;
-    }
-  }
-
-  void load_table(const Frame& frame, ValueId id, const Instruction& instruction) {
-    const std::vector<float>& values = program_.tables[instruction.imm].values;
-    const Register& index = reg(frame, instruction.operands[0]);
-    const auto last = static_cast<std::int32_t>(values.size()) - 1;
-    Register& to = reg(frame, id);
-    for (int k = 0; k < block_lanes; ++k) {
-      const auto clamped = std::clamp(static_cast<std::int32_t>(index[k]), 0, last);
-      to[k] =
-          flush_denormal(std::bit_cast<std::uint32_t>(values[static_cast<std::size_t>(clamped)]));
-    }
-  }
-
-  void load_texel(const Frame& frame, ValueId id, const Instruction& instruction) {
-    const Register& slot = reg(frame, instruction.operands[0]);
-    const Register& word = reg(frame, instruction.operands[1]);
-    Register& to = reg(frame, id);
-    for (int k = 0; k < block_lanes; ++k) {
-      const std::uint32_t number = slot[k] < program_.textures.size() ? slot[k] : 0u;
-      const TextureBinding& texture = args_.textures[number];
-      to[k] = texture.words[word[k] < texture.count ? word[k] : 0u];
     }
   }
 
@@ -315,70 +241,33 @@ class Run {
                       .prepared = &callee,
                       .arguments = frame.prepared->function->operands(instruction),
                       .caller = &frame};
-    fill_once(inner);
-    execute(inner);
+    load_constants(inner);
+    execute(inner, false);
     std::swap(results_, results_pending_);
   }
 
   void texture_call(const Frame& frame, const Instruction& instruction) {
     const auto operands = frame.prepared->function->operands(instruction);
-    const auto floats = [&](std::size_t k) {
-      return reinterpret_cast<const float*>(reg(frame, operands[k]).data());
-    };
-    std::array<float, 4 * block_lanes> rgba{};
-    const TextureCall request{.slot = reg(frame, operands[0])[0],
-                              .modes = instruction.imm,
-                              .lanes = block_lanes,
-                              .u = floats(1),
-                              .v = floats(2),
-                              .dudx = floats(3),
-                              .dvdx = floats(4),
-                              .dudy = floats(5),
-                              .dvdy = floats(6),
-                              .rgba = rgba.data()};
-    if (args_.texture_callback != nullptr) args_.texture_callback(args_.texture_user, &request);
+    std::array<const Register*, 7> from{};
+    for (std::size_t k = 0; k < from.size(); ++k) from[k] = &reg(frame, operands[k]);
     results_.resize(4);
-    for (std::size_t c = 0; c < 4; ++c) {
-      for (std::size_t k = 0; k < block_lanes; ++k) {
-        results_[c][k] = flush_denormal(std::bit_cast<std::uint32_t>(rgba[c * block_lanes + k]));
-      }
-    }
+    block_.call_texture(std::span<Register, 4>(results_), instruction, from);
   }
 
-  void store(const Frame& frame, const Instruction& instruction) {
-    const Register& value = reg(frame, instruction.operands[0]);
-    const Scalar type = program_.outputs[instruction.imm].type;
-    auto* to = static_cast<std::uint32_t*>(args_.outputs[instruction.imm]) + first_;
-    for (int k = 0; k < lanes_; ++k) {
-      std::uint32_t bits = value[k];
-      if (type == Scalar::f32 && (bits & 0x7fffffffu) > 0x7f800000u) bits = canonical_nan;
-      if (type == Scalar::b1) bits &= 1u;
-      to[k] = bits;
-    }
-  }
-
-  const Program& program_;
   const std::vector<Prepared>& functions_;
   const StepLimit& limit_;
-  const KernelArguments& args_;
+  Block block_;
   const LaneOps& ops_;
   std::vector<Register> frames_;
   std::vector<Register> results_;          ///< Of the last call.
   std::vector<Register> results_pending_;  ///< Of the function being executed.
-  std::uint64_t first_ = 0;
-  int lanes_ = block_lanes;
-  double steps_left_ = 0;  ///< Of the block; below zero: the run has failed.
+  double steps_left_ = 0;                  ///< Of the block; below zero: the run has failed.
 };
 
 class Interpreter final : public Kernel {
  public:
   Interpreter(Program program, std::uint64_t max_steps)
-      : program_(std::move(program)), limit_(program_, max_steps) {
-    const std::vector<FunctionCost> costs = function_costs(program_);
-    for (std::size_t i = 0; i < costs.size(); ++i) {
-      functions_.push_back(prepare(program_.functions[i], costs[i]));
-    }
-  }
+      : program_(std::move(program)), limit_(program_, max_steps), functions_(prepare(program_)) {}
 
   RunStatus run(const KernelArguments& arguments) const override {
     const ScopedFloatEnvironment environment;

@@ -12,6 +12,7 @@ namespace {
 /// loop uses from outside, and what it carries, lives until the loop's end.
 std::vector<std::size_t> last_uses(const Function& function) {
   const std::size_t size = function.code.size();
+  const std::vector<std::size_t> region = region_ends(function);
   std::vector<std::size_t> last(size, 0);
   std::vector<std::size_t> loop_end(size, 0);  // Outermost loop around, or 0.
   std::vector<std::size_t> ends;
@@ -29,7 +30,7 @@ std::vector<std::size_t> last_uses(const Function& function) {
     // A mask is needed by the merges, up to the region's end.
     if (function.code[i].op == Op::if_any) {
       const ValueId mask = function.code[i].operands[0];
-      last[mask] = std::max(last[mask], region_end(function, i));
+      last[mask] = std::max(last[mask], region[i]);
     }
     if (function.code[i].op == Op::next || function.code[i].op == Op::carry) {
       last[i] = std::max(last[i], loop_end[i]);
@@ -58,41 +59,22 @@ bool needs_register(const Instruction& instruction) { return instruction.type !=
 
 }  // namespace
 
-std::vector<bool> once_per_call(const Function& function) {
-  std::vector<bool> once(function.code.size(), false);
-  int depth = 0;
-  for (std::size_t i = 0; i < function.code.size(); ++i) {
-    const Instruction& instruction = function.code[i];
-    if (closes_region(instruction.op)) --depth;
-    once[i] = instruction.op == Op::constant ||
-              (depth == 0 && !instruction.varying && !is_structural(instruction.op) &&
-               instruction.op != Op::end_if && instruction.op != Op::end_loop);
-    // A uniform region is run for every block, so what needs its merges is too.
-    for (const ValueId operand : function.operands(instruction)) {
-      once[i] = once[i] && once[operand];
-    }
-    // A merge stands inside its region although it is visible after it.
-    if (opens_region(instruction.op)) ++depth;
-  }
-  return once;
-}
-
-RegisterMap assign_registers(const Function& function) {
+RegisterMap assign_registers(const Function& function, const std::vector<bool>& once) {
   const std::vector<std::size_t> last = last_uses(function);
-  const std::vector<bool> once = once_per_call(function);
   const auto early = written_on_opening(function);
   RegisterMap map{.of = std::vector<std::uint32_t>(function.code.size(), no_value)};
   std::vector<std::uint32_t> free;
   std::vector<std::vector<ValueId>> ending(function.code.size());
   const auto give = [&](ValueId id) {
     if (map.of[id] != no_value) return;
-    if (once[id] || free.empty()) {
+    const bool stays = once[id] || function.code[id].op == Op::constant;
+    if (stays || free.empty()) {
       map.of[id] = map.count++;
     } else {
       map.of[id] = free.back();
       free.pop_back();
     }
-    if (!once[id]) ending[last[id]].push_back(id);
+    if (!stays) ending[last[id]].push_back(id);
   };
   for (std::size_t i = 0; i < function.code.size(); ++i) {
     for (const ValueId id : early[i]) give(id);

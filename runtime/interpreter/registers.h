@@ -13,11 +13,8 @@ struct RegisterMap {
   std::uint32_t count = 0;        ///< Registers in the frame.
 };
 
-/// Gives every value a register. Constants, and what is computed once a call
-/// (uniform, at top level), keep theirs for good; the others share by last use.
-RegisterMap assign_registers(const Function& function);
-
-/// Computed once a call: uniform and outside every region. By value id.
-std::vector<bool> once_per_call(const Function& function);
+/// Gives every value a register. Constants, and what is computed `once` a call (by value id),
+/// keep theirs for good; the others share by last use.
+RegisterMap assign_registers(const Function& function, const std::vector<bool>& once);
 
 }  // namespace nacre

@@ -11,6 +11,11 @@ class ScopedOrigin {
  public:
   ScopedOrigin(Recorder& recorder, std::string_view name)
       : recorder_(recorder), before_(recorder.begin_origin(name)) {}
+  /// For what Recorder::origin() was at some time.
+  ScopedOrigin(Recorder& recorder, std::uint32_t origin)
+      : recorder_(recorder), before_(recorder.origin()) {
+    recorder.set_origin(origin);
+  }
   ~ScopedOrigin() { recorder_.set_origin(before_); }
   ScopedOrigin(const ScopedOrigin&) = delete;
   ScopedOrigin& operator=(const ScopedOrigin&) = delete;

@@ -9,4 +9,10 @@ std::span<const ValueId> Function::operands(const Instruction& instruction) cons
   return std::span(instruction.operands).first(instruction.count);
 }
 
+std::size_t instruction_count(const Program& program) {
+  std::size_t count = 0;
+  for (const Function& function : program.functions) count += function.code.size();
+  return count;
+}
+
 }  // namespace nacre

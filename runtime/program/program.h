@@ -37,6 +37,11 @@ struct Instruction {
   }
 };
 
+/// Without operands.
+constexpr Instruction bare_instruction(Op op, Scalar type, std::uint32_t imm) {
+  return {.op = op, .type = type, .imm = imm, .operands = {no_value, no_value, no_value}};
+}
+
 /// Straight code with nested regions, in order of execution. Function 0 of a
 /// Program is the entry; the others are outlined bodies with `argument` and
 /// `give` in place of inputs and stores.
@@ -103,6 +108,9 @@ struct Program {
   /// Function 0.
   const Function& entry() const { return functions.front(); }
 };
+
+/// Instructions of all functions.
+std::size_t instruction_count(const Program& program);
 
 /// The canonical text of a Program: values numbered from 0 in order of
 /// definition, one instruction a line, regions indented. Golden tests and

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/program/program.h"
+#include "runtime/program/value_table.h"
 #include "runtime/value/ref.h"
 
 namespace nacre {
@@ -24,11 +25,15 @@ class Recorder {
   /// Takes over the channel, slot, table and texture lists of a Program, in
   /// their order; before anything is recorded.
   void adopt_interface(const Program& program);
+  /// An input or parameter instruction of that Program again.
+  Ref adopted(const Instruction& instruction);
 
   /// What is recorded from now on is for `name`; what another has recorded before and shares
   /// stays the other's. Returns what it was for.
   std::uint32_t begin_origin(std::string_view name);
-  /// Back to what begin_origin() returned.
+  /// What is recorded now is for: a number of Program::origins.
+  std::uint32_t origin() const { return origin_; }
+  /// Back to what origin() or begin_origin() returned.
   void set_origin(std::uint32_t origin) { origin_ = origin; }
 
   // -- Leaves. The same name always gives the same value. --
@@ -117,17 +122,12 @@ class Recorder {
   ValueId materialize(Ref x);
 
  private:
-  struct KeyHash {
-    std::size_t operator()(const Instruction& instruction) const;
-  };
-  using Scope = std::unordered_map<Instruction, ValueId, KeyHash>;
-
   /// A function under construction and the regions open in it.
   struct Open {
     std::uint32_t number;
     Function function;  ///< Joins the Program when it ends, after what it calls; not the entry.
     std::string key;
-    std::vector<Scope> scopes;
+    ValueTable values;
     std::vector<bool> varying;           ///< By value id.
     std::vector<std::uint32_t> home;     ///< By value id: the region it stands in.
     std::vector<std::uint32_t> regions;  ///< Regions open, outermost first.

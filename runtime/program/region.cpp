@@ -12,4 +12,16 @@ std::size_t region_end(const Function& function, std::size_t open) {
   return i;
 }
 
+std::vector<std::size_t> region_ends(const Function& function) {
+  std::vector<std::size_t> ends(function.code.size(), 0);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < function.code.size(); ++i) {
+    if (opens_region(function.code[i].op)) open.push_back(i);
+    if (!closes_region(function.code[i].op)) continue;
+    ends[open.back()] = i;
+    open.pop_back();
+  }
+  return ends;
+}
+
 }  // namespace nacre

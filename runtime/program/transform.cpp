@@ -54,11 +54,12 @@ class Transformer {
   /// False once there is too much.
   bool body(const Function& function) {
     std::size_t here = 0;
+    std::vector<Ref> operands;
     values_.assign(function.code.size(), Ref{});
     for (std::size_t i = 0; i < function.code.size(); ++i) {
       const Instruction& instruction = function.code[i];
       recorder_.set_origin(instruction.origin);
-      std::vector<Ref> operands;
+      operands.clear();
       for (const ValueId operand : function.operands(instruction)) {
         operands.push_back(values_[operand]);
       }
@@ -77,14 +78,8 @@ class Transformer {
   Ref again(const Instruction& instruction, std::span<const Ref> operands) {
     switch (instruction.op) {
       case Op::constant: return {nullptr, instruction.imm, instruction.type};
-      case Op::parameter: {
-        const ParameterSlot& slot = program_.parameters[instruction.imm];
-        return recorder_.parameter(slot.name, slot.type, slot.value);
-      }
-      case Op::input: {
-        const Channel& channel = program_.inputs[instruction.imm];
-        return recorder_.input(channel.name, channel.type);
-      }
+      case Op::parameter:
+      case Op::input: return recorder_.adopted(instruction);
       case Op::argument: return recorder_.argument(instruction.imm);
       case Op::if_any:
         if (!ifs_.back()) recorder_.begin_if(operands[0]);

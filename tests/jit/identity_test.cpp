@@ -131,6 +131,22 @@ TEST_P(Identity, OfRandomProgramsAtEveryWidth) {
 
 INSTANTIATE_TEST_SUITE_P(Shard, Identity, testing::Range(0, shards));
 
+/// Cut into many small functions, a Program gives the same bits.
+TEST(Parts, GiveTheSameBits) {
+  for (std::uint64_t seed = first_seed(); seed < first_seed() + (full_run() ? 2000 : 60); ++seed) {
+    const Program program = random_program(seed, {.operations = 150});
+    const Case one(program, seed);
+    for (const int lanes : {1, 4, 8, 16}) {
+      CodegenOptions options = options_for(lanes, seed % 2 == 0 ? Tier::quick : Tier::full);
+      options.uncut = 0;
+      options.part = seed % 3 == 0 ? 3 : seed % 3 == 1 ? 20 : 60;
+      options.line_tables = seed % 5 == 0;
+      expect_identity(one, options);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 /// CPUs whose code this machine can run too, and what each lacks.
 TEST(Targets, GiveTheSameBits) {
   for (const char* cpu : {"x86-64-v2", "x86-64-v3", "haswell", "skylake-avx512"}) {

@@ -10,7 +10,7 @@ MAY_INCLUDE = {
     "nodes": ("nodes", "runtime"),
     "pbs": ("pbs", "runtime"),
     "jit": ("jit", "nodes", "pbs", "runtime"),
-    "bench": ("bench", "jit", "nodes", "pbs", "runtime"),
+    "bench": ("bench", "examples/measure", "jit", "nodes", "pbs", "runtime"),
     "examples": ("examples", "jit", "nodes", "pbs", "runtime"),
     "tests": ("jit", "nodes", "pbs", "runtime", "tests"),
     "tests/conformance": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),

@@ -1,10 +1,10 @@
-#include "jit/llvm/hoist.h"
+#include "runtime/program/once.h"
 
 #include <cstddef>
 
 #include "runtime/program/region.h"
 
-namespace nacre::codegen {
+namespace nacre {
 
 namespace {
 
@@ -25,7 +25,7 @@ bool uniform(const Function& function, std::size_t first, std::size_t end,
 
 }  // namespace
 
-std::vector<bool> hoistable(const Function& entry) {
+std::vector<bool> once_per_call(const Function& entry) {
   std::vector<bool> once(entry.code.size(), false);
   for (std::size_t i = 0; i < entry.code.size();) {
     const std::size_t end = (opens_region(entry.code[i].op) ? region_end(entry, i) : i) + 1;
@@ -35,4 +35,4 @@ std::vector<bool> hoistable(const Function& entry) {
   return once;
 }
 
-}  // namespace nacre::codegen
+}  // namespace nacre

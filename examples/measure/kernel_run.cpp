@@ -1,4 +1,4 @@
-#include "bench/common/kernel_run.h"
+#include "examples/measure/kernel_run.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,9 +6,9 @@
 #include <new>
 #include <utility>
 
-#include "bench/common/points.h"
+#include "examples/measure/points.h"
 
-namespace nacre::bench {
+namespace nacre::measure {
 
 namespace {
 
@@ -77,4 +77,4 @@ float* KernelRun::output(const std::string& channel) const {
   return static_cast<float*>(find(program().outputs, outputs_, channel));
 }
 
-}  // namespace nacre::bench
+}  // namespace nacre::measure

@@ -1,4 +1,4 @@
-#include "bench/common/points.h"
+#include "examples/measure/points.h"
 
 #include <array>
 #include <bit>
@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "bench/common/kernel_run.h"
+#include "examples/measure/kernel_run.h"
 
-namespace nacre::bench {
+namespace nacre::measure {
 
 namespace {
 
@@ -99,4 +99,4 @@ std::vector<float> shading_points(const Channel& channel) {
   return values;
 }
 
-}  // namespace nacre::bench
+}  // namespace nacre::measure

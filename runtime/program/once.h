@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "runtime/program/program.h"
+
+namespace nacre {
+
+/// What the entry computes once for all batches of a call, by value id: instructions outside
+/// every region that are uniform and need only such ones, and regions in which all are.
+std::vector<bool> once_per_call(const Function& entry);
+
+}  // namespace nacre
