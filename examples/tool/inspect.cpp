@@ -169,6 +169,7 @@ int run(const InspectOptions& options) {
                       options.common.backend);
     return report(diagnostics);
   }
+  shader.compile.whole = true;
   if (options.live) shader.parameters = ParameterMode::live;
   for (const std::string& dump : options.dumps) {
     if (dump == "program") shader.compile.keep_text = true;

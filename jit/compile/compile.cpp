@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
+#include <cstddef>
+#include <string>
 #include <utility>
 
 #include "jit/compile/lower.h"
@@ -18,8 +19,16 @@ namespace nacre {
 
 namespace {
 
-/// Whether a pass takes too long even if every loop runs one round.
-bool is_too_slow(const Program& program, const CompileOptions& options, Diagnostics& diagnostics) {
+/// Whether no engine may have it; says so.
+bool is_refused(const Program& program, const CompileOptions& options, Diagnostics& diagnostics) {
+  if (is_too_large(program, options)) {
+    diagnostics.error("program-too-large", {},
+                      fmt::format("the kernel '{}' is too large", program.name),
+                      fmt::format("at most {} instructions", options.max_instructions),
+                      fmt::format("{}", instruction_count(program)));
+    return true;
+  }
+  // Even if every loop runs one round.
   const double steps = function_costs(program).front().once;
   if (steps <= static_cast<double>(options.max_steps)) return false;
   diagnostics.error("too-many-steps", {},
@@ -29,53 +38,106 @@ bool is_too_slow(const Program& program, const CompileOptions& options, Diagnost
   return true;
 }
 
-/// Reports and drops the Programs that are too large or too slow; which of them are left.
-std::vector<bool> refuse_excess(std::vector<Program>& programs, const CompileOptions& options,
-                                Diagnostics& diagnostics) {
-  std::vector<bool> fits;
-  for (const Program& program : programs) {
-    fits.push_back(!is_too_large(program, options));
-    if (fits.back()) {
-      fits.back() = !is_too_slow(program, options, diagnostics);
-      continue;
+/// What code is known by that is made of a Program which lower_to_interface() has given.
+std::string key_of(const Program& program, const CompileOptions& options,
+                   const CodegenOptions& codegen) {
+  return code_key(program, codegen,
+                  fmt::format("lowered, at most {} instructions{}", options.max_instructions,
+                              options.all_varying ? ", all varying" : ""));
+}
+
+/// LLVM's text of a Program as a stage more.
+void dump(const Program& program, const CompileOptions& options, std::vector<StageReport>& reports,
+          Diagnostics& diagnostics) {
+  const auto add = [&](const char* name, auto&& text_of) {
+    StageReport report;
+    report.name = name;
+    report.text = text_of(program, codegen_options(options), diagnostics);
+    reports.push_back(std::move(report));
+  };
+  if (options.dump_ir) add("llvm", dump_ir);
+  if (options.dump_assembly) add("assembly", dump_assembly);
+}
+
+/// Programs on their way to kernels, each to its place.
+class Kernels {
+ public:
+  using List = std::vector<std::shared_ptr<const Kernel>>;
+
+  Kernels(std::size_t count, const CompileOptions& options, CompileService* service,
+          Diagnostics& diagnostics)
+      : options_(options), service_(service), diagnostics_(diagnostics), made_(count) {}
+
+  /// Lowers one, as far as is needed. False once time is up, after a diagnostic.
+  bool add(std::size_t place, Program program, std::vector<StageReport>* reports) {
+    program = lower_to_interface(std::move(program), options_, reports);
+    if (is_over(program)) return false;
+    const bool is_jit = options_.backend == Backend::jit;
+    std::string key;
+    if (is_jit && !is_too_large(program, options_)) {
+      key = key_of(program, options_, codegen_);
+      const bool may_skip = !options_.whole && !options_.dump_ir && !options_.dump_assembly;
+      if (auto found = may_skip ? service_->find(program, key, codegen_) : nullptr) {
+        const Diagnostics said = found->diagnostics();
+        for (const Diagnostic& one : said.all()) diagnostics_.add(one);
+        made_[place] = std::move(found);
+        return true;
+      }
     }
-    diagnostics.error("program-too-large", {},
-                      fmt::format("the kernel '{}' is too large", program.name),
-                      fmt::format("at most {} instructions", options.max_instructions),
-                      fmt::format("{}", instruction_count(program)));
+    if (!is_too_large(program, options_)) {
+      program = lower_to_engine(std::move(program), options_, reports);
+    }
+    if (is_over(program)) return false;
+    if (is_refused(program, options_, diagnostics_)) return true;
+    if (is_jit && reports != nullptr) dump(program, options_, *reports, diagnostics_);
+    places_.push_back(place);
+    requests_.push_back({std::move(program), std::move(key)});
+    return true;
   }
-  std::size_t i = 0;
-  std::erase_if(programs, [&](const Program&) { return !fits[i++]; });
-  return fits;
-}
 
-/// Null where a Program was refused.
-std::vector<std::shared_ptr<const Kernel>> in_their_places(
-    std::vector<std::shared_ptr<const Kernel>> kernels, const std::vector<bool>& fits) {
-  std::vector<std::shared_ptr<const Kernel>> all(fits.size());
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (fits[i]) all[i] = std::move(kernels[next++]);
+  List take() {
+    List others = options_.backend == Backend::jit ? by_service() : by_this_thread();
+    for (std::size_t i = 0; i < places_.size(); ++i) made_[places_[i]] = std::move(others[i]);
+    return std::move(made_);
   }
-  return all;
-}
 
-std::vector<std::shared_ptr<const Kernel>> make_machine_code(std::vector<Program> programs,
-                                                             const CompileOptions& options,
-                                                             CompileService& service,
-                                                             Diagnostics& diagnostics) {
-  const CodegenOptions codegen = codegen_options(options);
-  if (!options.asynchronous) {
-    auto kernels = service.request_all(std::move(programs), codegen, diagnostics,
-                                       options.stop.within(options.max_seconds));
-    return {kernels.begin(), kernels.end()};
+ private:
+  bool is_over(const Program& program) {
+    return report_if_due(options_.stop, fmt::format("making the kernel '{}'", program.name), {},
+                         diagnostics_);
   }
-  std::vector<std::shared_ptr<const Kernel>> kernels;
-  for (Program& program : programs) {
-    kernels.push_back(service.request_async(std::move(program), codegen));
+
+  List by_service() {
+    if (!options_.asynchronous) {
+      auto kernels = service_->request_all(std::move(requests_), codegen_, diagnostics_,
+                                           options_.stop.within(options_.max_seconds));
+      return {kernels.begin(), kernels.end()};
+    }
+    List kernels;
+    for (CodeRequest& request : requests_) {
+      kernels.push_back(service_->request_async(std::move(request), codegen_));
+    }
+    return kernels;
   }
-  return kernels;
-}
+
+  List by_this_thread() {
+    List kernels;
+    for (auto& [program, key] : requests_) {
+      kernels.push_back(options_.backend == Backend::reference
+                            ? make_reference(std::move(program), options_.max_steps)
+                            : make_interpreter(std::move(program), options_.max_steps));
+    }
+    return kernels;
+  }
+
+  const CompileOptions& options_;
+  const CodegenOptions codegen_ = codegen_options(options_);
+  CompileService* service_;
+  Diagnostics& diagnostics_;
+  List made_;                        ///< By place; null where refused.
+  std::vector<std::size_t> places_;  ///< Of the requests.
+  std::vector<CodeRequest> requests_;
+};
 
 }  // namespace
 
@@ -98,44 +160,24 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(
   CompileOptions options = asked;
   options.stop = stop_from_now(asked);
   const ScopedDefaultFloatEnvironment environment;
-  if (stages != nullptr) stages->resize(programs.size());
+  const std::size_t count = programs.size();
+  if (stages != nullptr) stages->resize(count);
   if (options.lanes != 0 && !is_lane_count(options.lanes)) {
     diagnostics.error("bad-lanes", {}, "there is no code of so many lanes",
                       "1, 4, 8 or 16, or 0 for the widest that pays",
                       fmt::format("{}", options.lanes));
-    return std::vector<std::shared_ptr<const Kernel>>(programs.size());
+    return Kernels::List(count);
   }
-  for (std::size_t i = 0; i < programs.size(); ++i) {
+  if (options.backend == Backend::jit && service == nullptr) {
+    diagnostics.error("no-service", {}, "machine code is made by a CompileService", "one", "null");
+    return Kernels::List(count);
+  }
+  Kernels kernels(count, options, service, diagnostics);
+  for (std::size_t i = 0; i < count; ++i) {
     std::vector<StageReport>* reports = stages != nullptr ? &(*stages)[i] : nullptr;
-    programs[i] = lower(std::move(programs[i]), options, reports);
-    const std::string doing = fmt::format("making the kernel '{}'", programs[i].name);
-    if (report_if_due(options.stop, doing, {}, diagnostics)) {
-      return std::vector<std::shared_ptr<const Kernel>>(programs.size());
-    }
-    if (options.backend != Backend::jit || reports == nullptr) continue;
-    if (is_too_large(programs[i], options)) continue;
-    const auto dump = [&](const char* name, auto&& text_of) {
-      StageReport report;
-      report.name = name;
-      report.text = text_of(programs[i], codegen_options(options), diagnostics);
-      reports->push_back(std::move(report));
-    };
-    if (options.dump_ir) dump("llvm", dump_ir);
-    if (options.dump_assembly) dump("assembly", dump_assembly);
+    if (!kernels.add(i, std::move(programs[i]), reports)) return Kernels::List(count);
   }
-  const std::vector<bool> fits = refuse_excess(programs, options, diagnostics);
-  if (options.backend == Backend::jit) {
-    assert(service != nullptr);
-    return in_their_places(make_machine_code(std::move(programs), options, *service, diagnostics),
-                           fits);
-  }
-  std::vector<std::shared_ptr<const Kernel>> kernels;
-  for (Program& program : programs) {
-    kernels.push_back(options.backend == Backend::reference
-                          ? make_reference(std::move(program), options.max_steps)
-                          : make_interpreter(std::move(program), options.max_steps));
-  }
-  return in_their_places(std::move(kernels), fits);
+  return kernels.take();
 }
 
 std::shared_ptr<const Kernel> compile(Program program, const CompileOptions& options,

@@ -12,49 +12,81 @@
 
 namespace nacre {
 
+namespace {
+
+/// Runs passes on a Program, each timed and reported, until it is too large or time is up.
+class Passes {
+ public:
+  Passes(Program program, const CompileOptions& options, std::vector<StageReport>* reports)
+      : program_(std::move(program)), options_(options), stages_(reports) {}
+
+  template <class Pass>
+  void run(const char* name, const Pass& pass) {
+    if (is_over()) return;
+    program_ = stages_.run(
+        name, [&] { return pass(program_); },
+        [&](const Program& made, StageReport& report) {
+          report.instructions = instruction_count(made);
+          const bool is_wanted = options_.keep_text && !is_over(made);
+          if (is_wanted) report.text = to_string(made);
+        });
+    assert(is_over() || verify(program_).empty());
+  }
+  bool is_over() const { return is_over(program_) || options_.stop.is_due(); }
+  Program& program() { return program_; }
+
+ private:
+  bool is_over(const Program& program) const { return is_too_large(program, options_); }
+
+  const ScopedDefaultFloatEnvironment environment_;
+  Program program_;
+  const CompileOptions& options_;
+  Stages stages_;
+};
+
+}  // namespace
+
 bool is_too_large(const Program& program, const CompileOptions& options) {
   return instruction_count(program) > options.max_instructions;
 }
 
-Program lower(Program program, const CompileOptions& options, std::vector<StageReport>* reports) {
-  const ScopedDefaultFloatEnvironment environment;
-  Stages stages(reports);
-  const auto is_over = [&] { return is_too_large(program, options) || options.stop.is_due(); };
-  const auto describe = [&](const Program& made, StageReport& report) {
-    report.instructions = instruction_count(made);
-    if (options.keep_text && !is_too_large(made, options)) report.text = to_string(made);
-  };
-  const auto run = [&](const char* name, const auto& pass) {
-    program = stages.run(name, [&] { return pass(program); }, describe);
-    assert(is_too_large(program, options) || verify(program).empty());
-  };
-  run("slice", [](const Program& p) { return p; });
-  if (is_over()) return program;
-
-  // What costs less than a branch is computed for all lanes.
-  run("flatten", [&](const Program& p) { return flatten_regions(p, options.max_instructions); });
-  if (is_over()) return program;
+Program lower_to_interface(Program program, const CompileOptions& options,
+                           std::vector<StageReport>* reports) {
+  Passes passes(std::move(program), options, reports);
+  passes.run("slice", [](const Program& p) { return p; });
 
   // Footprint derivatives become arithmetic on derivative channels.
-  run("derive", [&](const Program& p) { return derive(p, {}, options.max_instructions); });
-  if (is_over()) return program;
+  passes.run("derive", [&](const Program& p) { return derive(p, {}, options.max_instructions); });
+  return std::move(passes.program());
+}
 
-  // The oracle computes what was written: no contraction, functions of the C library.
-  if (options.backend == Backend::reference) return program;
-
-  // a * b + c in one rounding; precise rounds as the node's body says.
-  if (options.accuracy != Accuracy::precise) {
-    run("contract", [](const Program& p) { return contract(p); });
-    if (is_over()) return program;
+Program lower_to_engine(Program program, const CompileOptions& options,
+                        std::vector<StageReport>* reports) {
+  Passes passes(std::move(program), options, reports);
+  const bool contracts =
+      options.backend != Backend::reference && options.accuracy != Accuracy::precise;
+  if (contracts) {
+    // What costs less than a branch is computed for all lanes; a * b + c in one rounding.
+    passes.run("contract", [](const Program& p) { return contract(p, true); });
+  } else {
+    // Precise rounds as the node's body says, and the oracle computes what was written.
+    passes.run("flatten",
+               [&](const Program& p) { return flatten_regions(p, options.max_instructions); });
   }
+  if (options.backend == Backend::reference) return std::move(passes.program());
 
   // Transcendental functions become polynomials of the accuracy asked for.
-  run("expand_math",
-      [&](const Program& p) { return expand_math(p, options.accuracy, options.max_instructions); });
-  if (is_over()) return program;
+  passes.run("expand_math", [&](const Program& p) {
+    return expand_math(p, options.accuracy, options.max_instructions);
+  });
+  if (!passes.is_over()) mark_varying(passes.program(), options.all_varying);
+  return std::move(passes.program());
+}
 
-  mark_varying(program, options.all_varying);
-  return program;
+Program lower(Program program, const CompileOptions& options, std::vector<StageReport>* reports) {
+  Program made = lower_to_interface(std::move(program), options, reports);
+  const bool is_over = is_too_large(made, options) || options.stop.is_due();
+  return is_over ? made : lower_to_engine(std::move(made), options, reports);
 }
 
 }  // namespace nacre

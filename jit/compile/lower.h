@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "jit/compile/options.h"
@@ -9,9 +8,18 @@
 
 namespace nacre {
 
-/// The passes: from what was recorded to what the engines get. Ends early, with a Program
-/// that no engine takes, once there are more than `max_instructions` or the stop is due.
-/// `stages` may be null.
+// The passes, in two parts: from what was recorded to what names a kernel in the cache, and
+// from there to what the engines get. Both end early, with a Program that no engine takes,
+// once there are more than `max_instructions` or the stop is due. `stages` may be null.
+
+/// What decides which arrays are bound: the channels and slots are those of the kernel.
+Program lower_to_interface(Program program, const CompileOptions& options,
+                           std::vector<StageReport>* stages = nullptr);
+/// The rest, which costs more than a kernel that is cached.
+Program lower_to_engine(Program program, const CompileOptions& options,
+                        std::vector<StageReport>* stages = nullptr);
+
+/// Both.
 Program lower(Program program, const CompileOptions& options,
               std::vector<StageReport>* stages = nullptr);
 

@@ -38,6 +38,9 @@ struct CompileOptions {
   double max_seconds = 60;
   /// Ends a call early; a deadline of it counts as `max_seconds` does.
   Stop stop = {};
+  /// Go through every stage even where the code is there already, so that StageReports and
+  /// Kernel::program() say what the code was made of.
+  bool whole = false;
   bool keep_text = false;      ///< Fill StageReport::text with the Program.
   bool dump_ir = false;        ///< A stage "llvm" with the LLVM IR as text. JIT only.
   bool dump_assembly = false;  ///< A stage "assembly" with the machine code as text. JIT only.

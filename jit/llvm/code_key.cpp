@@ -91,11 +91,10 @@ std::string code_version() {
                      llvm_version());
 }
 
-std::string code_key(const Program& program, const CodegenOptions& options) {
+std::string code_key(const Program& program, const CodegenOptions& options, std::string_view then) {
   // The name last: it may be any text.
-  const bool is_counted = StepLimit(program, options.max_steps).is_counted();
-  return fmt::format("{} build {}\n{}\n{}{}\n{}", code_version(), build_id(),
-                     to_hex(code_digest(program)), options.key(), is_counted ? " counted" : "",
+  return fmt::format("{} build {}\n{}\n{} steps {}\n{}\n{}", code_version(), build_id(),
+                     to_hex(code_digest(program)), options.key(), options.max_steps, then,
                      program.name);
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "jit/llvm/options.h"
@@ -41,9 +42,11 @@ std::string entry_symbol(const Program& program, const CodegenOptions& options);
 std::string code_version();
 
 /// Everything that decides what compile_object() gives, as text: the Program's
-/// code_digest(), the options, this build of Nacre and the LLVM it runs with. Objects
-/// may stand for each other if and only if their keys are equal.
-std::string code_key(const Program& program, const CodegenOptions& options);
+/// code_digest(), the options, this build of Nacre and the LLVM it runs with; `then`: what is
+/// done to the Program before. Objects may stand for each other if and only if their keys are
+/// equal.
+std::string code_key(const Program& program, const CodegenOptions& options,
+                     std::string_view then = {});
 
 /// Compiles on the calling thread, which needs a stack of 8 MiB for large
 /// programs. The Program is verified, its varying values are marked, and

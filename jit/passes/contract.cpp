@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "jit/passes/flatten.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/transform.h"
 
@@ -196,12 +197,17 @@ Fusions choose(const Program& marked) {
 
 }  // namespace
 
-Program contract(const Program& program) {
-  Program result = program;
-  mark_varying(result);
+Program contract(const Program& program, bool flattens) {
+  constexpr std::size_t any = std::size_t{1} << 31;
+  Program before = program;
+  mark_varying(before);
+  Fusions fusions = choose(before);
+  if (fusions.empty() && !flattens) return before;
+  Program result = transform(before, Fuser(before, fusions), any,
+                             flattens ? cheap_regions(before) : Flattening());
   // A product that stayed may be free to go once its rival is gone; every
   // round has fewer sums.
-  for (Fusions fusions = choose(result); !fusions.empty(); fusions = choose(result)) {
+  for (fusions = choose(result); !fusions.empty(); fusions = choose(result)) {
     result = transform(result, Fuser(result, fusions));
   }
   return result;

@@ -23,6 +23,8 @@ namespace nacre {
 /// a b - c d is no longer exactly 0 where both products are equal; write what
 /// must not be fused with fma, or run without this pass (`precise`). It must
 /// run before `expand_math`, whose error-compensated sequences mean what they say.
-Program contract(const Program& program);
+///
+/// With `flattens`, what flatten_regions() does is done on the way.
+Program contract(const Program& program, bool flattens = false);
 
 }  // namespace nacre

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "runtime/program/transform.h"
@@ -72,19 +73,23 @@ Costs costs_of(const Function& function, const std::vector<Costs>& callees) {
 
 }  // namespace
 
-Program flatten_regions(const Program& program, std::size_t most) {
+Flattening cheap_regions(const Program& program) {
   std::vector<Costs> costs(program.functions.size());
   for (std::size_t i = 1; i < program.functions.size(); ++i) {
     costs[i] = costs_of(program.functions[i], costs);
   }
   costs[0] = costs_of(program.entry(), costs);
+  return [&program, costs = std::move(costs)](const Function& function, std::size_t open) {
+    const auto number = static_cast<std::size_t>(&function - program.functions.data());
+    return costs[number].regions[open] < cost_of_test;
+  };
+}
+
+Program flatten_regions(const Program& program, std::size_t most) {
   const auto keep = [](Recorder&, const Instruction&, std::span<const Ref>) {
     return std::optional<Ref>();
   };
-  return transform(program, keep, most, [&](const Function& function, std::size_t open) {
-    const auto number = static_cast<std::size_t>(&function - program.functions.data());
-    return costs[number].regions[open] < cost_of_test;
-  });
+  return transform(program, keep, most, cheap_regions(program));
 }
 
 }  // namespace nacre

@@ -61,7 +61,25 @@ class Workshop {
     return made;
   }
 
-  std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
+  std::shared_ptr<CompiledKernel> find(const Program& program, const std::string& key,
+                                       const CodegenOptions& options) {
+    if (session_ == nullptr) return nullptr;
+    auto shared = std::make_shared<const Program>(program);
+    std::shared_ptr<CompileJob> job = known_job(key);
+    if (job == nullptr && cache_ != nullptr) {
+      auto found = shared_in_process(std::make_unique<CompileJob>(key, shared, options));
+      if (found->find(*session_, *cache_)) {
+        job = std::move(found);
+        const std::scoped_lock lock(mutex_);
+        jobs_[key] = job;
+        forget_dead();
+      }
+    }
+    if (job == nullptr || job->entry() == nullptr || !job->join()) return nullptr;
+    return std::make_shared<ServiceKernel>(shared, options, job, nullptr);
+  }
+
+  std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<CodeRequest> requests,
                                                            const CodegenOptions& options,
                                                            Diagnostics& diagnostics,
                                                            const Stop& stop) {
@@ -70,13 +88,13 @@ class Workshop {
     }
     std::vector<std::shared_ptr<CompiledKernel>> kernels;
     std::vector<std::shared_ptr<CompileJob>> jobs;
-    for (Program& program : programs) {
+    for (auto& [program, key] : requests) {
       if (session_ == nullptr) {
         kernels.push_back(interpreting_kernel(std::move(program), options.max_steps, no_session_));
         continue;
       }
       auto shared = std::make_shared<const Program>(std::move(program));
-      const std::shared_ptr<CompileJob> job = joined_job(shared, options, true);
+      const std::shared_ptr<CompileJob> job = joined_job(key, shared, options, true);
       kernels.push_back(std::make_shared<ServiceKernel>(shared, options, job, nullptr));
       jobs.push_back(job);
     }
@@ -98,13 +116,15 @@ class Workshop {
     return kernels;
   }
 
-  std::shared_ptr<CompiledKernel> request_async(Program program, const CodegenOptions& options) {
+  std::shared_ptr<CompiledKernel> request_async(CodeRequest request,
+                                                const CodegenOptions& options) {
+    Program& program = request.program;
     if (session_ == nullptr) {  // Said when the service was made.
       return interpreting_kernel(std::move(program), options.max_steps, {});
     }
     auto interpreter = make_interpreter(program, options.max_steps);
     auto shared = std::make_shared<const Program>(std::move(program));
-    const std::shared_ptr<CompileJob> job = joined_job(shared, options, false);
+    const std::shared_ptr<CompileJob> job = joined_job(request.key, shared, options, false);
     return std::make_shared<ServiceKernel>(shared, options, job, std::move(interpreter));
   }
 
@@ -126,9 +146,9 @@ class Workshop {
   }
 
   /// The job for this code, new and begun or one that is under way or done.
-  std::shared_ptr<CompileJob> joined_job(const std::shared_ptr<const Program>& program,
+  std::shared_ptr<CompileJob> joined_job(const std::string& key,
+                                         const std::shared_ptr<const Program>& program,
                                          const CodegenOptions& options, bool urgent) {
-    std::string key = code_key(*program, options);
     std::shared_ptr<CompileJob> job;
     {
       const std::scoped_lock lock(mutex_);
@@ -143,6 +163,12 @@ class Workshop {
     threads_.add([this, job] { job->run(*session_, *compiler_, cache_.get(), compiling_); },
                  urgent);
     return job;
+  }
+
+  std::shared_ptr<CompileJob> known_job(const std::string& key) {
+    const std::scoped_lock lock(mutex_);
+    const auto known = jobs_.find(key);
+    return known == jobs_.end() ? nullptr : known->second.lock();
   }
 
   /// Drops the keys of jobs that are gone, when they may be half of all.
@@ -177,16 +203,21 @@ class Service final : public CompileService {
     if (workshop->is_of_this_process()) delete workshop;
   }
 
-  std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
+  std::shared_ptr<CompiledKernel> find(const Program& program, const std::string& key,
+                                       const CodegenOptions& options) override {
+    return workshop().find(program, key, options);
+  }
+
+  std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<CodeRequest> requests,
                                                            const CodegenOptions& options,
                                                            Diagnostics& diagnostics,
                                                            const Stop& stop) override {
-    return workshop().request_all(std::move(programs), options, diagnostics, stop);
+    return workshop().request_all(std::move(requests), options, diagnostics, stop);
   }
 
-  std::shared_ptr<CompiledKernel> request_async(Program program,
+  std::shared_ptr<CompiledKernel> request_async(CodeRequest request,
                                                 const CodegenOptions& options) override {
-    return workshop().request_async(std::move(program), options);
+    return workshop().request_async(std::move(request), options);
   }
 
  private:
@@ -232,9 +263,16 @@ std::unique_ptr<CompileService> CompileService::create(const ServiceOptions& opt
 std::shared_ptr<CompiledKernel> CompileService::request(Program program,
                                                         const CodegenOptions& options,
                                                         Diagnostics& diagnostics) {
-  std::vector<Program> programs;
-  programs.push_back(std::move(program));
-  return request_all(std::move(programs), options, diagnostics).front();
+  std::string key = code_key(program, options);
+  std::vector<CodeRequest> requests;
+  requests.push_back({std::move(program), std::move(key)});
+  return request_all(std::move(requests), options, diagnostics).front();
+}
+
+std::shared_ptr<CompiledKernel> CompileService::request_async(Program program,
+                                                              const CodegenOptions& options) {
+  std::string key = code_key(program, options);
+  return request_async(CodeRequest{std::move(program), std::move(key)}, options);
 }
 
 }  // namespace nacre

@@ -32,6 +32,13 @@ class CompiledKernel : public Kernel {
   virtual Diagnostics diagnostics() const = 0;
 };
 
+/// A Program and what its code is known by: code_key() of it, or of a Program that it is
+/// always made of.
+struct CodeRequest {
+  Program program;
+  std::string key;
+};
+
 struct ServiceOptions {
   int threads = 0;              ///< That compile; 0: one a core.
   std::filesystem::path cache;  ///< Folder of compiled kernels; empty: none is kept.
@@ -57,19 +64,24 @@ class CompileService {
   /// Cancels what is not finished.
   virtual ~CompileService() = default;
 
+  /// A kernel whose code is there already, of another kernel or in the cache; null if there
+  /// is none. `program` as in CodeRequest, or as yet unfinished: it says what is bound.
+  virtual std::shared_ptr<CompiledKernel> find(const Program& program, const std::string& key,
+                                               const CodegenOptions& options) = 0;
+
   /// Compiles them side by side and returns when all are ready, or `stop` is due.
   /// Null, with a diagnostic, for those that LLVM refuses and where a stop was requested;
   /// interpreting kernels for those that are late, with a warning, where the system has
   /// no memory for code, and where there is no JIT at all.
-  virtual std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<Program> programs,
-                                                                   const CodegenOptions& options,
-                                                                   Diagnostics& diagnostics,
-                                                                   const Stop& stop = {}) = 0;
+  virtual std::vector<std::shared_ptr<CompiledKernel>> request_all(
+      std::vector<CodeRequest> requests, const CodegenOptions& options, Diagnostics& diagnostics,
+      const Stop& stop = {}) = 0;
   std::shared_ptr<CompiledKernel> request(Program program, const CodegenOptions& options,
                                           Diagnostics& diagnostics);
   /// Returns at once.
-  virtual std::shared_ptr<CompiledKernel> request_async(Program program,
+  virtual std::shared_ptr<CompiledKernel> request_async(CodeRequest request,
                                                         const CodegenOptions& options) = 0;
+  std::shared_ptr<CompiledKernel> request_async(Program program, const CodegenOptions& options);
 };
 
 }  // namespace nacre

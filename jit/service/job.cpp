@@ -44,6 +44,15 @@ bool CompileJob::unwanted() {
   return true;
 }
 
+bool CompileJob::find(JitSession& session, KernelCache& cache) {
+  Diagnostics said;
+  CompileStats stats;
+  auto code = load_cached(session, cache, said, stats);
+  const bool is_there = code != nullptr;
+  if (is_there) end_with(std::move(code), stats, std::move(said));
+  return is_there;
+}
+
 void CompileJob::run(JitSession& session, Compiler& compiler, KernelCache* cache,
                      std::atomic<int>& compiling) {
   Diagnostics said;
@@ -56,6 +65,11 @@ void CompileJob::run(JitSession& session, Compiler& compiler, KernelCache* cache
     said.error("out-of-memory", {}, "can't compile a kernel: memory is short", {}, program_->name);
   }
   --compiling;
+  end_with(std::move(code), stats, std::move(said));
+}
+
+void CompileJob::end_with(std::shared_ptr<const LoadedCode> code, const CompileStats& stats,
+                          Diagnostics said) {
   {
     const std::scoped_lock lock(mutex_);
     if (state_ != State::waiting) return;
@@ -68,27 +82,29 @@ void CompileJob::run(JitSession& session, Compiler& compiler, KernelCache* cache
   ended_.notify_all();
 }
 
+std::shared_ptr<const LoadedCode> CompileJob::load_cached(JitSession& session, KernelCache& cache,
+                                                          Diagnostics& said, CompileStats& stats) {
+  const auto found =
+      timed(stats.cache, [&] { return cache.load(key_, interface_text(*program_), said); });
+  if (!found) return nullptr;
+  Diagnostics unsound;  // Then it is compiled, which says what there is to say.
+  stats.object_bytes = found->bytes.size();
+  stats.from_cache = true;
+  auto code = timed(stats.link, [&] { return session.load(*found, unsound); });
+  if (code == nullptr) stats = {};
+  return code;
+}
+
 std::shared_ptr<const LoadedCode> CompileJob::make(JitSession& session, Compiler& compiler,
                                                    KernelCache* cache, Diagnostics& said,
                                                    CompileStats& stats) {
-  const auto load = [&](const ObjectCode& object, Diagnostics& diagnostics) {
-    return timed(stats.link, [&] { return session.load(object, diagnostics); });
-  };
   if (unwanted()) return nullptr;
   if (cache != nullptr) {
-    const auto found =
-        timed(stats.cache, [&] { return cache->load(key_, interface_text(*program_), said); });
-    if (found) {
-      Diagnostics unsound;  // Then it is compiled, which says what there is to say.
-      stats.object_bytes = found->bytes.size();
-      if (auto code = load(*found, unsound)) {
-        stats.from_cache = true;
-        return code;
-      }
-    }
+    if (auto code = load_cached(session, *cache, said, stats)) return code;
   }
   const auto object = compile(compiler, cache, said, stats);
-  return object && !unwanted() ? load(*object, said) : nullptr;
+  if (!object || unwanted()) return nullptr;
+  return timed(stats.link, [&] { return session.load(*object, said); });
 }
 
 std::optional<ObjectCode> CompileJob::compile(Compiler& compiler, KernelCache* cache,

@@ -29,6 +29,8 @@ class CompileJob {
   /// One less does.
   void leave();
 
+  /// Takes the code from the cache, if it is there. Before anybody else knows of the job.
+  bool find(JitSession& session, KernelCache& cache);
   /// Cache, or compiler and cache; then the linker. Sets the state. `compiling` counts while
   /// that goes on.
   void run(JitSession& session, Compiler& compiler, KernelCache* cache,
@@ -48,6 +50,10 @@ class CompileJob {
  private:
   std::optional<ObjectCode> compile(Compiler& compiler, KernelCache* cache, Diagnostics& said,
                                     CompileStats& stats);
+  std::shared_ptr<const LoadedCode> load_cached(JitSession& session, KernelCache& cache,
+                                                Diagnostics& said, CompileStats& stats);
+  void end_with(std::shared_ptr<const LoadedCode> code, const CompileStats& stats,
+                Diagnostics said);
   std::shared_ptr<const LoadedCode> make(JitSession& session, Compiler& compiler,
                                          KernelCache* cache, Diagnostics& said,
                                          CompileStats& stats);

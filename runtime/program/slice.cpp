@@ -181,11 +181,13 @@ void resolve_keeps(Program& program, Keeps keeps) {
 
 }  // namespace
 
-void remove_dead(Program& program) {
+void remove_dead(Program& program, bool keeps_interface) {
   for (Function& function : program.functions) compact(function);
   compact_functions(program);
-  compact_list(program, program.inputs, Op::input);
-  compact_list(program, program.parameters, Op::parameter);
+  if (!keeps_interface) {
+    compact_list(program, program.inputs, Op::input);
+    compact_list(program, program.parameters, Op::parameter);
+  }
   compact_list(program, program.tables, Op::table);
 }
 

@@ -29,8 +29,9 @@ enum class Keeps {
 Program slice(const Program& recorded, std::string name, std::span<const SliceOutput> outputs,
               Keeps keeps = Keeps::pass);
 
-/// Removes what no store needs, in place; `slice` has done it already.
-void remove_dead(Program& program);
+/// Removes what no store needs, in place; `slice` has done it already. With
+/// `keeps_interface` the channels and slots stay, needed or not.
+void remove_dead(Program& program, bool keeps_interface = false);
 
 /// For each k the value that keep k marks, as output "state.<k>": what `begin` stores.
 std::vector<SliceOutput> state_outputs(Recorder& recorder, std::span<const std::uint32_t> keeps);
