@@ -3,8 +3,8 @@
 #include "examples/render/camera.h"
 #include "examples/render/load_scene.h"
 #include "examples/render/render.h"
+#include "tests/examples/render/test_shaders.h"
 #include "tests/fuzz/host.h"
-#include "tests/render/test_shaders.h"
 
 namespace nacre::fuzz {
 

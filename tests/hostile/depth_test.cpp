@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "jit/shading/shading_system.h"
-#include "tests/document/standard_library.h"
 #include "tests/support/sanitizer.h"
+#include "tests/support/standard_library.h"
 
 namespace nacre {
 namespace {

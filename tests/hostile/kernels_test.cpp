@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "jit/shading/shading_system.h"
-#include "tests/document/standard_library.h"
+#include "tests/support/standard_library.h"
 
 namespace nacre {
 namespace {

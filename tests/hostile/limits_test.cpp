@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "jit/shading/shading_system.h"
-#include "tests/document/standard_library.h"
+#include "tests/support/standard_library.h"
 
 namespace nacre {
 namespace {

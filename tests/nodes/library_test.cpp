@@ -5,8 +5,8 @@
 
 #include "jit/record/bodies.h"
 #include "nodes/nodes.h"
-#include "tests/document/standard_library.h"
 #include "tests/nodes/node_runner.h"
+#include "tests/support/standard_library.h"
 
 namespace nacre {
 namespace {

@@ -117,6 +117,12 @@ class Checks(unittest.TestCase):
         self.write("nodes/list.cpp", "// keep-sorted start\na,\n")
         self.assert_finds(form.marked_lists, "nodes/list.cpp:")
 
+    def test_tests_of_no_folder(self):
+        self.write("tests/jit/graph/reference/good.cpp", "")
+        self.write("tests/support/good.h", "")
+        self.write("tests/jit/graphs/bad_test.cpp", "")
+        self.assert_finds(form.mirror, "tests/jit/graphs/bad_test.cpp:")
+
     def test_package_twice(self):
         self.write(".packages.txt", "cmake\ncmake\n")
         self.assert_finds(form.packages, ".packages.txt:")

@@ -11,6 +11,9 @@ MOST_LINES = 500
 SORTED_CALLS = {"nacre_bench": 1, "nacre_library": 1, "nacre_public_headers": 0, "nacre_test": 1}
 KEYWORDS = {"CONCURRENT", "FULL"}
 
+# Folders of tests that are of more than one folder of the project.
+TESTS_OF_MANY = {"pbs/battery"}
+
 
 def length(root: pathlib.Path) -> list[str]:
     """One unit is one small file."""
@@ -80,4 +83,16 @@ def packages(root: pathlib.Path) -> list[str]:
     return faults
 
 
-CHECKS = (length, cmake_lists, marked_lists, packages)
+def mirror(root: pathlib.Path) -> list[str]:
+    """The tests of a folder stand in tests/ under the folder's own name."""
+    faults = []
+    for file in tree.files(root / "tests", tree.CODE):
+        folder = pathlib.PurePosixPath(file).parent
+        while folder.name == "reference":  # What tests compare with.
+            folder = folder.parent
+        if folder.as_posix() not in TESTS_OF_MANY and not (root / folder).is_dir():
+            faults.append(f"tests/{file}: there is no {folder}/ that this could be a test of")
+    return faults
+
+
+CHECKS = (length, cmake_lists, marked_lists, mirror, packages)

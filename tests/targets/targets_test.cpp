@@ -15,10 +15,10 @@
 #include "runtime/program/recorder.h"
 #include "runtime/program/slice.h"
 #include "runtime/value/value.h"
-#include "tests/document/standard_library.h"
 #include "tests/nodes/node_runner.h"
 #include "tests/pbs/battery/lobe_kernels.h"
 #include "tests/support/random_program.h"
+#include "tests/support/standard_library.h"
 
 namespace nacre {
 namespace {

@@ -1,0 +1,169 @@
+// What documents say about sides, holdouts and assignments, in rendered pictures.
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+
+#include "tests/examples/tool/tool_fixture.h"
+
+namespace nacre {
+namespace {
+
+/// Two squares side by side: the camera that fits itself to them sees the front of /one
+/// and the back of /two.
+constexpr std::string_view squares = R"(
+o one
+v -2 -1 0
+v -0.1 -1 0
+v -0.1 1 0
+v -2 1 0
+f 1 2 3 4
+o two
+v 0.1 -1 0
+v 2 -1 0
+v 2 1 0
+v 0.1 1 0
+f 8 7 6 5
+)";
+
+/// A material M that glows red in front and green behind, and a blue one, N.
+constexpr std::string_view materials = R"(
+  <uniform_edf name="red" type="EDF"><input name="color" type="color3" value="1, 0, 0"/></uniform_edf>
+  <uniform_edf name="green" type="EDF"><input name="color" type="color3" value="0, 1, 0"/></uniform_edf>
+  <uniform_edf name="blue" type="EDF"><input name="color" type="color3" value="0, 0, 1"/></uniform_edf>
+  <oren_nayar_diffuse_bsdf name="grey" type="BSDF"/>
+  <surface name="front" type="surfaceshader">
+    <input name="bsdf" type="BSDF" nodename="grey"/><input name="edf" type="EDF" nodename="red"/>
+  </surface>
+  <surface name="back" type="surfaceshader">
+    <input name="bsdf" type="BSDF" nodename="grey"/><input name="edf" type="EDF" nodename="green"/>
+    THIN
+  </surface>
+  <surface name="other" type="surfaceshader"><input name="edf" type="EDF" nodename="blue"/></surface>
+  <surfacematerial name="M" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="front"/>
+    <input name="backsurfaceshader" type="surfaceshader" nodename="back"/>
+  </surfacematerial>
+  <surfacematerial name="N" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="other"/>
+  </surfacematerial>
+  <volumematerial name="V" type="material"/>)";
+
+constexpr std::string_view thin = R"(<input name="thin_walled" type="boolean" value="true"/>)";
+
+struct Seen {
+  int red = 0, green = 0, blue = 0;  ///< Pixels of exactly that colour.
+  int held_out = 0;                  ///< Black with alpha 0.
+  int channels = 0;
+};
+
+class Render : public Tool {
+ protected:
+  void write_document(std::string_view walls, std::string_view look) {
+    std::string text(materials);
+    text.replace(text.find("THIN"), 4, walls);
+    write("a.mtlx", "<materialx version=\"1.39\" colorspace=\"lin_rec709\">" + text +
+                        std::string(look) + "</materialx>");
+  }
+
+  /// Emission only, so that every pixel inside a square has exactly its colour.
+  Seen seen(std::string_view walls, std::string_view look = "") {
+    write_document(walls, look);
+    write("a.obj", squares);
+    EXPECT_EQ(run("render " + file("a.mtlx") + " --scene " + file("a.obj") +
+                  (look.empty() ? " --material M" : "") +
+                  " --size 48x32 --spp 1 --max-depth 0 --out " + file("a.exr")),
+              0)
+        << errors_;
+    const auto in = OIIO::ImageInput::open(file("a.exr"));
+    if (in == nullptr) return {};
+    Seen seen{.channels = in->spec().nchannels};
+    const auto channels = static_cast<std::size_t>(seen.channels);
+    std::vector<float> texels(48 * 32 * channels);
+    in->read_image(0, 0, 0, seen.channels, OIIO::TypeDesc::FLOAT, texels.data());
+    for (std::size_t i = 0; i < texels.size(); i += channels) {
+      const auto is = [&](float r, float g, float b) {
+        return texels[i] == r && texels[i + 1] == g && texels[i + 2] == b;
+      };
+      seen.red += is(1, 0, 0);
+      seen.green += is(0, 1, 0);
+      seen.blue += is(0, 0, 1);
+      seen.held_out += is(0, 0, 0) && channels == 4 && texels[i + 3] == 0.0f;
+    }
+    return seen;
+  }
+};
+
+TEST_F(Render, ThinWallsHaveTwoSides) {
+  const Seen both = seen(thin);
+  EXPECT_GT(both.red, 100);
+  EXPECT_GT(both.green, 100);
+  EXPECT_EQ(both.channels, 3);
+  EXPECT_EQ(errors_, "");
+}
+
+// PBS 1.39, "Surfaces": if both sides are connected but none of the shaders are
+// thin-walled the front shader is used.
+TEST_F(Render, SolidsShowTheirFrontOnBothSides) {
+  const Seen both = seen("");
+  EXPECT_EQ(both.green, 0);
+  EXPECT_GT(both.red, 200);
+  EXPECT_TRUE(says("back-not-shown")) << errors_;
+  run("check " + file("a.mtlx"));
+  EXPECT_TRUE(says("back-not-shown")) << errors_;
+}
+
+TEST_F(Render, TheCameraDoesNotSeeTheBackOfWhatIsNotTwoSided) {
+  const Seen both = seen(thin, R"(<look name="l">
+    <materialassign name="m" material="M" geom="/"/>
+    <propertyassign name="p" property="twosided" type="boolean" value="false" geom="/"/>
+  </look>)");
+  EXPECT_GT(both.red, 100);
+  EXPECT_EQ(both.green, 0);
+}
+
+TEST_F(Render, WhatIsSaidOfAMeshItselfCountsMore) {
+  const Seen both = seen(thin, R"(
+  <propertyset name="seen"><property name="twosided" type="boolean" value="true"/></propertyset>
+  <look name="l">
+    <materialassign name="m" material="M" geom="/"/>
+    <propertysetassign name="q" propertyset="seen" geom="/two"/>
+    <propertyassign name="p" property="twosided" type="boolean" value="false" geom="/"/>
+    <propertyassign name="o" property="twosided" target="another" type="boolean" value="false"
+                    geom="/two"/>
+  </look>)");
+  EXPECT_GT(both.green, 100);
+}
+
+TEST_F(Render, MattesHoldOut) {
+  const Seen both = seen(thin, R"(<look name="l">
+    <materialassign name="m" material="M" geom="/"/>
+    <propertyassign name="p" property="matte" type="boolean" value="true" geom="/one"/>
+  </look>)");
+  EXPECT_EQ(both.channels, 4);
+  EXPECT_EQ(both.red, 0);
+  EXPECT_GT(both.held_out, 100);
+  EXPECT_GT(both.green, 100);
+}
+
+// Geometry Extensions, "MaterialAssign Elements".
+TEST_F(Render, AssignmentsThatAreNotExclusiveLetOtherSurfacesThrough) {
+  const auto assign = [](std::string_view exclusive) {
+    return R"(<look name="l">
+      <materialassign name="m" material="N" geom="/"/>
+      <materialassign name="n" material="M" geom="/one"/>
+      <materialassign name="v" material="V" geom="/one" exclusive=")" +
+           std::string(exclusive) + R"("/></look>)";
+  };
+  const Seen both = seen(thin, assign("false"));
+  EXPECT_GT(both.red, 100);   // V has no surface: M's.
+  EXPECT_GT(both.blue, 100);  // /two has N alone.
+  EXPECT_EQ(errors_, "");
+  write_document(thin, assign("true"));
+  EXPECT_EQ(run("render " + file("a.mtlx") + " --scene " + file("a.obj") + " --size 8 --out " +
+                file("a.exr")),
+            1);
+  EXPECT_TRUE(says("no-surface")) << errors_;
+}
+
+}  // namespace
+}  // namespace nacre
