@@ -10,7 +10,6 @@
 #include "examples/common/materialx_libraries.h"
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
-#include "tests/support/shared.h"
 
 namespace nacre {
 namespace {
@@ -26,8 +25,6 @@ class BitIdentity : public ::testing::TestWithParam<Accuracy> {
   using Images = std::vector<std::vector<std::uint32_t>>;
 
   void SetUp() override {
-    folder_ = testing::shared_folder() / "conformance" / "nodes";
-    if (!fs::exists(folder_ / "manifest.json")) GTEST_SKIP() << "no documents in " << folder_;
     system_ = ShadingSystem::create({.libraries = {find_materialx_libraries()}}, diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
   }
@@ -52,7 +49,7 @@ class BitIdentity : public ::testing::TestWithParam<Accuracy> {
     return bits;
   }
 
-  fs::path folder_;
+  const fs::path folder_ = NACRE_CONFORMANCE_NODES;
   Diagnostics diagnostics_;
   std::unique_ptr<ShadingSystem> system_;
 };
