@@ -14,7 +14,7 @@
 #include "jit/document/read.h"
 #include "jit/graph/find.h"
 #include "jit/shading/shading_system.h"
-#include "tests/support/shared.h"
+#include "tests/support/materialx_samples.h"
 
 namespace nacre {
 namespace {
@@ -36,8 +36,8 @@ const Reasons& uncompilable() {
 class Corpus : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = testing::shared_folder() / "materialx" / "Materials";
-    if (!fs::exists(folder_)) GTEST_SKIP() << "no documents in " << folder_;
+    folder_ = materialx_sample("Materials");
+    if (folder_.empty()) GTEST_SKIP() << "the MaterialX sample documents are not here";
     system_ = ShadingSystem::create({.libraries = {find_materialx_libraries()}}, diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
     // The documents name images as "resources/Images/..." from MaterialX's own root.

@@ -8,7 +8,7 @@
 #include "jit/document/read.h"
 #include "jit/graph/find.h"
 #include "jit/shading/shading_system.h"
-#include "tests/support/shared.h"
+#include "tests/support/materialx_samples.h"
 
 namespace nacre {
 namespace {
@@ -74,8 +74,8 @@ TEST_F(ExampleDocuments, OursCompile) {
 }
 
 TEST_F(ExampleDocuments, MaterialXOnesCompile) {
-  const fs::path folder = testing::shared_folder() / "materialx" / "Materials" / "Examples";
-  if (!fs::exists(folder)) GTEST_SKIP() << "no documents in " << folder;
+  const fs::path folder = materialx_sample("Materials/Examples");
+  if (folder.empty()) GTEST_SKIP() << "the MaterialX sample documents are not here";
   check_all(folder);
 }
 

@@ -45,13 +45,4 @@ inline std::unique_ptr<Document> document_of(std::string_view body, Diagnostics&
 
 inline std::filesystem::path source_folder() { return NACRE_SOURCE_DIR; }
 
-/// MaterialX's own example and test documents; empty when they are not there.
-inline std::filesystem::path sample_materials() {
-  const char* shared = std::getenv("NACRE_SHARED");
-  const std::filesystem::path root = shared ? shared : source_folder() / "../shared";
-  std::error_code error;
-  const std::filesystem::path folder = root / "materialx/Materials";
-  return std::filesystem::is_directory(folder, error) ? folder : std::filesystem::path();
-}
-
 }  // namespace nacre

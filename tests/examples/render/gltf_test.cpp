@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
 #include "examples/render/load_scene.h"
 #include "tests/examples/render/scene_samples.h"
+#include "tests/support/materialx_samples.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nacre::host {
@@ -182,12 +182,8 @@ TEST(Gltf, BuffersAreReadFromTheFolderOfTheFileOnly) {
 }
 
 TEST(Gltf, ReadsTheShaderBall) {
-  const char* variable = std::getenv("NACRE_SHARED");
-  const std::filesystem::path shared = variable != nullptr
-                                           ? std::filesystem::path(variable)
-                                           : std::filesystem::path(NACRE_SOURCE_DIR) / "../shared";
-  const std::filesystem::path file = shared / "materialx/Geometry/shaderball.glb";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  const std::filesystem::path file = materialx_sample("Geometry/shaderball.glb");
+  if (file.empty()) GTEST_SKIP() << "MaterialX's sample geometry is not here";
   Diagnostics diagnostics;
   const Scene scene = load_scene(file.string(), {}, diagnostics);
   ASSERT_EQ(scene.meshes.size(), 2u) << diagnostics.to_string();

@@ -2,7 +2,7 @@
 
 #include "jit/document/select.h"
 #include "tests/examples/tool/tool_fixture.h"
-#include "tests/support/shared.h"
+#include "tests/support/materialx_samples.h"
 
 namespace nacre {
 namespace {
@@ -108,9 +108,8 @@ TEST_F(Convert, ObjectSpaceNormalsAreDecoded) {
 }
 
 TEST_F(Convert, DocumentsOfMaterialXKeepTheirValues) {
-  const fs::path folder =
-      testing::shared_folder() / "materialx" / "Materials" / "TestSuite" / "stdlib" / "upgrade";
-  if (!fs::exists(folder)) GTEST_SKIP() << "no documents in " << folder;
+  const fs::path folder = materialx_sample("Materials/TestSuite/stdlib/upgrade");
+  if (folder.empty()) GTEST_SKIP() << "the MaterialX sample documents are not here";
   int count = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     SCOPED_TRACE(entry.path());

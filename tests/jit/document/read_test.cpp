@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "tests/support/materialx_samples.h"
 #include "tests/support/standard_library.h"
 
 namespace nacre {
@@ -276,7 +277,7 @@ TEST_F(Include, OldVersionsLoadWhenNothingChanged) {
 }
 
 TEST(SampleDocuments, AllLoadWithoutCrash) {
-  const fs::path folder = sample_materials();
+  const fs::path folder = materialx_sample("Materials");
   if (folder.empty()) GTEST_SKIP() << "the MaterialX sample documents are not here";
   int count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "tests/jit/document/tree_text.h"
+#include "tests/support/materialx_samples.h"
 #include "tests/support/standard_library.h"
 
 namespace nacre {
@@ -156,7 +157,7 @@ TEST(WriteDocument, OurExamplesComeBackEqual) {
 }
 
 TEST(WriteDocument, MaterialXSamplesComeBackEqual) {
-  const fs::path folder = sample_materials();
+  const fs::path folder = materialx_sample("Materials");
   if (folder.empty()) GTEST_SKIP() << "the MaterialX sample documents are not here";
   EXPECT_EQ(check_folder(folder), 193);
 }

@@ -5,6 +5,7 @@
 #include "jit/graph/check/check.h"
 #include "jit/graph/find.h"
 #include "tests/jit/graph/build_text.h"
+#include "tests/support/materialx_samples.h"
 
 namespace nacre {
 namespace {
@@ -66,7 +67,7 @@ TEST(SampleDocuments, EveryNodeDefOfTheLibraryBuilds) {
 }
 
 TEST(SampleDocuments, ExamplesBuildEveryOutputAndMaterial) {
-  const fs::path folder = sample_materials();
+  const fs::path folder = materialx_sample("Materials");
   if (folder.empty()) GTEST_SKIP() << "the MaterialX sample documents are not here";
   int documents = 0;
   int requests = 0;
@@ -80,7 +81,7 @@ TEST(SampleDocuments, ExamplesBuildEveryOutputAndMaterial) {
 }
 
 TEST(SampleDocuments, CheckingTheTestSuiteNeverCrashes) {
-  const fs::path folder = sample_materials();
+  const fs::path folder = materialx_sample("Materials");
   if (folder.empty()) GTEST_SKIP() << "the MaterialX sample documents are not here";
   int clean = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "TestSuite")) {
