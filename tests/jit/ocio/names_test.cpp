@@ -3,6 +3,7 @@
 #include <cstring>
 #include <thread>
 
+#include "jit/graph/color/color_config.h"
 #include "tests/jit/ocio/config_fixture.h"
 #include "tests/support/run_kernel.h"
 #include "tests/support/standard_library.h"
