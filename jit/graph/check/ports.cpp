@@ -5,7 +5,7 @@
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/check/parts.h"
-#include "jit/graph/resolve/connection.h"
+#include "jit/graph/resolve/feed.h"
 #include "jit/graph/resolve/lenient.h"
 
 namespace nacre {
@@ -128,15 +128,8 @@ class PortCheck : ElementCheck {
       found = parse_type(input->attribute("type")).value_or(Type::none);
       if (input->category() == "input") return check_type(port, type, found);
     }
-    const std::string message = "the graph around it has no such input";
-    const std::string expected = "the name of an input of the graph";
-    if (port.category() == "input" && is_node(*port.parent())) {
-      tolerable("unknown-interface", port, message,
-                port.has_attribute("value") ? "its value is used" : "the default is used", expected,
-                fmt::format("'{}'", name));
-    } else {
-      error("unknown-interface", port, message, expected, fmt::format("'{}'", name));
-    }
+    Complaints complaints(diagnostics_, lenient_);
+    without_interface(port, true, complaints);
   }
 
   void check_node_output(const Element& port, const Connection& connection, Type type) {

@@ -138,4 +138,11 @@ Connection find_connection(const Element& port, Diagnostics& diagnostics, bool l
   return {};
 }
 
+Connection find_connection(const Element& port, Complaints& complaints) {
+  Diagnostics said;
+  const Connection connection = find_connection(port, said, complaints.is_lenient());
+  complaints.add(said, port);
+  return connection;
+}
+
 }  // namespace nacre

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "jit/document/element.h"
+#include "jit/graph/complaints.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre {
@@ -25,6 +26,9 @@ struct Connection {
 /// output that the port belongs to; graphs and outputs also at the root.
 /// `lenient`: of several outputs of a graph the first, with a warning, where none is named.
 Connection find_connection(const Element& port, Diagnostics& diagnostics, bool lenient = false);
+
+/// The same, as strict as `complaints` are; a warning about a port is given once.
+Connection find_connection(const Element& port, Complaints& complaints);
 
 /// The element whose children a port's `nodename` names.
 const Element& scope_of(const Element& port);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "jit/document/value_text.h"
+#include "jit/graph/resolve/feed.h"
 
 namespace nacre {
 
@@ -10,16 +11,6 @@ namespace {
 
 // Graphs that implement nodes of graphs that implement nodes: deeper is a fault.
 constexpr int max_context_depth = 256;
-
-bool says_something(const Element& input) {
-  for (const Attribute& attribute : input.attributes()) {
-    if (attribute.name == "value") return true;
-    const bool connects = attribute.name == "nodename" || attribute.name == "nodegraph" ||
-                          attribute.name == "interfacename" || attribute.name == "output";
-    if (connects && !attribute.value.empty()) return true;
-  }
-  return false;
-}
 
 Source literal(Value value) {
   Source source;
@@ -132,17 +123,8 @@ const Element* Instances::input(const Instance& instance, std::string_view name)
       if (const Element* input = of_variant("input", name, &instance)) return input;
     }
   }
-  // An instance may inherit inputs from another of its class (Specification,
-  // "Shader Nodes"); the chain is bounded in case it is a circle.
-  const Element* element = instance.element;
-  const std::size_t most = element != nullptr ? element->document().max_inheritance() : 0;
-  for (std::size_t depth = 0; element != nullptr && depth < most; ++depth) {
-    const Element* input = element->child(name);
-    if (input != nullptr && input->category() == "input" && says_something(*input)) return input;
-    const std::string_view base = element->attribute("inherit");
-    element = base.empty() ? nullptr : element->parent()->child(base);
-  }
-  return nullptr;
+  // An instance may inherit inputs from another of its class (Specification, "Shader Nodes").
+  return instance.element == nullptr ? nullptr : find_input(*instance.element, name);
 }
 
 std::optional<std::uint32_t> Instances::output_index(const NodeDef& def, std::string_view name,

@@ -1,8 +1,8 @@
 // What <input> and <output> elements come to: what they are connected to, or their value.
 #include <fmt/format.h>
 
-#include "jit/document/select.h"
 #include "jit/document/value_text.h"
+#include "jit/graph/resolve/feed.h"
 #include "jit/graph/resolve/lenient.h"
 #include "jit/graph/resolve/resolver.h"
 
@@ -25,7 +25,8 @@ std::optional<Resolver::Key> Resolver::start_port(Frame& frame, const Element& p
   const Context* context = frame.key.context;
   const std::uint32_t leaf = frame.key.index;
   frame.stage = Stage::received;
-  const Connection connection = connection_of(port);
+  // Inlined graphs meet the same port in many contexts.
+  const Connection connection = find_connection(port, complaints_);
   switch (connection.kind) {
     case Connection::Kind::invalid: frame.result.failed = true; return std::nullopt;
     case Connection::Kind::none: return port_without_source(frame, port);
@@ -57,14 +58,6 @@ std::optional<Resolver::Key> Resolver::start_port(Frame& frame, const Element& p
   return std::nullopt;
 }
 
-// Inlined graphs meet the same port in many contexts: warnings are given once.
-Connection Resolver::connection_of(const Element& port) {
-  Diagnostics said;
-  const Connection connection = find_connection(port, said, complaints_.is_lenient());
-  complaints_.add(said, port);
-  return connection;
-}
-
 // What a port says itself, or of a structure the default of a leaf.
 std::optional<Resolver::Key> Resolver::take_value(Frame& frame, const Element& port, Type type) {
   Resolved& result = frame.result;
@@ -91,36 +84,22 @@ std::optional<Resolver::Key> Resolver::follow_interface(Frame& frame, const Elem
         return Key{Kind::input, i, context->instance, nullptr};
       }
     }
-    return without_interface(frame, port, name);
+    return miss_interface(frame, port);
   }
-  const Element& graph = context == nullptr ? port.document().root() : *context->graph;
-  const Element* input = graph.child(name);
-  if (input == nullptr || input->category() != "input") {
-    return without_interface(frame, port, name);
-  }
+  const Element* input =
+      find_interface(context == nullptr ? port.document().root() : *context->graph, name);
+  if (input == nullptr) return miss_interface(frame, port);
   return Key{Kind::port, frame.key.index, input, context == nullptr ? nullptr : context->parent};
 }
 
 // A name that no input has: with GraphOptions::lenient a node does without.
-std::optional<Resolver::Key> Resolver::without_interface(Frame& frame, const Element& port,
-                                                         std::string_view name) {
+std::optional<Resolver::Key> Resolver::miss_interface(Frame& frame, const Element& port) {
   Resolved& result = frame.result;
-  const bool has_default = port.category() == "input" && is_node(*port.parent());
-  const std::string message = "the graph around it has no such input";
-  const std::string expected = "the name of an input of the graph";
-  const std::string found = fmt::format("'{}'", name);
-  if (!has_default) {
-    complaints_.error("unknown-interface", port, message, expected, found);
-    result.failed = true;
-    return std::nullopt;
-  }
-  const bool has_value = port.has_attribute("value") && !is_leaf(frame);
-  result.failed = !complaints_.tolerates("unknown-interface", port, message,
-                                         has_value ? "its value is used" : "the default is used",
-                                         expected, found);
+  const Connection instead = without_interface(port, !is_leaf(frame), complaints_);
+  result.failed = instead.kind == Connection::Kind::invalid;
   if (result.failed) return std::nullopt;
   const auto type = parse_type(port.attribute("type"));
-  result.is_absent = !has_value || !type;
+  result.is_absent = instead.kind != Connection::Kind::value || !type;
   if (result.is_absent) return std::nullopt;
   return take_value(frame, port, *type);
 }

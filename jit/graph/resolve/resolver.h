@@ -128,10 +128,9 @@ class Resolver {
   static bool is_leaf(const Frame& frame) { return frame.key.index != 0; }
   std::optional<Key> step_port(Frame& frame);
   std::optional<Key> start_port(Frame& frame, const Element& port);
-  Connection connection_of(const Element& port);
   std::optional<Key> take_value(Frame& frame, const Element& port, Type type);
   std::optional<Key> follow_interface(Frame& frame, const Element& port, std::string_view name);
-  std::optional<Key> without_interface(Frame& frame, const Element& port, std::string_view name);
+  std::optional<Key> miss_interface(Frame& frame, const Element& port);
   std::optional<Key> port_without_source(Frame& frame, const Element& port);
   std::optional<Key> check_port_type(Frame& frame, const Element& port);
 
