@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -14,6 +13,7 @@
 #include <optional>
 
 #include "examples/bake/copy_levels.h"
+#include "examples/bake/texture_format.h"
 #include "examples/common/atomic_file.h"
 #include "examples/common/checked_file.h"
 #include "examples/common/srgb.h"
@@ -29,8 +29,6 @@ bool is_vector(Type type) {
   return type == Type::vector2 || type == Type::vector3 || type == Type::vector4;
 }
 
-bool is_color(Type type) { return type == Type::color3 || type == Type::color4; }
-
 std::vector<std::string> channel_names(int count) {
   if (count == 1) return {"Y"};
   std::vector<std::string> names{"R", "G", "B", "A"};
@@ -41,41 +39,6 @@ std::vector<std::string> channel_names(int count) {
   names.clear();
   for (int i = 0; i < count; ++i) names.emplace_back("m").append(std::to_string(i));
   return names;
-}
-
-/// What one extension can hold.
-struct Format {
-  std::string_view extension;
-  const char* plugin;
-  int default_bits;
-  OIIO::TypeDesc of_8, of_16, of_32;  ///< UNKNOWN where it cannot.
-  bool is_integer;
-};
-
-const OIIO::TypeDesc unknown = OIIO::TypeDesc::UNKNOWN;
-const OIIO::TypeDesc half_float = OIIO::TypeDesc::HALF;
-const OIIO::TypeDesc full_float = OIIO::TypeDesc::FLOAT;
-
-const std::array formats = std::to_array<Format>({
-    {".exr", "openexr", 32, unknown, half_float, full_float, false},
-    {".png", "png", 8, OIIO::TypeDesc::UINT8, OIIO::TypeDesc::UINT16, unknown, true},
-    {".tx", "tiff", 32, unknown, half_float, full_float, false},
-});
-
-const Format* format_of(std::string_view extension) {
-  for (const Format& format : formats) {
-    if (format.extension == extension) return &format;
-  }
-  return nullptr;
-}
-
-OIIO::TypeDesc type_of(const Format& format, int bits) {
-  switch (bits == 0 ? format.default_bits : bits) {
-    case 8: return format.of_8;
-    case 16: return format.of_16;
-    case 32: return format.of_32;
-    default: return unknown;
-  }
 }
 
 /// Numbers that a file cannot hold, and the span of all that there were.
@@ -169,7 +132,7 @@ BakeResult bake_encoded(const Job& job, const std::function<bool(const BakedRows
   const auto channels = static_cast<std::size_t>(job.channels());
   const bool srgb = job.is_srgb();
   const bool direction = job.is_direction();
-  const bool is_half = job.type() == half_float;
+  const bool is_half = job.type() == OIIO::TypeDesc::HALF;
   BakedRows encoded;
   const auto encode = [&](const BakedRows& rows) {
     encoded = chosen_channels(job, rows);
@@ -254,7 +217,7 @@ std::optional<Diagnostic> complaint_of(const Job& job, const std::string& path) 
   const Cut& cut = *job.cut;
   if (cut.count == 0) return std::nullopt;
   const bool is_refused = is_vector(job.output().type);
-  const bool is_half = job.type() == half_float;
+  const bool is_half = job.type() == OIIO::TypeDesc::HALF;
   Diagnostic complaint;
   complaint.severity = is_refused ? Severity::error : Severity::warning;
   complaint.code = "out-of-range";
@@ -275,7 +238,7 @@ std::optional<Diagnostic> complaint_of(const Job& job, const std::string& path) 
 /// What makes a job impossible, or "".
 std::string fault_of(const Job& job) {
   const TextureEncoding& encoding = job.encoding;
-  if (type_of(job.format, encoding.bits) == unknown) {
+  if (type_of(job.format, encoding.bits) == OIIO::TypeDesc::UNKNOWN) {
     return fmt::format("a {} file does not hold {}-bit channels", job.format.extension.substr(1),
                        encoding.bits);
   }
@@ -286,28 +249,6 @@ std::string fault_of(const Job& job) {
 }
 
 }  // namespace
-
-std::string texture_colorspace(Type type, const std::string& extension,
-                               const TextureEncoding& encoding) {
-  if (!is_color(type)) return {};
-  if (!encoding.colorspace.empty()) return encoding.colorspace;
-  return holds_unit_range_only(extension) ? "srgb_texture" : "lin_rec709";
-}
-
-std::string output_space(const std::string& extension, const TextureEncoding& encoding) {
-  const std::string space = texture_colorspace(Type::color3, extension, encoding);
-  if (is_srgb(space)) return "lin_rec709";
-  return encoding.colorspace.empty() ? std::string() : space;
-}
-
-bool is_srgb(std::string_view colorspace) {
-  return canonical_colorspace(colorspace) == "srgb_texture";
-}
-
-bool holds_unit_range_only(const std::string& extension) {
-  const Format* format = format_of(extension);
-  return format != nullptr && format->is_integer;
-}
 
 std::unique_ptr<PartialFile> bake_to_partial_file(const OutputKernel& kernel, std::size_t output,
                                                   const BakeSettings& settings,
@@ -326,7 +267,7 @@ std::unique_ptr<PartialFile> bake_to_partial_file(const OutputKernel& kernel, st
     if (!fault.empty()) return fault;
     const std::string problem =
         format->extension == ".tx" ? write_tx(job, file) : write_rows(job, file);
-    if (problem.empty() && (range == nullptr || job.type() == half_float)) {
+    if (problem.empty() && (range == nullptr || job.type() == OIIO::TypeDesc::HALF)) {
       complaint = complaint_of(job, path);
     }
     return problem;
