@@ -43,7 +43,7 @@ struct BakeOptions {
 std::vector<std::string> wanted(const BakeOptions& options, const Opened& opened,
                                 Diagnostics& diagnostics) {
   if (!options.material.empty()) {
-    return material_inputs(*opened.document, options.material, diagnostics);
+    return material_inputs(opened, options.material, !options.common.strict, diagnostics);
   }
   std::vector<std::string> names;
   for (const std::string& name : options.outputs) {
@@ -62,10 +62,7 @@ std::vector<std::string> wanted(const BakeOptions& options, const Opened& opened
 
 /// The <output> of that name, or null.
 const Element* output_element(const Document& document, const std::string& name) {
-  const std::size_t slash = name.find('/');
-  const Element* element = document.root().child(name.substr(0, slash));
-  if (slash != std::string::npos && element != nullptr)
-    element = element->child(name.substr(slash + 1));
+  const Element* element = find_element(document, name);
   return element != nullptr && element->category() == "output" ? element : nullptr;
 }
 

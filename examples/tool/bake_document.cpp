@@ -46,7 +46,8 @@ class MaterialBaker {
         diagnostics_(diagnostics),
         reads_(diagnostics),
         folder_(absolute_path(options.document).parent_path()),
-        baked_(*opened.document, definitions, folder_.string(), diagnostics) {}
+        baked_(*opened.document, definitions, options.shader.graph.lenient, folder_.string(),
+               diagnostics) {}
 
   void run() {
     promise_files({options_.document});

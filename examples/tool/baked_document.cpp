@@ -6,9 +6,8 @@
 #include <array>
 #include <filesystem>
 
-#include "examples/tool/closure_source.h"
 #include "jit/document/select.h"
-#include "jit/document/write.h"
+#include "jit/graph/resolve/lenient.h"
 
 namespace nacre::tool {
 
@@ -21,43 +20,6 @@ Type type_of(const Element& port) {
 }
 
 bool is_color(Type type) { return type == Type::color3 || type == Type::color4; }
-
-/// A vector of the surface's frame, as the plane has it; null for other inputs.
-const std::array<float, 3>* plane_axis(std::string_view geomprop) {
-  static constexpr std::array<float, 3> tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};
-  if (geomprop == "Nworld") return &normal;
-  if (geomprop == "Tworld") return &tangent;
-  return geomprop == "Bworld" ? &bitangent : nullptr;
-}
-
-/// The inputs of a node and of those it inherits from, its own first.
-std::vector<const Element*> inputs_of(const Element& node) {
-  std::vector<const Element*> inputs;
-  const Element* at = &node;
-  const std::size_t most = node.document().max_inheritance();
-  for (std::size_t depth = 0; at != nullptr && depth < most; ++depth) {
-    for (const Element& child : at->children()) {
-      const auto same = [&](const Element* one) { return one->name() == child.name(); };
-      if (child.category() == "input" && std::none_of(inputs.begin(), inputs.end(), same)) {
-        inputs.push_back(&child);
-      }
-    }
-    const std::string_view base = at->attribute("inherit");
-    at = base.empty() ? nullptr : at->parent()->child(base);
-  }
-  return inputs;
-}
-
-std::string value_text(Type type, std::span<const float> texel) {
-  if (type == Type::boolean) return texel[0] != 0.0f ? "true" : "false";
-  if (type == Type::integer) return std::to_string(static_cast<long>(texel[0]));
-  std::string text;
-  for (const float number : texel) {
-    if (!text.empty()) text += ", ";
-    text += fmt::format("{}", number);
-  }
-  return text;
-}
 
 std::string plain_name(std::string_view name) {
   std::string plain(name);
@@ -77,96 +39,110 @@ bool is_definition(const Element& element) {
 
 }  // namespace
 
-BakedDocument::BakedDocument(Document& source, const Definitions& definitions, std::string folder,
-                             Diagnostics& diagnostics)
+BakedDocument::BakedDocument(Document& source, const Definitions& definitions, bool lenient,
+                             std::string folder, Diagnostics& diagnostics)
     : source_(source),
       definitions_(definitions),
       folder_(std::move(folder)),
-      diagnostics_(diagnostics),
-      root_(&document_.create("materialx",
-                              document_.add_file("baked", std::make_unique<char[]>(1), 0), 0)) {
-  document_.set_root(*root_);
-  set(*root_, "version", "1.39");
-  set(*root_, "colorspace", "lin_rec709");
-}
+      complaints_(diagnostics, lenient),
+      inputs_(document_) {}
 
 bool BakedDocument::add_material(const std::string& name) {
-  const std::size_t errors = diagnostics_.error_count();
+  const std::size_t errors = complaints_.diagnostics().error_count();
   const Element* material = source_.root().child(name);
   if (material != nullptr) copy_node(*material);
-  return diagnostics_.error_count() == errors;
+  return complaints_.diagnostics().error_count() == errors;
 }
 
 Element* BakedDocument::copy_node(const Element& node) {
   const auto known = copies_.find(&node);
   if (known != copies_.end()) return known->second;
-  const NodeDef* def = find_nodedef(node, definitions_, diagnostics_);
+  const NodeDef* def = find_nodedef(node, definitions_, complaints_.diagnostics(),
+                                    complaints_.is_lenient() ? stands_for : nullptr);
   if (def == nullptr) return nullptr;
   uses_own_definitions_ = uses_own_definitions_ || &def->element->document() == &source_;
-  Element& copy = make(node.category(), free_name(plain_name(element_path(node))), "");
+  Element& copy =
+      document_.make(node.category(), document_.free_name(plain_name(element_path(node))));
   copies_.emplace(&node, &copy);
   for (const Attribute& attribute : node.attributes()) {
     const bool is_here = attribute.name == "name" || attribute.name == "inherit";
-    if (!is_here) set(copy, attribute.name, attribute.value);
+    if (!is_here) document_.set(copy, attribute.name, attribute.value);
   }
-  for (const Element* input : inputs_of(node)) copy_input(*input, *def, copy);
+  for (const Element* input : find_inputs(node, complaints_.diagnostics())) {
+    copy_input(*input, *def, copy);
+  }
   for (const Element& child : node.children()) {
-    if (child.category() != "input") document_.append(copy, copy_tree(child));
+    if (child.category() != "input") document_.append(copy, document_.copy_of(child));
   }
   nodes_.push_back(&copy);
   return &copy;
 }
 
 void BakedDocument::copy_input(const Element& input, const NodeDef& def, Element& copy) {
-  const Element* port = bound_port(input);
-  if (port == nullptr) return;  // Nothing is bound: the default stays.
+  using Kind = Connection::Kind;
+  Diagnostics said;
+  Complaints complaints(said, complaints_.is_lenient());
+  const Feed feed = find_feed(input, definitions_, complaints);
+  const Kind kind = feed.connection.kind;
+  const bool is_connected = kind == Kind::node || kind == Kind::output;
+  // An interface without a value is no default of the node's.
+  const bool is_open = kind == Kind::none && feed.port != &input;
   const Type type = type_of(input);
-  if (!is_connected(*port)) {
-    if (port->has_attribute("value")) copy_value(input, *port, copy);
-  } else if (is_numeric(type)) {
-    add_job(input, *port, def, copy);
-  } else if (is_text(type) || is_array(type)) {
-    diagnostics_.error("cannot-bake", location(input), "a texture holds no such value",
-                       "a value, or a connection of a numeric type",
-                       std::string(input.attribute("type")));
+  if (is_numeric(type) && (is_connected || is_open)) {
+    return add_job(input, feed, def, copy);  // Compiling it says what there is to say.
+  }
+  complaints_.add(said, input);
+  if (is_open && is_text(type)) {
+    document_.set(document_.add_input(copy, input.name(), type_name(type)), "value", "");
+  }
+  if (kind == Kind::value) return copy_value(input, *feed.port, copy);
+  if (!is_connected) return;
+  if (is_text(type) || is_array(type)) {
+    complaints_.error("cannot-bake", input, "a texture holds no such value",
+                      "a value, or a connection of a numeric type",
+                      std::string(input.attribute("type")));
   } else {
-    copy_closure(input, *port, copy);
+    copy_closure(input, copy);
   }
 }
 
 void BakedDocument::copy_value(const Element& input, const Element& port, Element& copy) {
-  Element& value = add_input(copy, input.name(), input.attribute("type"));
+  Element& value = document_.add_input(copy, input.name(), input.attribute("type"));
   for (const Attribute& attribute : port.attributes()) {
     const bool counts =
         attribute.name == "value" || attribute.name == "unit" || attribute.name == "unittype";
-    if (counts) set(value, attribute.name, attribute.value);
+    if (counts) document_.set(value, attribute.name, attribute.value);
   }
   const Type type = type_of(input);
-  if (type == Type::filename) set(value, "value", moved_file(port));
+  if (type == Type::filename) document_.set(value, "value", moved_file(port));
   // The copy has another root: what was inherited is said.
   const std::string_view space = port.inherited_attribute("colorspace");
   if ((is_color(type) || type == Type::filename) && !space.empty()) {
-    set(value, "colorspace", space);
+    document_.set(value, "colorspace", space);
   }
 }
 
-void BakedDocument::copy_closure(const Element& input, const Element& port, Element& copy) {
-  const Element* source = source_node(port);
-  if (source == nullptr) {
-    diagnostics_.error("cannot-bake", location(port), "this leads to no node");
+void BakedDocument::copy_closure(const Element& input, Element& copy) {
+  const Feed feed = find_source_node(input, definitions_, complaints_);
+  if (feed.connection.kind == Connection::Kind::invalid) return;
+  if (feed.connection.kind != Connection::Kind::node) {
+    complaints_.error("cannot-bake", *feed.port, "this leads to no node");
     return;
   }
-  Element* below = copy_node(*source);
+  const Element& source = *feed.connection.target;
+  const Element* below = copy_node(source);
   if (below == nullptr) return;
-  Element& connection = add_input(copy, input.name(), input.attribute("type"));
-  set(connection, "nodename", below->name());
-  if (source->attribute("type") == "multioutput" && port.has_attribute("output")) {
-    set(connection, "output", port.attribute("output"));
+  Element& connection = document_.add_input(copy, input.name(), input.attribute("type"));
+  document_.set(connection, "nodename", below->name());
+  if (source.attribute("type") == "multioutput" && !feed.connection.output.empty()) {
+    document_.set(connection, "output", feed.connection.output);
   }
 }
 
-void BakedDocument::add_job(const Element& input, const Element& port, const NodeDef& def,
+void BakedDocument::add_job(const Element& input, const Feed& feed, const NodeDef& def,
                             Element& copy) {
+  const bool is_open = feed.connection.kind == Connection::Kind::none;
+  const Element& port = is_open ? *feed.reader : *feed.port;
   const Element& scope = scope_of(port);
   std::string name;
   int number = static_cast<int>(jobs_.size());
@@ -177,7 +153,7 @@ void BakedDocument::add_job(const Element& input, const Element& port, const Nod
   Element& probe = source_.create_at("output", port);
   std::vector<Attribute> attributes{{"name", source_.keep(name)},
                                     {"type", input.attribute("type")}};
-  for (std::string_view wanted : {"nodename", "nodegraph", "output"}) {
+  for (std::string_view wanted : {"nodename", "nodegraph", "interfacename", "output"}) {
     if (port.has_attribute(wanted)) attributes.push_back({wanted, port.attribute(wanted)});
   }
   source_.set_attributes(probe, attributes);
@@ -187,7 +163,7 @@ void BakedDocument::add_job(const Element& input, const Element& port, const Nod
   Job& job = jobs_.emplace_back();
   job.request = element_path(probe);
   job.stem = fmt::format("{}.{}", copy.name(), input.name());
-  job.output = output_of(port);
+  if (feed.connection.kind == Connection::Kind::output) job.output = feed.connection.target;
   job.type = type_of(input);
   const NodeDefInput* declared = def.input(input.name());
   const std::string_view geomprop = declared != nullptr ? declared->defaultgeomprop : "";
@@ -202,74 +178,6 @@ void BakedDocument::add_job(const Element& input, const Element& port, const Nod
 
 void BakedDocument::finish_source() { source_.build_index(); }
 
-void BakedDocument::set_value(const Job& job, std::span<const float> texel,
-                              std::string_view colorspace) {
-  if (const std::array<float, 3>* axis = plane_axis(job.frame)) {
-    if (std::equal(axis->begin(), axis->end(), texel.begin())) return;  // It is the default.
-    Element& normalmap = add_node(job, "normalmap", "_direction", "vector3");
-    const std::array<float, 3> coded{0.5f * texel[0] + 0.5f, 0.5f * texel[1] + 0.5f,
-                                     0.5f * texel[2] + 0.5f};
-    set(add_input(normalmap, "in", "vector3"), "value", value_text(job.type, coded));
-    return connect(job, normalmap);
-  }
-  Element& input = add_input(*job.node, job.input, type_name(job.type));
-  set(input, "value", value_text(job.type, texel));
-  // As computed is as the root says.
-  const bool is_tagged = is_color(job.type) && !colorspace.empty() && colorspace != "none" &&
-                         colorspace != root_->attribute("colorspace");
-  if (is_tagged) set(input, "colorspace", colorspace);
-}
-
-void BakedDocument::set_texture(const Job& job, const std::vector<std::string>& files,
-                                std::string_view colorspace) {
-  if (job.type == Type::matrix33 || job.type == Type::matrix44) {
-    const std::string_view row_type = job.type == Type::matrix33 ? "vector3" : "vector4";
-    std::vector<const Element*> rows;
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      rows.push_back(&add_image(job, fmt::format("_row{}", i + 1), row_type, files[i], {}));
-    }
-    Element& matrix = add_node(job, "creatematrix", "_matrix", type_name(job.type));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      set(add_input(matrix, fmt::format("in{}", i + 1), row_type), "nodename", rows[i]->name());
-    }
-    return connect(job, matrix);
-  }
-  const bool is_whole = job.type == Type::boolean || job.type == Type::integer;
-  Element& image =
-      add_image(job, "_image", is_whole ? "float" : type_name(job.type), files.front(), colorspace);
-  if (is_whole) {
-    // Between texels there is nothing; half an 8-bit step is nothing either.
-    set(add_input(image, "filtertype", "string"), "value", "closest");
-    const bool is_boolean = job.type == Type::boolean;
-    Element& whole =
-        add_node(job, is_boolean ? "ifgreater" : "round", "_whole", type_name(job.type));
-    set(add_input(whole, is_boolean ? "value1" : "in", "float"), "nodename", image.name());
-    if (is_boolean) set(add_input(whole, "value2", "float"), "value", "0.5");
-    return connect(job, whole);
-  }
-  if (job.frame.empty()) return connect(job, image);
-  Element& normalmap = add_node(job, "normalmap", "_direction", "vector3");
-  set(add_input(normalmap, "in", "vector3"), "nodename", image.name());
-  connect(job, normalmap);
-}
-
-/// A node in the job's graph, called by its input.
-Element& BakedDocument::add_node(const Job& job, std::string_view category,
-                                 const std::string& suffix, std::string_view type) {
-  Element& node = make(category, job.input + suffix, type);
-  document_.append(graph_of(job), node);
-  return node;
-}
-
-Element& BakedDocument::add_image(const Job& job, const std::string& suffix, std::string_view type,
-                                  const std::string& file, std::string_view colorspace) {
-  Element& image = add_node(job, "image", suffix, type);
-  Element& name = add_input(image, "file", "filename");
-  set(name, "value", file);
-  if (!colorspace.empty()) set(name, "colorspace", colorspace);
-  return image;
-}
-
 /// Geometry Extensions, "Reserved GeomProp Names".
 void BakedDocument::add_tiles() {
   std::string numbers;
@@ -277,102 +185,36 @@ void BakedDocument::add_tiles() {
     if (!numbers.empty()) numbers += ',';
     numbers += tile.number();
   }
-  Element& info = make("geominfo", free_name("baked_tiles"), "");
-  set(info, "geom", "/");
-  Element& property = make("geomprop", "udimset", "stringarray");
-  set(property, "value", numbers);
+  Element& info = document_.make("geominfo", document_.free_name("baked_tiles"));
+  document_.set(info, "geom", "/");
+  Element& property = document_.make("geomprop", "udimset", "stringarray");
+  document_.set(property, "value", numbers);
   document_.append(info, property);
-  document_.append(*root_, info);
+  document_.append(document_.root(), info);
 }
 
 std::string BakedDocument::text() {
-  document_.take_children(*root_);
   if (uses_own_definitions_) copy_definitions();
   if (!tiles_.empty()) add_tiles();
-  for (Element* graph : graphs_) document_.append(*root_, *graph);
-  for (Element* node : nodes_) document_.append(*root_, *node);
-  return write_document(document_);
+  for (Element* graph : inputs_.graphs()) document_.append(document_.root(), *graph);
+  for (Element* node : nodes_) document_.append(document_.root(), *node);
+  return document_.text();
 }
 
 void BakedDocument::copy_definitions() {
-  std::vector<std::string_view> implementing;
   for (const Element& child : source_.root().children()) {
-    if (child.category() == "implementation") implementing.push_back(child.attribute("nodegraph"));
-  }
-  for (const Element& child : source_.root().children()) {
-    const bool implements =
-        child.category() == "nodegraph" &&
-        (child.has_attribute("nodedef") ||
-         std::find(implementing.begin(), implementing.end(), child.name()) != implementing.end());
-    if (!is_definition(child) && !implements) continue;
-    Element& copy = copy_tree(child);
+    if (!is_definition(child) && definitions_.implemented_by(child) == nullptr) continue;
+    Element& copy = document_.copy_of(child);
     const std::string_view space = child.inherited_attribute("colorspace");
-    if (!space.empty()) set(copy, "colorspace", space);
+    if (!space.empty()) document_.set(copy, "colorspace", space);
     std::error_code error;
     const fs::path from = fs::absolute(source_.file_of(child), error).lexically_normal();
     const std::string folder = from.parent_path().lexically_relative(folder_).generic_string();
-    set(copy, "fileprefix",
+    document_.set(
+        copy, "fileprefix",
         (folder == "." ? "" : folder + "/") + std::string(child.inherited_attribute("fileprefix")));
-    document_.append(*root_, copy);
+    document_.append(document_.root(), copy);
   }
-}
-
-Element& BakedDocument::copy_tree(const Element& element) {
-  Element& copy = document_.create(document_.keep(element.category()), 0, 0);
-  for (const Attribute& attribute : element.attributes()) {
-    set(copy, attribute.name, attribute.name == "name" ? element.name() : attribute.value);
-  }
-  for (const Element& child : element.children()) document_.append(copy, copy_tree(child));
-  return copy;
-}
-
-Element& BakedDocument::make(std::string_view category, const std::string& name,
-                             std::string_view type) {
-  Element& element = document_.create(document_.keep(category), 0, 0);
-  set(element, "name", name);
-  if (!type.empty()) set(element, "type", type);
-  return element;
-}
-
-Element& BakedDocument::add_input(Element& node, std::string_view name, std::string_view type) {
-  Element& input = document_.create("input", 0, 0);
-  set(input, "name", name);
-  set(input, "type", type);
-  document_.append(node, input);
-  return input;
-}
-
-void BakedDocument::set(Element& element, std::string_view name, std::string_view value) {
-  const std::string_view kept = document_.keep(value);
-  document_.set_attribute(element, document_.keep(name), kept);
-  if (name == "name") Document::set_name(element, kept);
-}
-
-/// Makes an output of the job's graph, and the input read it.
-void BakedDocument::connect(const Job& job, const Element& node) {
-  Element& graph = graph_of(job);
-  Element& output = document_.create("output", 0, 0);
-  set(output, "name", job.input + "_output");
-  set(output, "type", type_name(job.type));
-  set(output, "nodename", node.name());
-  document_.append(graph, output);
-  Element& input = add_input(*job.node, job.input, type_name(job.type));
-  set(input, "nodegraph", graph.name());
-  set(input, "output", output.name());
-}
-
-Element& BakedDocument::graph_of(const Job& job) {
-  Element*& graph = graph_of_node_[job.node];
-  if (graph == nullptr) {
-    graph = &make("nodegraph", free_name("NG_baked_" + std::string(job.node->name())), "");
-    graphs_.push_back(graph);
-  }
-  return *graph;
-}
-
-std::string BakedDocument::free_name(const std::string& wanted) {
-  const int count = names_[wanted]++;
-  return count == 0 ? wanted : free_name(fmt::format("{}_{}", wanted, count + 1));
 }
 
 /// A file name as it reads from the folder of the baked document.
@@ -383,7 +225,8 @@ std::string BakedDocument::moved_file(const Element& input) const {
   if (file.is_absolute()) return file.string();
   std::error_code error;
   const fs::path there =
-      fs::absolute(fs::path(source_.file_of(input)).parent_path() / file, error).lexically_normal();
+      fs::absolute(fs::path(input.document().file_of(input)).parent_path() / file, error)
+          .lexically_normal();
   return there.lexically_relative(folder_).generic_string();
 }
 

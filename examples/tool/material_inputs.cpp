@@ -3,46 +3,34 @@
 #include <algorithm>
 
 #include "jit/graph/find.h"
+#include "jit/graph/resolve/feed.h"
 
 namespace nacre::tool {
 
-namespace {
-
-/// "NG/out" for an input that a graph's output feeds, else "". A graph with one
-/// output need not be named with it.
-std::string graph_output(const Document& document, const Element& input) {
-  const std::string_view graph = input.attribute("nodegraph");
-  if (graph.empty()) return std::string(input.attribute("output"));
-  std::string_view output = input.attribute("output");
-  const Element* scope = document.root().child(graph);
-  if (output.empty() && scope != nullptr) {
-    for (const Element& child : scope->children()) {
-      if (child.category() == "output") output = child.name();
-    }
-  }
-  return std::string(graph) + '/' + std::string(output);
-}
-
-}  // namespace
-
-std::vector<std::string> material_inputs(const Document& document, const std::string& material,
-                                         Diagnostics& diagnostics) {
-  for (const FoundMaterial& found : find_materials(document)) {
-    if (found.name != material) continue;
-    const Element* shader = document.root().child(found.surfaceshader);
-    std::vector<std::string> names;
-    if (shader == nullptr) return names;
-    for (const Element& input : shader->children()) {
-      if (input.category() != "input") continue;
-      const std::string name = graph_output(document, input);
-      const bool is_known = std::find(names.begin(), names.end(), name) != names.end();
-      if (!name.empty() && !is_known) names.push_back(name);
-    }
-    return names;
-  }
+std::vector<std::string> material_inputs(const Opened& opened, const std::string& material,
+                                         bool lenient, Diagnostics& diagnostics) {
+  const Document& document = *opened.document;
   std::string known;
   for (const FoundMaterial& found : find_materials(document)) {
     known += (known.empty() ? "" : ", ") + found.name;
+    if (found.name != material) continue;
+    Diagnostics elsewhere;  // Compiling says what is wrong with definitions.
+    const Definitions definitions(document, &opened.system->library().definitions(), elsewhere);
+    Complaints complaints(diagnostics, lenient);
+    std::vector<std::string> names;
+    const Element* surface = find_input(*document.root().child(material), "surfaceshader");
+    if (surface == nullptr) return names;
+    const Feed shader = find_source_node(*surface, definitions, complaints);
+    if (shader.connection.kind != Connection::Kind::node) return names;
+    for (const Element* input : find_inputs(*shader.connection.target, diagnostics)) {
+      const Connection connection = find_feed(*input, definitions, complaints).connection;
+      if (connection.kind != Connection::Kind::output) continue;
+      std::string name = element_path(*connection.target);
+      if (std::find(names.begin(), names.end(), name) == names.end()) {
+        names.push_back(std::move(name));
+      }
+    }
+    return names;
   }
   diagnostics.error("unknown-material", {document.files().front(), 0, 0, {}},
                     "there is no material '" + material + "'",

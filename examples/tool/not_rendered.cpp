@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "jit/document/select.h"
-#include "jit/graph/find.h"
+#include "jit/graph/resolve/feed.h"
 
 namespace nacre::tool {
 
@@ -71,21 +71,19 @@ void NotRendered::look_at_material(const std::string& name, const MaterialKernel
   if (kernels.volume) {
     diagnostics_.warning("volume-not-rendered", where, "volumes are not rendered");
   }
-  for (const FoundMaterial& found : find_materials(*opened_.document)) {
-    if (found.name != name) continue;
-    look_at_shader(found.surfaceshader);
-    look_at_shader(found.backsurfaceshader);
+  if (element == nullptr) return;
+  for (const std::string_view side : {"surfaceshader", "backsurfaceshader"}) {
+    if (const Element* input = find_input(*element, side)) look_at_shader(*input);
   }
 }
 
-/// A node, or the shaders within a graph.
-void NotRendered::look_at_shader(const std::string& name) {
-  const Element* element = name.empty() ? nullptr : opened_.document->root().child(name);
-  if (element == nullptr || !said_.insert('/' + name).second) return;
-  if (is_node(*element)) return look_at_inputs(*element);
-  for (const Element& child : element->children()) {
-    if (is_node(child) && child.attribute("type") == "surfaceshader") look_at_inputs(child);
-  }
+/// The node that an input of a material leads to.
+void NotRendered::look_at_shader(const Element& input) {
+  Diagnostics known;
+  Complaints complaints(known, true);
+  const Connection shader = find_source_node(input, definitions_, complaints).connection;
+  if (shader.kind != Connection::Kind::node) return;
+  if (said_.insert('/' + element_path(*shader.target)).second) look_at_inputs(*shader.target);
 }
 
 void NotRendered::look_at_inputs(const Element& shader) {

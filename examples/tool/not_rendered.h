@@ -19,7 +19,7 @@ class NotRendered {
   void look_at_material(const std::string& name, const MaterialKernels& kernels);
 
  private:
-  void look_at_shader(const std::string& name);
+  void look_at_shader(const Element& input);
   void look_at_inputs(const Element& shader);
 
   const Opened& opened_;
