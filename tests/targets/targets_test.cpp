@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "jit/compile/compile.h"
+#include "jit/compile/lower.h"
 #include "jit/llvm/codegen.h"
 #include "jit/record/bodies.h"
 #include "runtime/program/recorder.h"
