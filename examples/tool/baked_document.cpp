@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/select.h"
 #include "jit/graph/resolve/lenient.h"
 

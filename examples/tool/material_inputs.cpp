@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "jit/document/inheritance.h"
 #include "jit/graph/find.h"
 #include "jit/graph/resolve/feed.h"
 

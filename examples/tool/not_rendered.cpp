@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/select.h"
 #include "jit/graph/resolve/feed.h"
 

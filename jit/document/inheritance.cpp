@@ -3,8 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace nacre {
+
+namespace {
+
+bool says_something(const Element& input) {
+  for (const Attribute& attribute : input.attributes()) {
+    if (attribute.name == "value") return true;
+    const bool connects = attribute.name == "nodename" || attribute.name == "nodegraph" ||
+                          attribute.name == "interfacename" || attribute.name == "output";
+    if (connects && !attribute.value.empty()) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::vector<const Element*> inheritance_chain(
     const Element& element, std::string_view what,
@@ -39,6 +54,31 @@ std::vector<const Element*> node_inheritance(const Element& node, Diagnostics& d
     return nullptr;
   };
   return inheritance_chain(node, "node", base_of, diagnostics);
+}
+
+const Element* find_input(const Element& node, std::string_view name) {
+  // The chain is bounded in case it is a circle.
+  const Element* element = &node;
+  const std::size_t most = node.document().max_inheritance();
+  for (std::size_t depth = 0; element != nullptr && depth < most; ++depth) {
+    const Element* input = element->child(name);
+    if (input != nullptr && input->category() == "input" && says_something(*input)) return input;
+    const std::string_view base = element->attribute("inherit");
+    element = base.empty() ? nullptr : element->parent()->child(base);
+  }
+  return nullptr;
+}
+
+std::vector<const Element*> find_inputs(const Element& node, Diagnostics& diagnostics) {
+  std::vector<const Element*> inputs;
+  std::unordered_set<std::string_view> names;
+  for (const Element* element : node_inheritance(node, diagnostics)) {
+    for (const Element& child : element->children()) {
+      if (child.category() != "input" || !says_something(child)) continue;
+      if (names.insert(child.name()).second) inputs.push_back(&child);
+    }
+  }
+  return inputs;
 }
 
 }  // namespace nacre

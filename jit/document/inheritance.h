@@ -22,4 +22,12 @@ std::vector<const Element*> inheritance_chain(
 /// wrong with it.
 std::vector<const Element*> node_inheritance(const Element& node, Diagnostics& diagnostics);
 
+/// What says something about an input of a node: its own <input>, or that of the nearest node
+/// it inherits from which does. Null where none does: the nodedef's default stays.
+const Element* find_input(const Element& node, std::string_view name);
+
+/// All of those, a node's own before what it inherits; an error says what is wrong with what
+/// it inherits from.
+std::vector<const Element*> find_inputs(const Element& node, Diagnostics& diagnostics);
+
 }  // namespace nacre

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/select.h"
 
 namespace nacre {
@@ -27,9 +28,9 @@ std::unordered_set<std::string_view> implementing_graphs(const Document& documen
 }
 
 std::string source_of(const Element& material, std::string_view input_name) {
-  const Element* input = material.child(input_name);
+  const Element* input = find_input(material, input_name);
   if (input == nullptr) return {};
-  for (std::string_view attribute : {"nodename", "nodegraph", "interfacename"}) {
+  for (std::string_view attribute : {"nodename", "nodegraph", "interfacename", "output"}) {
     if (!input->attribute(attribute).empty()) return std::string(input->attribute(attribute));
   }
   return {};

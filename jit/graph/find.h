@@ -27,7 +27,8 @@ std::vector<FoundOutput> find_outputs(const Document& document);
 /// A material node and what its inputs name.
 struct FoundMaterial {
   std::string name;  ///< As ShadingSystem::compile_material takes it.
-  /// Nodes or graphs the shader inputs name; "" where nothing is connected.
+  /// Nodes, graphs or outputs that the shader inputs name, inherited ones too; "" where nothing
+  /// is connected.
   /// @{
   std::string surfaceshader;
   std::string backsurfaceshader;

@@ -5,22 +5,11 @@
 #include <unordered_set>
 
 #include "jit/document/document.h"
-#include "jit/document/inheritance.h"
 #include "jit/document/select.h"
 
 namespace nacre {
 
 namespace {
-
-bool says_something(const Element& input) {
-  for (const Attribute& attribute : input.attributes()) {
-    if (attribute.name == "value") return true;
-    const bool connects = attribute.name == "nodename" || attribute.name == "nodegraph" ||
-                          attribute.name == "interfacename" || attribute.name == "output";
-    if (connects && !attribute.value.empty()) return true;
-  }
-  return false;
-}
 
 /// The ports on the way from one to what feeds it.
 using Way = std::unordered_set<const Element*>;
@@ -58,31 +47,6 @@ Feed follow_interfaces(const Element& port, const Definitions& definitions, Comp
 }
 
 }  // namespace
-
-const Element* find_input(const Element& node, std::string_view name) {
-  // The chain is bounded in case it is a circle.
-  const Element* element = &node;
-  const std::size_t most = node.document().max_inheritance();
-  for (std::size_t depth = 0; element != nullptr && depth < most; ++depth) {
-    const Element* input = element->child(name);
-    if (input != nullptr && input->category() == "input" && says_something(*input)) return input;
-    const std::string_view base = element->attribute("inherit");
-    element = base.empty() ? nullptr : element->parent()->child(base);
-  }
-  return nullptr;
-}
-
-std::vector<const Element*> find_inputs(const Element& node, Diagnostics& diagnostics) {
-  std::vector<const Element*> inputs;
-  std::unordered_set<std::string_view> names;
-  for (const Element* element : node_inheritance(node, diagnostics)) {
-    for (const Element& child : element->children()) {
-      if (child.category() != "input" || !says_something(child)) continue;
-      if (names.insert(child.name()).second) inputs.push_back(&child);
-    }
-  }
-  return inputs;
-}
 
 Feed find_feed(const Element& port, const Definitions& definitions, Complaints& complaints) {
   Way way;

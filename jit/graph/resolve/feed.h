@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
 #include "jit/document/definitions.h"
 #include "jit/document/element.h"
@@ -9,14 +8,6 @@
 #include "jit/graph/resolve/connection.h"
 
 namespace nacre {
-
-/// What says something about an input of a node: its own <input>, or that of the nearest node
-/// it inherits from which does. Null where none does: the nodedef's default stays.
-const Element* find_input(const Element& node, std::string_view name);
-
-/// All of those, a node's own before what it inherits; an error says what is wrong with what
-/// it inherits from.
-std::vector<const Element*> find_inputs(const Element& node, Diagnostics& diagnostics);
 
 /// What an input comes from, once the interfaces of the graphs around it are followed outwards.
 struct Feed {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "jit/document/inheritance.h"
 #include "jit/document/value_text.h"
-#include "jit/graph/resolve/feed.h"
 
 namespace nacre {
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "jit/document/inheritance.h"
 #include "jit/graph/find.h"
 #include "tests/support/standard_library.h"
 

@@ -50,6 +50,25 @@ TEST(Find, MaterialsWithTheirShaders) {
   EXPECT_EQ(materials[0].displacementshader, "");
 }
 
+TEST(Find, ShadersThatAMaterialInheritsOrTakesFromAnOutput) {
+  Diagnostics diagnostics;
+  const auto document = document_of(R"(
+    <surface_unlit name="S" type="surfaceshader"/>
+    <output name="o" type="surfaceshader" nodename="S"/>
+    <surfacematerial name="A" type="material">
+      <input name="surfaceshader" type="surfaceshader" nodename="S"/>
+    </surfacematerial>
+    <surfacematerial name="B" type="material" inherit="A"/>
+    <surfacematerial name="C" type="material">
+      <input name="surfaceshader" type="surfaceshader" output="o"/>
+    </surfacematerial>)",
+                                    diagnostics);
+  const auto materials = find_materials(*document);
+  ASSERT_EQ(materials.size(), 3u);
+  EXPECT_EQ(materials[1].surfaceshader, "S");
+  EXPECT_EQ(materials[2].surfaceshader, "o");
+}
+
 TEST(Find, ShadersThatNoMaterialUses) {
   Diagnostics diagnostics;
   const auto document = document_of(scene, diagnostics);
