@@ -71,7 +71,7 @@ class Compilations {
 };
 
 class RandomPrograms : public testing::TestWithParam<int> {};
-constexpr int shards = 4;
+constexpr int shards = 16;
 
 TEST_P(RandomPrograms, CompileForEveryTarget) {
   // One in a number that shares no factor with that of targets times widths.
