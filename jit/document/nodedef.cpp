@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "jit/document/read.h"
+#include "jit/document/names.h"
 #include "jit/document/value_text.h"
 
 namespace nacre {

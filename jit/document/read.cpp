@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "jit/document/file_roots.h"
+#include "jit/document/names.h"
 #include "jit/document/same_content.h"
 #include "jit/document/upgrade.h"
 #include "jit/document/xml.h"
@@ -53,7 +54,7 @@ class FileReader {
     Element* root = parse_xml(document_, file, text, options_, diagnostics_);
     if (root == nullptr) return nullptr;
     const std::size_t errors = diagnostics_.error_count();
-    check_names(*root);
+    check_names(document_, *root, diagnostics_);  // Before the includes come in.
     upgrade(document_, *root, diagnostics_);
     merge_includes(*root, folder);
     return diagnostics_.error_count() == errors ? root : nullptr;
@@ -126,49 +127,6 @@ class FileReader {
       return std::nullopt;
     }
     return text;
-  }
-
-  // Names are unique within a scope; checked before the includes come in.
-  void check_names(const Element& root) {
-    std::vector<const Element*> pending{&root};
-    check_namespace(root);
-    while (!pending.empty()) {
-      const Element& scope = *pending.back();
-      pending.pop_back();
-      for (const Element& child : scope.children()) {
-        if (child.child_count() > 0) pending.push_back(&child);
-        check_namespace(child);
-        if (!child.has_attribute("name") || is_valid_name(child.name())) continue;
-        diagnostics_.error("invalid-name", location(child), "this is not a valid name",
-                           "letters, digits and '_', not starting with a digit",
-                           fmt::format("'{}'", child.name().substr(0, 100)));
-      }
-      check_unique(scope);
-    }
-  }
-
-  void check_namespace(const Element& element) {
-    const std::string_view space = element.attribute("namespace");
-    if (space.empty() || is_valid_name(space)) return;
-    diagnostics_.error("invalid-name", location(element), "this is not a valid namespace",
-                       "letters, digits and '_', not starting with a digit",
-                       fmt::format("'{}'", space.substr(0, 100)));
-  }
-
-  void check_unique(const Element& scope) {
-    constexpr std::size_t small_scope = 16;
-    std::unordered_map<std::string_view, const Element*> names;
-    for (const Element& child : scope.children()) {
-      if (child.name().empty()) continue;
-      const bool is_small = scope.child_count() <= small_scope;
-      const Element* first =
-          is_small ? scope.child(child.name()) : names.emplace(child.name(), &child).first->second;
-      if (first == &child) continue;
-      diagnostics_.error(
-          "duplicate-name", location(child),
-          fmt::format("the name '{}' is used twice in one scope", child.name().substr(0, 100)),
-          "a name of its own", fmt::format("the first in line {}", document_.line_of(*first)));
-    }
   }
 
   void merge_includes(Element& root, const fs::path& folder) {
@@ -277,9 +235,6 @@ class FileReader {
   int file_count_ = 0;
 };
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 std::unique_ptr<Document> finish(std::unique_ptr<Document> document, Element* root) {
   if (root == nullptr) return nullptr;
   document->set_root(*root);
@@ -294,20 +249,6 @@ std::unique_ptr<Document> empty_document(const ReadOptions& options) {
 }
 
 }  // namespace
-
-bool is_valid_name(std::string_view name) {
-  bool at_start = true;
-  for (char c : name) {
-    if (c == ':' && !at_start) {
-      at_start = true;
-    } else if (is_letter(c) || (is_digit(c) && !at_start)) {
-      at_start = false;
-    } else {
-      return false;
-    }
-  }
-  return !at_start;
-}
 
 std::unique_ptr<Document> read_document(const fs::path& file, const ReadOptions& options,
                                         Diagnostics& diagnostics) {

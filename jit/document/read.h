@@ -57,8 +57,4 @@ std::unique_ptr<Document> read_document_text(std::string_view text, const std::s
 std::unique_ptr<Document> read_documents(const std::vector<std::filesystem::path>& files,
                                          const ReadOptions& options, Diagnostics& diagnostics);
 
-/// True for what the standard allows as a name, letters, digits and
-/// underscores not starting with a digit, with any number of "ns:" before it.
-bool is_valid_name(std::string_view name);
-
 }  // namespace nacre

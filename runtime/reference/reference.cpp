@@ -13,74 +13,11 @@
 #include "runtime/float_environment.h"
 #include "runtime/program/fold.h"
 #include "runtime/program/region.h"
+#include "runtime/reference/numbers.h"
 
 namespace nacre {
 
 namespace {
-
-/// One value of one point: f of an f32, i of an i32, and of a b1 as 0 or 1.
-struct Value {
-  double f = 0.0;
-  std::uint32_t i = 0;
-};
-
-double float_of(std::uint32_t bits) {
-  return static_cast<double>(std::bit_cast<float>(flush_denormal(bits)));
-}
-
-std::uint32_t bits_of(double value) {
-  const auto rounded = static_cast<float>(value);
-  if (std::isnan(rounded)) return canonical_nan;
-  return flush_denormal(std::bit_cast<std::uint32_t>(rounded));
-}
-
-std::int32_t truncate_saturated(double value) {
-  if (std::isnan(value)) return 0;
-  const double low = std::numeric_limits<std::int32_t>::min();
-  const double high = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::clamp(value, low, high));
-}
-
-/// Float in, float out.
-double compute(Op op, double a, double b, double c) {
-  switch (op) {
-    case Op::add: return a + b;
-    case Op::sub: return a - b;
-    case Op::mul: return a * b;
-    case Op::div: return a / b;
-    case Op::fma: return std::fma(a, b, c);
-    case Op::min: return a < b ? a : b;
-    case Op::max: return a > b ? a : b;
-    case Op::sqrt: return std::sqrt(a);
-    case Op::neg: return -a;
-    case Op::abs: return std::fabs(a);
-    case Op::floor: return std::floor(a);
-    case Op::ceil: return std::ceil(a);
-    case Op::trunc: return std::trunc(a);
-    case Op::round: return std::nearbyint(a);
-    case Op::sin: return std::sin(a);
-    case Op::cos: return std::cos(a);
-    case Op::tan: return std::tan(a);
-    case Op::asin: return std::asin(a);
-    case Op::acos: return std::acos(a);
-    case Op::atan2: return std::atan2(a, b);
-    case Op::exp: return std::exp(a);
-    case Op::exp2: return std::exp2(a);
-    case Op::log: return std::log(a);
-    case Op::log2: return std::log2(a);
-    case Op::pow: return std::pow(a, b);
-    default: assert(false && "not an operation on floats"); return 0.0;
-  }
-}
-
-std::uint32_t compare(Op op, double a, double b) {
-  switch (op) {
-    case Op::eq: return a == b;
-    case Op::ne: return a != b;
-    case Op::lt: return a < b;
-    default: return a <= b;
-  }
-}
 
 class Run {
  public:
@@ -100,22 +37,22 @@ class Run {
   struct Frame {
     const Function& function;
     const FunctionCost& cost;
-    const std::vector<Value>& arguments;
-    std::vector<Value> values;
-    std::vector<Value> results;
+    const std::vector<Value64>& arguments;
+    std::vector<Value64> values;
+    std::vector<Value64> results;
   };
 
   bool is_asked_to_stop() const {
     return args_.stop != nullptr && args_.stop->load(std::memory_order_relaxed) != 0;
   }
 
-  std::vector<Value> call(std::uint32_t number, const std::vector<Value>& arguments) {
+  std::vector<Value64> call(std::uint32_t number, const std::vector<Value64>& arguments) {
     const Function& function = program_.functions[number];
     Frame frame{.function = function,
                 .cost = costs_[number],
                 .arguments = arguments,
-                .values = std::vector<Value>(function.code.size()),
-                .results = std::vector<Value>(function.results.size())};
+                .values = std::vector<Value64>(function.code.size()),
+                .results = std::vector<Value64>(function.results.size())};
     run(frame, 0, function.code.size());
     return std::move(frame.results);
   }
@@ -205,11 +142,11 @@ class Run {
   }
 
   void step(Frame& frame, std::size_t i, const Instruction& instruction) {
-    const auto operand = [&](std::size_t k) -> const Value& {
+    const auto operand = [&](std::size_t k) -> const Value64& {
       return frame.values[instruction.operands[k]];
     };
     const auto f = [&](std::size_t k) { return k < instruction.count ? operand(k).f : 0.0; };
-    Value& to = frame.values[i];
+    Value64& to = frame.values[i];
     switch (instruction.op) {
       case Op::constant: to = from_bits(instruction.type, instruction.imm); break;
       case Op::parameter:
@@ -233,7 +170,7 @@ class Run {
       case Op::texel: to.i = texel(operand(0).i, operand(1).i); break;
       case Op::texture_call: texture_call(frame, instruction); break;
       case Op::call: {
-        std::vector<Value> arguments;
+        std::vector<Value64> arguments;
         for (const ValueId id : frame.function.operands(instruction)) {
           arguments.push_back(frame.values[id]);
         }
@@ -262,7 +199,7 @@ class Run {
     }
   }
 
-  static Value from_bits(Scalar type, std::uint32_t bits) {
+  static Value64 from_bits(Scalar type, std::uint32_t bits) {
     if (type == Scalar::f32) return {.f = float_of(bits), .i = 0};
     if (type == Scalar::b1) return {.f = 0.0, .i = bits != 0 ? 1u : 0u};
     return {.f = 0.0, .i = bits};
@@ -312,7 +249,7 @@ class Run {
     for (std::size_t c = 0; c < 4; ++c) results_[c].f = static_cast<double>(rgba[c]);
   }
 
-  void store(std::uint32_t channel, const Value& value) const {
+  void store(std::uint32_t channel, const Value64& value) const {
     const Scalar type = program_.outputs[channel].type;
     if (type == Scalar::f32 && store_double_) {
       static_cast<double*>(args_.outputs[channel])[point_] = value.f;
@@ -329,7 +266,7 @@ class Run {
   bool store_double_;
   std::uint64_t point_ = 0;
   double steps_left_ = 0;  ///< Of the point; below zero: the run has failed.
-  std::vector<Value> results_;
+  std::vector<Value64> results_;
 };
 
 class Reference final : public ReferenceKernel {

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "jit/document/read.h"
+#include "jit/document/names.h"
 #include "jit/graph/check/parts.h"
 
 namespace nacre {

@@ -1,7 +1,7 @@
 // What <input>, <output> and <token> elements are connected to, or say.
 #include <fmt/format.h>
 
-#include "jit/document/read.h"
+#include "jit/document/names.h"
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/check/parts.h"

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "jit/document/names.h"
 #include "tests/support/materialx_samples.h"
 #include "tests/support/standard_library.h"
 
