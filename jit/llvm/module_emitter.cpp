@@ -72,7 +72,10 @@ llvm::Function* ModuleEmitter::instance(std::uint32_t index, int lanes) {
   if (known != nullptr) return known;
   const Function& function = program_.functions[index];
   std::vector<llvm::Type*> arguments{llvm::PointerType::getUnqual(context())};
-  for (const Scalar argument : function.arguments) arguments.push_back(kept_type(argument, lanes));
+  const std::vector<bool> uniform = uniform_arguments(function);
+  for (std::size_t i = 0; i < uniform.size(); ++i) {
+    arguments.push_back(kept_type(function.arguments[i], uniform[i] ? 1 : lanes));
+  }
   std::vector<llvm::Type*> results;
   for (const Scalar result : function.results) results.push_back(kept_type(result, lanes));
   llvm::StructType* result = llvm::StructType::get(context(), results);

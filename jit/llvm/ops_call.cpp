@@ -1,5 +1,7 @@
 #include <array>
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "jit/llvm/ops.h"
 
@@ -24,9 +26,12 @@ Value* call(FunctionEmitter& e, ValueId id) {
   const Instruction& instruction = e.at(id);
   const int lanes = e.lanes_of(id);
   llvm::Function* callee = e.module().instance(instruction.imm, lanes);
+  const std::vector<bool> uniform =
+      uniform_arguments(e.module().program().functions[instruction.imm]);
+  const std::span<const ValueId> operands = e.function().operands(instruction);
   std::vector<Value*> arguments{e.kernel_arguments};
-  for (const ValueId operand : e.function().operands(instruction)) {
-    arguments.push_back(e.keep(operand, lanes));
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    arguments.push_back(e.keep(operands[i], uniform[i] ? 1 : lanes));
   }
   llvm::CallInst* made = e.builder().CreateCall(callee, arguments);
   made->setCallingConv(callee->getCallingConv());

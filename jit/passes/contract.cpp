@@ -199,16 +199,20 @@ Fusions choose(const Program& marked) {
 
 Program contract(const Program& program, bool flattens) {
   constexpr std::size_t any = std::size_t{1} << 31;
-  Program before = program;
-  mark_varying(before);
+  // Whether two factors are fused is not to hang on who calls a function.
+  const auto marked = [](Program made) {
+    mark_varying(made, false, true);
+    return made;
+  };
+  const Program before = marked(program);
   Fusions fusions = choose(before);
   if (fusions.empty() && !flattens) return before;
-  Program result = transform(before, Fuser(before, fusions), any,
-                             flattens ? cheap_regions(before) : Flattening());
+  Program result = marked(transform(before, Fuser(before, fusions), any,
+                                    flattens ? cheap_regions(before) : Flattening()));
   // A product that stayed may be free to go once its rival is gone; every
   // round has fewer sums.
   for (fusions = choose(result); !fusions.empty(); fusions = choose(result)) {
-    result = transform(result, Fuser(result, fusions));
+    result = marked(transform(result, Fuser(result, fusions)));
   }
   return result;
 }

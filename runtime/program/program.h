@@ -122,8 +122,13 @@ std::string to_string(const Program& program);
 /// before their callers. Returns the first fault, or an empty string.
 std::string verify(const Program& program);
 
-/// Sets Instruction::varying everywhere: inputs and what depends on them.
-/// With `all`, every value is varying (a debug mode that must change nothing).
-void mark_varying(Program& program, bool all = false);
+/// Sets Instruction::varying everywhere: inputs and what depends on them. An argument is
+/// varying if that of any call is, or by `all_arguments`. With `all`, every value is (a debug
+/// mode that must change nothing).
+void mark_varying(Program& program, bool all = false, bool all_arguments = false);
+
+/// Of a marked Program's function, by index: the arguments that it reads and that no call
+/// gives a varying value.
+std::vector<bool> uniform_arguments(const Function& function);
 
 }  // namespace nacre

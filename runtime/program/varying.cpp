@@ -4,15 +4,18 @@ namespace nacre {
 
 namespace {
 
+/// Which arguments of a function differ from lane to lane, by index.
+using Arguments = std::vector<bool>;
+
 /// One forward sweep; true if something became varying. A loop's carries are
 /// uniform until a varying value, or a varying mask, reaches them.
-bool sweep(Function& function, bool all) {
+bool sweep(Function& function, const Arguments& arguments, bool all) {
   bool changed = false;
   std::vector<std::size_t> opened;  // The opening instructions of the regions around.
   for (std::size_t i = 0; i < function.code.size(); ++i) {
     Instruction& instruction = function.code[i];
-    bool varying =
-        instruction.varying || all || instruction.op == Op::input || instruction.op == Op::argument;
+    bool varying = instruction.varying || all || instruction.op == Op::input ||
+                   (instruction.op == Op::argument && arguments[instruction.imm]);
     for (const ValueId operand : function.operands(instruction)) {
       varying = varying || function.code[operand].varying;
     }
@@ -39,12 +42,36 @@ bool sweep(Function& function, bool all) {
 
 }  // namespace
 
-void mark_varying(Program& program, bool all) {
-  for (Function& function : program.functions) {
-    for (Instruction& instruction : function.code) instruction.varying = false;
-    while (sweep(function, all)) {
-    }
+void mark_varying(Program& program, bool all, bool all_arguments) {
+  std::vector<Arguments> arguments;
+  for (const Function& function : program.functions) {
+    arguments.emplace_back(function.arguments.size(), all_arguments);
   }
+  const auto mark = [&](Function& function, const Arguments& own) {
+    for (Instruction& instruction : function.code) instruction.varying = false;
+    while (sweep(function, own, all)) {
+    }
+    for (const Instruction& call : function.code) {
+      if (call.op != Op::call) continue;
+      const auto operands = function.operands(call);
+      for (std::size_t k = 0; k < operands.size(); ++k) {
+        if (function.code[operands[k]].varying) arguments[call.imm][k] = true;
+      }
+    }
+  };
+  // Callers before what they call: the entry, and then from the last one on.
+  mark(program.entry(), arguments[0]);
+  for (std::size_t i = program.functions.size(); i-- > 1;) {
+    mark(program.functions[i], arguments[i]);
+  }
+}
+
+std::vector<bool> uniform_arguments(const Function& function) {
+  std::vector<bool> uniform(function.arguments.size(), false);
+  for (const Instruction& instruction : function.code) {
+    if (instruction.op == Op::argument && !instruction.varying) uniform[instruction.imm] = true;
+  }
+  return uniform;
 }
 
 }  // namespace nacre

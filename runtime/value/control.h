@@ -76,6 +76,18 @@ T loop(Recorder& recorder, Bool active, int bound, T state, F&& body) {
   return detail::rebuild(state, finals);
 }
 
+/// A literal as an argument that outline() records no function of its own for.
+template <class T>
+T unspecialized(Recorder& recorder, T value) {
+  visit(value, [&](auto& scalar) {
+    const Ref ref = scalar.ref();
+    if (!ref.is_constant()) return;
+    scalar = std::remove_reference_t<decltype(scalar)>(
+        Ref{&recorder, recorder.materialize(ref), ref.type});
+  });
+  return value;
+}
+
 /// Calls `body(arguments...)` as an outlined function: recorded once under
 /// `name` and for each set of literal arguments, called wherever it is used.
 /// The body sees literal arguments as literals; it must not use other recorded
