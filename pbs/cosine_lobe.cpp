@@ -6,7 +6,7 @@ namespace nacre {
 
 Float3 CosineLobe::axis(const View& view) const {
   const Float3 n = facing(normal_, view.wo);
-  return side_ == Side::viewer ? n : -n;
+  return hemisphere_ == Hemisphere::viewer ? n : -n;
 }
 
 LobeSample CosineLobe::sample(const View& view, Float3 u) const {

@@ -6,18 +6,18 @@
 namespace nacre {
 
 /// What the lobes share that scatter about the normal with the density of a
-/// cosine: on the viewer's side, or all on the other. Nothing passes to a layer
+/// cosine: on the viewer's hemisphere, or all on the other. Nothing passes to a layer
 /// below (the library's 1.39.5 closures). Derived lobes say how much scatters.
 class CosineLobe : public Lobe {
  public:
-  enum class Side { viewer, other };
+  enum class Hemisphere { viewer, other };
   /// `normal` is kept: prepare_normal.
-  CosineLobe(std::string_view name, Side side, Float3 normal)
-      : name_(name), side_(side), normal_(normal) {}
+  CosineLobe(std::string_view name, Hemisphere hemisphere, Float3 normal)
+      : name_(name), hemisphere_(hemisphere), normal_(normal) {}
 
   std::string_view name() const final { return name_; }
   std::int32_t kinds() const final {
-    return side_ == Side::viewer ? lobe_diffuse_reflection : lobe_diffuse_transmission;
+    return hemisphere_ == Hemisphere::viewer ? lobe_diffuse_reflection : lobe_diffuse_transmission;
   }
   bool is_opaque() const final { return true; }
   Color3 throughput(const View&) const final { return Color3(0.0f); }
@@ -29,7 +29,7 @@ class CosineLobe : public Lobe {
 
  private:
   std::string_view name_;
-  Side side_;
+  Hemisphere hemisphere_;
   Float3 normal_;
 };
 
@@ -37,8 +37,8 @@ class CosineLobe : public Lobe {
 class LambertLobe final : public CosineLobe {
  public:
   /// `color` is prepared: prepare_tint.
-  LambertLobe(std::string_view name, Side side, Float3 normal, Color3 color)
-      : CosineLobe(name, side, normal), color_(color) {}
+  LambertLobe(std::string_view name, Hemisphere hemisphere, Float3 normal, Color3 color)
+      : CosineLobe(name, hemisphere, normal), color_(color) {}
   LobeValue evaluate(const View& view, Float3 wi) const override;
   Color3 albedo(const View&) const override { return saturate(color_); }
 

@@ -86,7 +86,7 @@ struct ShadingBatch {
   float frame = 1.f;  ///< MaterialX `frame`.
 };
 
-enum SampleFlag : std::uint32_t {
+enum ScatterFlag : std::uint32_t {
   sample_valid = 1u << 0,  ///< Clear: absorbed; every other output of the lane is ignored.
   sample_delta =
       1u << 1,  ///< From a Dirac lobe: `pdf` is a probability and light sampling is blind.
@@ -97,7 +97,7 @@ struct SampleLanes {
   Lanes3 wi;                       ///< World, away from the surface, unit length.
   Lanes3 weight;                   ///< rgb: f·cos/pdf.
   float* pdf = nullptr;            ///< Forward, per solid angle, over all lobes.
-  std::uint32_t* flags = nullptr;  ///< SampleFlag bits.
+  std::uint32_t* flags = nullptr;  ///< ScatterFlag bits.
 };
 
 struct EvaluateLanes {

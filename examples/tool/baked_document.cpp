@@ -152,7 +152,7 @@ void BakedDocument::add_job(const Element& input, const Feed& feed, const NodeDe
   } while (scope.child(name) != nullptr);
   // An output of the source that gives what the input gets.
   Element& probe = source_.create_at("output", port);
-  std::vector<Attribute> attributes{{"name", source_.keep(name)},
+  std::vector<Attribute> attributes{{"name", source_.intern(name)},
                                     {"type", input.attribute("type")}};
   for (std::string_view wanted : {"nodename", "nodegraph", "interfacename", "output"}) {
     if (port.has_attribute(wanted)) attributes.push_back({wanted, port.attribute(wanted)});

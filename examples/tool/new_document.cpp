@@ -16,14 +16,14 @@ NewDocument::NewDocument()
 
 Element& NewDocument::make(std::string_view category, std::string_view name,
                            std::string_view type) {
-  Element& element = document_.create(document_.keep(category), 0, 0);
+  Element& element = document_.create(document_.intern(category), 0, 0);
   set(element, "name", name);
   if (!type.empty()) set(element, "type", type);
   return element;
 }
 
 Element& NewDocument::copy_of(const Element& element) {
-  Element& copy = document_.create(document_.keep(element.category()), 0, 0);
+  Element& copy = document_.create(document_.intern(element.category()), 0, 0);
   for (const Attribute& attribute : element.attributes()) {
     set(copy, attribute.name, attribute.name == "name" ? element.name() : attribute.value);
   }
@@ -39,8 +39,8 @@ Element& NewDocument::add_input(Element& node, std::string_view name, std::strin
 }
 
 void NewDocument::set(Element& element, std::string_view name, std::string_view value) {
-  const std::string_view kept = document_.keep(value);
-  document_.set_attribute(element, document_.keep(name), kept);
+  const std::string_view kept = document_.intern(value);
+  document_.set_attribute(element, document_.intern(name), kept);
   if (name == "name") Document::set_name(element, kept);
 }
 

@@ -202,7 +202,7 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   }
   SystemOptions system;
   system.libraries.push_back(data);
-  system.standard_sources = options.graph_limits.prefer == Preference::source;
+  system.standard_texts = options.graph_limits.prefer == Preference::source;
   for (const std::string& library : options.libraries) system.libraries.emplace_back(library);
   const auto config = ocio_config(options.ocio, diagnostics);
   if (!config) return opened;

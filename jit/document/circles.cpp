@@ -15,15 +15,15 @@ class Circles {
   void visit(const Element& start) {
     if (order_.contains(&start)) return;
     open(start);
-    while (!frames_.empty()) {
-      Frame& frame = frames_.back();
-      if (frame.next < frame.targets.size()) {
-        const Element* target = frame.targets[frame.next++];
+    while (!visits_.empty()) {
+      Visit& visit = visits_.back();
+      if (visit.next < visit.targets.size()) {
+        const Element* target = visit.targets[visit.next++];
         const auto known = order_.find(target);
         if (known == order_.end()) {
           open(*target);
         } else if (!numbers.contains(target)) {  // still on the stack
-          frame.lowest = std::min(frame.lowest, known->second);
+          visit.lowest = std::min(visit.lowest, known->second);
         }
         continue;
       }
@@ -34,7 +34,7 @@ class Circles {
   std::unordered_map<const Element*, std::size_t> numbers;
 
  private:
-  struct Frame {
+  struct Visit {
     const Element* element;
     std::size_t lowest;  ///< Order of the earliest element on the stack it leads to.
     std::vector<const Element*> targets;
@@ -45,13 +45,13 @@ class Circles {
     const std::size_t order = order_.size();
     order_.emplace(&element, order);
     stack_.push_back(&element);
-    frames_.push_back({&element, order, leads_to_(element)});
+    visits_.push_back({&element, order, leads_to_(element)});
   }
 
   void close() {
-    const Frame done = std::move(frames_.back());
-    frames_.pop_back();
-    if (!frames_.empty()) frames_.back().lowest = std::min(frames_.back().lowest, done.lowest);
+    const Visit done = std::move(visits_.back());
+    visits_.pop_back();
+    if (!visits_.empty()) visits_.back().lowest = std::min(visits_.back().lowest, done.lowest);
     if (done.lowest != order_.at(done.element)) return;
     const Element* last = nullptr;
     while (last != done.element) {
@@ -64,7 +64,7 @@ class Circles {
   const LeadsTo& leads_to_;
   std::unordered_map<const Element*, std::size_t> order_;
   std::vector<const Element*> stack_;
-  std::vector<Frame> frames_;
+  std::vector<Visit> visits_;
 };
 
 }  // namespace

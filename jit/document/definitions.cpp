@@ -282,9 +282,9 @@ const Element* Definitions::graph_of(const NodeDef& def) const {
   return found == graphs_.end() ? nullptr : found->second;
 }
 
-const Element* Definitions::source_of(const NodeDef& def) const {
+const Element* Definitions::text_of(const NodeDef& def) const {
   if (base_ != nullptr) {
-    if (const Element* source = base_->source_of(def)) return source;
+    if (const Element* source = base_->text_of(def)) return source;
   }
   const auto found = sources_.find(&def);
   return found == sources_.end() ? nullptr : found->second;

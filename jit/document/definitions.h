@@ -43,7 +43,7 @@ class Definitions {
   /// The `<implementation>` that gives a nodedef by text: an attribute `file` with
   /// a function of the GLSL subset, or `sourcecode`, for our target, for none, or
   /// for MaterialX's own GLSL generator. Null if there is none.
-  const Element* source_of(const NodeDef& def) const;
+  const Element* text_of(const NodeDef& def) const;
 
   /// What the document has to implement a nodedef of the library here: graphs, and
   /// `<implementation>`s that name one or have a text. The library's own go before them.

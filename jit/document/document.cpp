@@ -110,7 +110,7 @@ int Document::column_of(const Element& element) const {
   return static_cast<int>(element.offset_ - starts[line_of(element) - 1]) + 1;
 }
 
-std::string_view Document::keep(std::string_view text) {
+std::string_view Document::intern(std::string_view text) {
   char* copy = static_cast<char*>(arena_.allocate(text.size() + 1, 1));
   if (!text.empty()) std::memcpy(copy, text.data(), text.size());
   return {copy, text.size()};

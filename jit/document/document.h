@@ -56,7 +56,7 @@ class Document {
   /// See max_inheritance().
   void set_max_inheritance(std::size_t most) { max_inheritance_ = most; }
   /// Text that lives as long as the document.
-  std::string_view keep(std::string_view text);
+  std::string_view intern(std::string_view text);
   /// Takes a file's text; `offset`s of its elements count from its start.
   std::uint16_t add_file(std::string name, std::unique_ptr<char[]> text, std::size_t size);
   /// The text of a file, still to be parsed: parsing may overwrite it.

@@ -55,7 +55,7 @@ std::shared_ptr<const Library> load_library(const std::vector<fs::path>& paths,
       continue;
     }
     const bool is_standard = fs::is_directory(path / "stdlib", error);
-    const std::vector<fs::path> found = files_below(path, options.standard_sources || !is_standard);
+    const std::vector<fs::path> found = files_below(path, options.standard_texts || !is_standard);
     if (found.empty()) {
       diagnostics.error("empty-library", {path.string(), 0, 0, ""},
                         "the library folder holds no .mtlx files");

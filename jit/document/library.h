@@ -35,7 +35,7 @@ struct LibraryOptions {
   /// Also the GLSL texts of the data library itself (the folder that has a
   /// "stdlib"), for those who want them run: nothing else needs them, and they
   /// are a quarter of what there is to read.
-  bool standard_sources = false;
+  bool standard_texts = false;
 };
 
 /// Loads files and folders, in the order given; of a folder all .mtlx files

@@ -73,7 +73,7 @@ class FileReader {
         }
       }
       const std::string name = child->name().empty() ? "" : own_qualified_name(*child);
-      if (name != child->name()) Document::set_name(*child, document_.keep(name));
+      if (name != child->name()) Document::set_name(*child, document_.intern(name));
       const auto known = names.find(child->name());
       if (child->name().empty() || known == names.end()) {
         if (!child->name().empty()) names.emplace(child->name(), child);

@@ -139,7 +139,7 @@ struct Reader {
       case pugi::node_cdata: notes.push_back({Note::Kind::cdata, text}); break;
       case pugi::node_pi:
       case pugi::node_declaration:
-        notes.push_back({Note::Kind::instruction, document.keep(instruction_text(node))});
+        notes.push_back({Note::Kind::instruction, document.intern(instruction_text(node))});
         break;
       case pugi::node_pcdata:
         if (text.find_first_not_of(" \t\r\n") != std::string_view::npos) {

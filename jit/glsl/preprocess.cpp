@@ -331,7 +331,7 @@ class Preprocessor {
 
 void define_token(Sources& sources, Definitions& definitions, std::string_view name,
                   std::string_view text) {
-  const std::string_view kept = sources.keep(fmt::format("${}", name));
+  const std::string_view kept = sources.intern(fmt::format("${}", name));
   const std::uint32_t file = sources.add({std::string(kept), std::string(text)});
   Macro macro;
   macro.body = lex(sources, file);

@@ -81,7 +81,8 @@ Value Recording::expect(const Value& value, const Type& type, Place place) {
 }
 
 Value Recording::name(const Expression& expression) {
-  count_steps((variables_.size() - frame().first) / 64, expression.place);  // They are searched.
+  count_steps((variables_.size() - activation().first) / 64,
+              expression.place);  // They are searched.
   if (const Variable* variable = find(expression.text)) return variable->value;
   const auto& globals = context_.syntax.global_by_name;
   if (const auto found = globals.find(expression.text); found != globals.end()) {
@@ -93,13 +94,13 @@ Value Recording::name(const Expression& expression) {
             fmt::format("the global '{}' has no value", expression.text));
     }
     // Its initializer sees other globals, not the variables around this use.
-    Frame alone;
+    Activation alone;
     alone.first = variables_.size();
-    frames_.push_back(alone);
+    activations_.push_back(alone);
     reading_globals_.push_back(global->name);
     Value value = initial_value(*global->initial, global->type);
     reading_globals_.pop_back();
-    frames_.pop_back();
+    activations_.pop_back();
     return value;
   }
   error(expression.place, "glsl-undefined", fmt::format("there is no '{}'", expression.text));

@@ -19,9 +19,9 @@ bool is_worth_unrolling(int trips, const Statement& body) {
 
 /// The lanes that neither returned nor left the loop that is being recorded.
 Bool Recording::running() {
-  Bool left = variables_[frame().returned].value.truth(0);
-  if (frame().broke != 0) left = left | variables_[frame().broke].value.truth(0);
-  if (frame().continued != 0) left = left | variables_[frame().continued].value.truth(0);
+  Bool left = variables_[activation().returned].value.truth(0);
+  if (activation().broke != 0) left = left | variables_[activation().broke].value.truth(0);
+  if (activation().continued != 0) left = left | variables_[activation().continued].value.truth(0);
   return !left;
 }
 
@@ -35,8 +35,10 @@ void Recording::execute(const Statement& statement) {
     case Statement::Kind::loop: scoped([&] { loop_statement(statement); }); break;
     case Statement::Kind::do_loop: do_loop(statement); break;
     case Statement::Kind::return_: return_statement(statement); break;
-    case Statement::Kind::break_: variables_[frame().broke].value = make(Bool(true)); break;
-    case Statement::Kind::continue_: variables_[frame().continued].value = make(Bool(true)); break;
+    case Statement::Kind::break_: variables_[activation().broke].value = make(Bool(true)); break;
+    case Statement::Kind::continue_:
+      variables_[activation().continued].value = make(Bool(true));
+      break;
   }
 }
 
@@ -83,12 +85,12 @@ void Recording::if_statement(const Statement& statement) {
 
 void Recording::return_statement(const Statement& statement) {
   const Level level(*this, statement.place, 250);
-  const Type type = frame().function != nullptr ? frame().function->type : void_type;
+  const Type type = activation().function != nullptr ? activation().function->type : void_type;
   if (statement.condition) {
     Value value = expect(evaluate(*statement.condition), type, statement.place);
-    variables_[frame().returned + 1].value = std::move(value);
+    variables_[activation().returned + 1].value = std::move(value);
   }
-  variables_[frame().returned].value = make(Bool(true));
+  variables_[activation().returned].value = make(Bool(true));
 }
 
 Bool Recording::loop_condition(const Expression* condition) {
@@ -98,28 +100,28 @@ Bool Recording::loop_condition(const Expression* condition) {
 
 /// One pass through a body, its `continue`s ended at its end.
 void Recording::run_body(const Statement& body) {
-  variables_[frame().continued].value = make(Bool(false));
+  variables_[activation().continued].value = make(Bool(false));
   scoped([&] { execute(body); });
-  variables_[frame().continued].value = make(Bool(false));
+  variables_[activation().continued].value = make(Bool(false));
 }
 
 void Recording::loop_statement(const Statement& statement) {
   const Level level(*this, statement.place, 400);
   if (statement.body[0]) execute(*statement.body[0]);
-  const Slot outer_broke = frame().broke;
-  const Slot outer_continued = frame().continued;
+  const Slot outer_broke = activation().broke;
+  const Slot outer_continued = activation().continued;
   const Slot broke = push("", make(Bool(false)));
   push("", make(Bool(false)));
-  frame().broke = broke;
-  frame().continued = broke + 1;
+  activation().broke = broke;
+  activation().continued = broke + 1;
   const std::optional<int> trips = literal_trips(statement);
   if (trips && is_worth_unrolling(*trips, *statement.body[1])) {
     unroll(statement, *trips);
   } else {
     iterate(statement, *statement.body[1], trips);
   }
-  frame().broke = outer_broke;
-  frame().continued = outer_continued;
+  activation().broke = outer_broke;
+  activation().continued = outer_continued;
 }
 
 /// How often a loop runs whose condition is literal throughout, if nothing leaves it before;
@@ -177,11 +179,11 @@ void Recording::iterate(const Statement& loop, const Statement& body, std::optio
   const Bool active = mask_ & running() & loop_condition(loop.condition.get());
   if (active.is_constant(false)) return;
   std::vector<Slot> carried;
-  for (Slot i = frame().first; i < variables_.size(); ++i) {
+  for (Slot i = activation().first; i < variables_.size(); ++i) {
     if (loop.assigned.contains(variables_[i].name)) carried.push_back(i);
   }
-  carried.push_back(frame().returned);
-  carried.push_back(frame().returned + 1);
+  carried.push_back(activation().returned);
+  carried.push_back(activation().returned + 1);
 
   const Bool mask = mask_;
   const auto most = static_cast<std::uint32_t>(context_.limits.loop_iterations);
@@ -202,8 +204,8 @@ void Recording::iterate(const Statement& loop, const Statement& body, std::optio
   const Ref here = has_inner ? recorder.carry(active.ref()) : Ref::literal(true);
   mask_ = Bool(here);
   // Lanes that returned or left are not here.
-  variables_[frame().returned].value = make(Bool(false));
-  variables_[frame().broke].value = make(Bool(false));
+  variables_[activation().returned].value = make(Bool(false));
+  variables_[activation().broke].value = make(Bool(false));
   run_body(body);
   const Bool stays = running();
   Bool go_on = stays;
@@ -230,26 +232,26 @@ void Recording::iterate(const Statement& loop, const Statement& body, std::optio
   for (std::size_t i = 0; i < carried.size(); ++i) {
     variables_[carried[i]].value.parts = finals[i];
   }
-  variables_[frame().broke].value = make(Bool(false));
-  variables_[frame().continued].value = make(Bool(false));
+  variables_[activation().broke].value = make(Bool(false));
+  variables_[activation().continued].value = make(Bool(false));
   mask_ = mask;
 }
 
 /// do body while (condition): the body once, then a loop of it.
 void Recording::do_loop(const Statement& statement) {
   const Level level(*this, statement.place, 450);
-  const Slot outer_broke = frame().broke;
-  const Slot outer_continued = frame().continued;
+  const Slot outer_broke = activation().broke;
+  const Slot outer_continued = activation().continued;
   scoped([&] {
     const Slot broke = push("", make(Bool(false)));
     push("", make(Bool(false)));
-    frame().broke = broke;
-    frame().continued = broke + 1;
+    activation().broke = broke;
+    activation().continued = broke + 1;
     run_body(*statement.body[0]);
     branch(running(), statement.place, [&] { iterate(statement, *statement.body[0]); }, [] {});
   });
-  frame().broke = outer_broke;
-  frame().continued = outer_continued;
+  activation().broke = outer_broke;
+  activation().continued = outer_continued;
 }
 
 }  // namespace nacre::glsl

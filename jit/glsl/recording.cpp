@@ -19,7 +19,7 @@ Scalar scalar_of(Base base) {
 }  // namespace
 
 Recording::Recording(const RecordContext& context) : context_(context) {
-  frames_.emplace_back();  // Of an expression that stands in no function.
+  activations_.emplace_back();  // Of an expression that stands in no function.
 }
 
 void Recording::bind(std::string_view name, Value value) { push(name, std::move(value), true); }
@@ -48,7 +48,7 @@ Recording::Slot Recording::push(std::string_view name, Value value, bool constan
 }
 
 Recording::Variable* Recording::find(std::string_view name) {
-  for (Slot i = variables_.size(); i > frame().first; --i) {
+  for (Slot i = variables_.size(); i > activation().first; --i) {
     if (variables_[i - 1].name == name) return &variables_[i - 1];
   }
   return nullptr;
@@ -121,7 +121,7 @@ CallResult Recording::call(const Function& function, std::vector<Value> argument
 
 CallResult Recording::call_inline(const Function& function, std::vector<Value> arguments) {
   const Slot first = variables_.size();
-  Frame made;
+  Activation made;
   made.function = &function;
   made.first = first;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -130,7 +130,7 @@ CallResult Recording::call_inline(const Function& function, std::vector<Value> a
   }
   made.returned = push("", make(Bool(false)));
   push("", zero(function.type));
-  frames_.push_back(made);
+  activations_.push_back(made);
   execute(*function.body);
   CallResult result;
   result.value = variables_[made.returned + 1].value;
@@ -138,7 +138,7 @@ CallResult Recording::call_inline(const Function& function, std::vector<Value> a
     const bool out = function.parameters[i].out;
     result.outputs.push_back(out ? variables_[first + i].value : Value{});
   }
-  frames_.pop_back();
+  activations_.pop_back();
   variables_.resize(first);
   return result;
 }

@@ -41,7 +41,7 @@ class Recording {
     std::vector<Parts> alternatives;
   };
 
-  struct Frame {
+  struct Activation {
     const Function* function = nullptr;
     Slot first = 0;     ///< Its variables start here.
     Slot returned = 0;  ///< Flag; the slot after it holds what is returned.
@@ -135,7 +135,7 @@ class Recording {
 
   Slot push(std::string_view name, Value value, bool constant = false);
   Variable* find(std::string_view name);
-  Frame& frame() { return frames_.back(); }
+  Activation& activation() { return activations_.back(); }
   [[noreturn, gnu::noinline]] void error(Place place, std::string code, std::string message,
                                          std::string expected = {}, std::string found = {}) const;
   void count_steps(std::size_t steps, Place place);
@@ -143,7 +143,7 @@ class Recording {
 
   const RecordContext& context_;
   std::vector<Variable> variables_;
-  std::vector<Frame> frames_;
+  std::vector<Activation> activations_;
   std::vector<const Function*> calling_;
   std::vector<std::string_view> reading_globals_;
   std::size_t steps_ = 0;

@@ -33,7 +33,7 @@ class Sources {
   }
   std::uint32_t count() const { return base_count_ + static_cast<std::uint32_t>(files_.size()); }
   /// Keeps a text that is of no file.
-  std::string_view keep(std::string text) { return kept_.emplace_back(std::move(text)); }
+  std::string_view intern(std::string text) { return kept_.emplace_back(std::move(text)); }
 
  private:
   std::shared_ptr<const Sources> base_;

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "jit/graph/source_table.h"
+#include "jit/graph/text_table.h"
 #include "runtime/diagnostic.h"
 #include "runtime/type.h"
 #include "runtime/value.h"
@@ -96,7 +96,7 @@ struct GraphOutput {
 
 /// What implements a nodedef by text: MaterialX's `<implementation>` with `file`
 /// or `sourcecode`, in the GLSL subset of jit/glsl.
-struct NodeSource {
+struct NodeText {
   std::string nodedef;   ///< The one it implements: "ND_my_noise_float".
   std::string file;      ///< With `function`; relative to `document`.
   std::string text;      ///< Instead of a file: an expression, "{{in1}} + {{in2}}", or with
@@ -105,8 +105,8 @@ struct NodeSource {
   std::string document;  ///< The file that names it.
   /// Allowed values of string inputs; a text gets the index of one.
   std::vector<std::pair<std::string, std::vector<std::string>>> enums;
-  std::vector<SourceTable> tables;  ///< Bound to the uniform samplers of the text.
-  SourceLocation where;             ///< Of the `<implementation>`.
+  std::vector<TextTable> tables;  ///< Bound to the uniform samplers of the text.
+  SourceLocation where;           ///< Of the `<implementation>`.
 };
 
 /// Typed nodes and connections, and nothing else: nodedefs resolved, node graphs
@@ -119,7 +119,7 @@ struct Graph {
   std::vector<Parameter> parameters;  ///< What may change without another topology.
   std::vector<GraphOutput> outputs;   ///< In the order asked for.
   /// For nodes whose nodedef has neither a body nor a graph; each nodedef once.
-  std::vector<NodeSource> sources;
+  std::vector<NodeText> texts;
   /// Main file of the document that it was built from, "" without one: the files that a
   /// document names lie below its folder (see ShaderOptions::files_anywhere).
   std::string document;

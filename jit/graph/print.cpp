@@ -82,10 +82,10 @@ void print_node(Out out, const Graph& graph, std::size_t index) {
   fmt::format_to(out, "\n");
 }
 
-void print_table(Out out, const SourceTable& table) {
+void print_table(Out out, const TextTable& table) {
   fmt::format_to(out, " {}={}x{}x{}x{} {} {}", table.name, table.size[0], table.size[1],
                  table.size[2], table.channels,
-                 table.filter == SourceTable::Filter::linear ? "linear" : "nearest",
+                 table.filter == TextTable::Filter::linear ? "linear" : "nearest",
                  table.values == nullptr ? "none" : table.values->digest());
 }
 
@@ -96,13 +96,13 @@ std::string print_nodes(const Graph& graph) {
   for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
     print_node(std::back_inserter(text), graph, i);
   }
-  for (const NodeSource& source : graph.sources) {
+  for (const NodeText& source : graph.texts) {
     fmt::format_to(std::back_inserter(text), "source {} ", source.nodedef);
     print_text(std::back_inserter(text), source.file.empty() ? source.text : source.file);
     if (!source.function.empty()) {
       fmt::format_to(std::back_inserter(text), " {}", source.function);
     }
-    for (const SourceTable& table : source.tables) print_table(std::back_inserter(text), table);
+    for (const TextTable& table : source.tables) print_table(std::back_inserter(text), table);
     text += '\n';
   }
   return text;

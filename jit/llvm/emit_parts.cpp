@@ -76,7 +76,7 @@ llvm::Value* FunctionEmitter::value_of(ValueId id) {
     assert(values_[id] != nullptr);
     return values_[id];
   }
-  llvm::LoadInst* load = builder_.CreateAlignedLoad(kept_type_of(id), place_of(id), align_of(id));
+  llvm::LoadInst* load = builder_.CreateAlignedLoad(stored_type_of(id), place_of(id), align_of(id));
   // No part writes where it reads.
   if (part_ != 0) {
     load->setMetadata(llvm::LLVMContext::MD_invariant_load,

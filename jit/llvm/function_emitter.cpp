@@ -30,7 +30,7 @@ void FunctionEmitter::emit(ValueId id) {
     if (parts_->home[id] != 0) enter_part(parts_->home[id]);
   }
   say_line(id + 1);
-  if (llvm::Value* value = op(*this, id)) define(id, kept(value));
+  if (llvm::Value* value = op(*this, id)) define(id, to_stored(value));
   // Not before: several phis stand together.
   for (const ValueId made : to_store_) {
     builder_.CreateAlignedStore(values_[made], place_of(made), align_of(made));
@@ -64,22 +64,22 @@ llvm::Value* FunctionEmitter::use(ValueId id, int lanes) {
         return llvm::ConstantInt::getBool(module_.type(Scalar::b1, lanes), instruction.imm != 0);
     }
   }
-  return unkept(spread(value_of(id), lanes), instruction.type);
+  return from_stored(spread(value_of(id), lanes), instruction.type);
 }
 
-llvm::Value* FunctionEmitter::keep(ValueId id, int lanes) {
-  if (at(id).op == Op::constant) return kept(use(id, lanes));
-  return kept(spread(value_of(id), lanes));
+llvm::Value* FunctionEmitter::stored(ValueId id, int lanes) {
+  if (at(id).op == Op::constant) return to_stored(use(id, lanes));
+  return to_stored(spread(value_of(id), lanes));
 }
 
-llvm::Value* FunctionEmitter::kept(llvm::Value* value) {
+llvm::Value* FunctionEmitter::to_stored(llvm::Value* value) {
   const auto* vector = llvm::dyn_cast<llvm::FixedVectorType>(value->getType());
   if (vector == nullptr || !vector->getElementType()->isIntegerTy(1)) return value;
-  llvm::Type* type = module_.kept_type(Scalar::b1, static_cast<int>(vector->getNumElements()));
+  llvm::Type* type = module_.stored_type(Scalar::b1, static_cast<int>(vector->getNumElements()));
   return type == value->getType() ? value : builder_.CreateSExt(value, type);
 }
 
-llvm::Value* FunctionEmitter::unkept(llvm::Value* value, Scalar scalar) {
+llvm::Value* FunctionEmitter::from_stored(llvm::Value* value, Scalar scalar) {
   if (scalar != Scalar::b1 || value->getType()->getScalarType()->isIntegerTy(1)) return value;
   return builder_.CreateICmpSLT(value, llvm::Constant::getNullValue(value->getType()));
 }

@@ -37,19 +37,19 @@ class FunctionEmitter {
   bool is_wide(ValueId id) const { return lanes_ > 1 && at(id).varying; }
   int lanes_of(ValueId id) const { return is_wide(id) ? lanes_ : 1; }
   llvm::Type* type_of(ValueId id) { return module_.type(at(id).type, lanes_of(id)); }
-  llvm::Type* kept_type_of(ValueId id) { return module_.kept_type(at(id).type, lanes_of(id)); }
+  llvm::Type* stored_type_of(ValueId id) { return module_.stored_type(at(id).type, lanes_of(id)); }
 
   /// The value of `id` with that many lanes (1 or lanes()): spread if need be.
   llvm::Value* use(ValueId id, int lanes);
   llvm::Value* operand(const Instruction& instruction, std::size_t k, int lanes) {
     return use(instruction.operands[k], lanes);
   }
-  /// use(), in the kept_type(): for phis, arguments and results.
-  llvm::Value* keep(ValueId id, int lanes);
-  /// To the kept_type(), and back to the type().
-  llvm::Value* kept(llvm::Value* value);
-  llvm::Value* unkept(llvm::Value* value, Scalar scalar);
-  /// Values are defined in their kept_type().
+  /// use(), in the stored_type(): for phis, arguments and results.
+  llvm::Value* stored(ValueId id, int lanes);
+  /// To the stored_type(), and back to the type().
+  llvm::Value* to_stored(llvm::Value* value);
+  llvm::Value* from_stored(llvm::Value* value, Scalar scalar);
+  /// Values are defined in their stored_type().
   void define(ValueId id, llvm::Value* value);
   /// In this part, or anywhere where there are none.
   llvm::Value* defined(ValueId id) const { return values_[id]; }

@@ -62,7 +62,7 @@ llvm::Type* ModuleEmitter::type(Scalar scalar, int lanes) {
   return lanes == 1 ? one : llvm::FixedVectorType::get(one, static_cast<unsigned>(lanes));
 }
 
-llvm::Type* ModuleEmitter::kept_type(Scalar scalar, int lanes) {
+llvm::Type* ModuleEmitter::stored_type(Scalar scalar, int lanes) {
   const bool as_words = scalar == Scalar::b1 && lanes > 1 && !features_.avx512;
   return type(as_words ? Scalar::i32 : scalar, lanes);
 }
@@ -74,10 +74,10 @@ llvm::Function* ModuleEmitter::instance(std::uint32_t index, int lanes) {
   std::vector<llvm::Type*> arguments{llvm::PointerType::getUnqual(context())};
   const std::vector<bool> uniform = uniform_arguments(function);
   for (std::size_t i = 0; i < uniform.size(); ++i) {
-    arguments.push_back(kept_type(function.arguments[i], uniform[i] ? 1 : lanes));
+    arguments.push_back(stored_type(function.arguments[i], uniform[i] ? 1 : lanes));
   }
   std::vector<llvm::Type*> results;
-  for (const Scalar result : function.results) results.push_back(kept_type(result, lanes));
+  for (const Scalar result : function.results) results.push_back(stored_type(result, lanes));
   llvm::StructType* result = llvm::StructType::get(context(), results);
   llvm::Function* made = add_function(fmt::format("{}.{}.w{}", function.name, index, lanes),
                                       llvm::FunctionType::get(result, arguments, false));

@@ -46,11 +46,11 @@ class ModuleEmitter {
   /// The type of a value: a vector where `lanes` > 1.
   llvm::Type* type(Scalar scalar, int lanes);
 
-  /// The type in which a value is kept from its definition to its uses. As type(),
+  /// The type in which a value is stored from its definition to its uses. As type(),
   /// but for masks where the CPU has no mask registers: there a vector of b1 is
   /// words of all ones or zeros, as comparisons give them, since LLVM would pack it
   /// into other forms and back on the way.
-  llvm::Type* kept_type(Scalar scalar, int lanes);
+  llvm::Type* stored_type(Scalar scalar, int lanes);
 
   /// The outlined function `index` for vectors of `lanes`, or for scalars at
   /// lanes = 1. Emitted when first asked for.

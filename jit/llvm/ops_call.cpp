@@ -18,7 +18,7 @@ Value* argument(FunctionEmitter& e, ValueId id) {
 Value* give(FunctionEmitter& e, ValueId id) {
   const Instruction& instruction = e.at(id);
   e.gives.resize(e.function().results.size());
-  e.gives[instruction.imm] = e.keep(instruction.operands[0], e.lanes());
+  e.gives[instruction.imm] = e.stored(instruction.operands[0], e.lanes());
   return nullptr;
 }
 
@@ -31,7 +31,7 @@ Value* call(FunctionEmitter& e, ValueId id) {
   const std::span<const ValueId> operands = e.function().operands(instruction);
   std::vector<Value*> arguments{e.kernel_arguments};
   for (std::size_t i = 0; i < operands.size(); ++i) {
-    arguments.push_back(e.keep(operands[i], uniform[i] ? 1 : lanes));
+    arguments.push_back(e.stored(operands[i], uniform[i] ? 1 : lanes));
   }
   llvm::CallInst* made = e.builder().CreateCall(callee, arguments);
   made->setCallingConv(callee->getCallingConv());

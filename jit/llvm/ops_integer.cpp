@@ -42,13 +42,13 @@ template <llvm::Instruction::BinaryOps op>
 Value* logic(FunctionEmitter& e, ValueId id) {
   const Instruction& instruction = e.at(id);
   const int lanes = e.lanes_of(id);
-  return e.builder().CreateBinOp(op, e.keep(instruction.operands[0], lanes),
-                                 e.keep(instruction.operands[1], lanes));
+  return e.builder().CreateBinOp(op, e.stored(instruction.operands[0], lanes),
+                                 e.stored(instruction.operands[1], lanes));
 }
 
 Value* complement(FunctionEmitter& e, ValueId id) {
-  return e.builder().CreateXor(e.keep(e.at(id).operands[0], e.lanes_of(id)),
-                               llvm::Constant::getAllOnesValue(e.kept_type_of(id)));
+  return e.builder().CreateXor(e.stored(e.at(id).operands[0], e.lanes_of(id)),
+                               llvm::Constant::getAllOnesValue(e.stored_type_of(id)));
 }
 
 /// A sign that a mask flips, on bits: AVX-512 then needs one masked xor, where LLVM makes

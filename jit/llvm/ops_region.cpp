@@ -14,11 +14,11 @@ BasicBlock* new_block(FunctionEmitter& e, const char* name) {
   return BasicBlock::Create(e.module().context(), name, e.builder().GetInsertBlock()->getParent());
 }
 
-/// keep(id), emitted where the region has not begun.
-Value* keep_before(FunctionEmitter& e, const Region& region, ValueId id, int lanes) {
+/// stored(id), emitted where the region has not begun.
+Value* stored_before(FunctionEmitter& e, const Region& region, ValueId id, int lanes) {
   const llvm::IRBuilderBase::InsertPointGuard guard(e.builder());
   e.builder().SetInsertPoint(region.before->getTerminator());
-  return e.keep(id, lanes);
+  return e.stored(id, lanes);
 }
 
 bool is_true(Value* mask) {
@@ -61,7 +61,7 @@ Value* merge(FunctionEmitter& e, ValueId id) {
   for (const Merge& earlier : region.merges) {
     if (earlier.id == outer) skipped = e.spread(earlier.skipped, lanes);
   }
-  if (skipped == nullptr) skipped = keep_before(e, region, outer, lanes);
+  if (skipped == nullptr) skipped = stored_before(e, region, outer, lanes);
   region.merges.push_back({id, skipped});
   Value* inner = e.use(instruction.operands[0], lanes);
   if (!e.is_wide(region.open)) return inner;  // All lanes run it, or none.
@@ -75,14 +75,14 @@ Value* end_if(FunctionEmitter& e, ValueId) {
   BasicBlock* last = e.builder().GetInsertBlock();
   std::vector<Value*> merged;
   for (const Merge& merge : region.merges) {
-    merged.push_back(e.keep(merge.id, e.lanes_of(merge.id)));
+    merged.push_back(e.stored(merge.id, e.lanes_of(merge.id)));
   }
   e.builder().CreateBr(region.after);
   e.builder().SetInsertPoint(region.after);
   if (region.always) return nullptr;
   for (std::size_t k = 0; k < merged.size(); ++k) {
     const Merge& merge = region.merges[k];
-    llvm::PHINode* phi = e.builder().CreatePHI(e.kept_type_of(merge.id), 2);
+    llvm::PHINode* phi = e.builder().CreatePHI(e.stored_type_of(merge.id), 2);
     phi->addIncoming(merged[k], last);
     phi->addIncoming(merge.skipped, region.before);
     e.define(merge.id, phi);
@@ -97,8 +97,9 @@ Value* loop(FunctionEmitter& e, ValueId id) {
   region.iteration = e.builder().CreatePHI(e.builder().getInt32Ty(), 2, "iteration");
   region.iteration->addIncoming(e.i32(0), region.before);
   if (e.is_wide(id)) {
-    region.active = e.builder().CreatePHI(e.module().kept_type(Scalar::b1, e.lanes()), 2, "active");
-    region.active->addIncoming(keep_before(e, region, e.at(id).operands[0], e.lanes()),
+    region.active =
+        e.builder().CreatePHI(e.module().stored_type(Scalar::b1, e.lanes()), 2, "active");
+    region.active->addIncoming(stored_before(e, region, e.at(id).operands[0], e.lanes()),
                                region.before);
   }
   e.regions.push_back(std::move(region));
@@ -107,8 +108,8 @@ Value* loop(FunctionEmitter& e, ValueId id) {
 
 Value* carry(FunctionEmitter& e, ValueId id) {
   Region& region = e.regions.back();
-  Value* initial = keep_before(e, region, e.at(id).operands[0], e.lanes_of(id));
-  auto* phi = llvm::PHINode::Create(e.kept_type_of(id), 2, "", region.header->getFirstNonPHIIt());
+  Value* initial = stored_before(e, region, e.at(id).operands[0], e.lanes_of(id));
+  auto* phi = llvm::PHINode::Create(e.stored_type_of(id), 2, "", region.header->getFirstNonPHIIt());
   phi->addIncoming(initial, region.before);
   region.carries.push_back({.id = id, .phi = phi, .initial = initial});
   return phi;
@@ -122,7 +123,7 @@ Value* next(FunctionEmitter& e, ValueId id) {
   }
   const int lanes = e.lanes_of(id);
   if (region.active == nullptr) return e.use(value, lanes);
-  return e.builder().CreateSelect(e.unkept(region.active, Scalar::b1), e.use(value, lanes),
+  return e.builder().CreateSelect(e.from_stored(region.active, Scalar::b1), e.use(value, lanes),
                                   e.use(carry, lanes));
 }
 
@@ -132,7 +133,7 @@ Value* again(FunctionEmitter& e, ValueId id) {
   if (region.active == nullptr) {
     region.again = e.use(condition, 1);
   } else {
-    region.again = e.builder().CreateAnd(region.active, e.keep(condition, e.lanes()), "active");
+    region.again = e.builder().CreateAnd(region.active, e.stored(condition, e.lanes()), "active");
   }
   return nullptr;
 }
@@ -165,7 +166,7 @@ Value* end_loop(FunctionEmitter& e, ValueId) {
   const std::uint32_t imm = e.at(region.open).imm;
   Value* count = b.CreateAdd(region.iteration, e.i32(1));
   Value* below = b.CreateICmpULT(count, e.i32(loop_bound(imm)));
-  Value* wants_more = e.any(e.unkept(region.again, Scalar::b1));
+  Value* wants_more = e.any(e.from_stored(region.again, Scalar::b1));
   Value* goes_on = b.CreateAnd(below, wants_more);
   if (e.module().limit().is_counted()) {
     goes_on = b.CreateAnd(goes_on, count_round(e, region.open));
@@ -177,7 +178,7 @@ Value* end_loop(FunctionEmitter& e, ValueId) {
   for (const Carry& carry : region.carries) {
     // A carry without a next keeps its value.
     finals.push_back(carry.next == no_value ? carry.phi
-                                            : e.keep(carry.next, e.lanes_of(carry.next)));
+                                            : e.stored(carry.next, e.lanes_of(carry.next)));
   }
   BasicBlock* latch = b.GetInsertBlock();
   BasicBlock* last = latch;  // The one before `after`.

@@ -33,7 +33,7 @@ Binding load_binding(FunctionEmitter& e, Value* slot) {
       e.load_invariant(b.getPtrTy(), e.byte_offset(binding, offsetof(TextureBinding, words)));
   Value* count =
       e.load_invariant(b.getInt64Ty(), e.byte_offset(binding, offsetof(TextureBinding, count)));
-  // A texture of no words still has word 0, by the contract.
+  // A texture of no words still has word 0: see TextureBinding.
   Value* from_one = b.CreateBinaryIntrinsic(llvm::Intrinsic::umax, count, b.getInt64(1));
   Value* last = b.CreateBinaryIntrinsic(llvm::Intrinsic::umin, b.CreateSub(from_one, b.getInt64(1)),
                                         b.getInt64(~0u));

@@ -49,22 +49,22 @@ std::string reason(const std::exception& exception) {
 
 /// Tetrahedral interpolation is worked out in the text, from texels read at their
 /// centres.
-SourceTable::Filter filter_of(ocio::Interpolation interpolation) {
+TextTable::Filter filter_of(ocio::Interpolation interpolation) {
   const bool is_nearest =
       interpolation == ocio::INTERP_NEAREST || interpolation == ocio::INTERP_TETRAHEDRAL;
-  return is_nearest ? SourceTable::Filter::nearest : SourceTable::Filter::linear;
+  return is_nearest ? TextTable::Filter::nearest : TextTable::Filter::linear;
 }
 
-SourceTable make_table(const char* name, std::array<std::size_t, 3> size, std::size_t channels,
-                       ocio::Interpolation interpolation, const float* values) {
-  SourceTable table{name, size, channels, filter_of(interpolation), nullptr};
+TextTable make_table(const char* name, std::array<std::size_t, 3> size, std::size_t channels,
+                     ocio::Interpolation interpolation, const float* values) {
+  TextTable table{name, size, channels, filter_of(interpolation), nullptr};
   const std::size_t count = channels * size[0] * size[1] * size[2];
   table.values = std::make_shared<TableValues>(std::vector<float>(values, values + count));
   return table;
 }
 
-std::vector<SourceTable> tables_of(const ocio::GpuShaderDesc& shader) {
-  std::vector<SourceTable> tables;
+std::vector<TextTable> tables_of(const ocio::GpuShaderDesc& shader) {
+  std::vector<TextTable> tables;
   const char* texture = nullptr;
   const char* sampler = nullptr;
   ocio::Interpolation interpolation = ocio::INTERP_LINEAR;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "jit/record/branches.h"
-#include "jit/record/source_bodies.h"
+#include "jit/record/text_bodies.h"
 #include "runtime/program/origin.h"
 #include "runtime/report_stop.h"
 
@@ -46,8 +46,8 @@ class GraphRecorder {
         recorder_(recorder),
         diagnostics_(diagnostics),
         plan_(options.lazy ? plan_branches(graph) : all_at_once(graph)) {
-    if (options.sources == nullptr) return;
-    for (const NodeSource& source : graph.sources) sources_.emplace(source.nodedef, &source);
+    if (options.texts == nullptr) return;
+    for (const NodeText& source : graph.texts) sources_.emplace(source.nodedef, &source);
   }
 
   std::optional<std::vector<Recorded>> run() {
@@ -103,7 +103,7 @@ class GraphRecorder {
   bool record_node(std::uint32_t number) {
     const GraphNode& node = graph_.nodes[number];
     const ScopedOrigin origin(recorder_, node.path);
-    const NodeSource* source = source_of(node);
+    const NodeText* source = text_of(node);
     const Bodies::Binding* bound = source == nullptr ? bodies_.binding(node.nodedef) : nullptr;
     const NodeBody* body = bound == nullptr ? nullptr : bound->body;
     if (source == nullptr && body == nullptr) {
@@ -132,12 +132,12 @@ class GraphRecorder {
       return check_outputs(node, outputs_[number]);
     }
     NodeCall call = make_call(node, std::move(inputs), std::move(outputs));
-    if (!options_.sources->record(*source, call, options_.stop)) return false;
+    if (!options_.texts->record(*source, call, options_.stop)) return false;
     outputs_[number] = call.outputs();
     return true;
   }
 
-  const NodeSource* source_of(const GraphNode& node) const {
+  const NodeText* text_of(const GraphNode& node) const {
     const auto found = sources_.find(node.nodedef);
     return found == sources_.end() ? nullptr : found->second;
   }
@@ -318,8 +318,8 @@ class GraphRecorder {
   Diagnostics& diagnostics_;
   BranchPlan plan_;
   bool misfit_ = false;  ///< The last body asked for ports that are not there.
-  std::unordered_map<std::string_view, const NodeSource*> sources_;  ///< By nodedef.
-  std::vector<Ports> outputs_;                                       ///< By node.
+  std::unordered_map<std::string_view, const NodeText*> sources_;  ///< By nodedef.
+  std::vector<Ports> outputs_;                                     ///< By node.
   std::vector<double> once_;  ///< By function: steps, each loop counted for one round.
   std::size_t counted_ = 0;   ///< Of the entry's instructions.
   double steps_ = 0;

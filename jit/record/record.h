@@ -17,7 +17,7 @@
 
 namespace nacre {
 
-class SourceBodies;
+class TextBodies;
 
 /// Whether the values that an author wrote stay changeable in the kernel.
 enum class ParameterMode {
@@ -32,7 +32,7 @@ struct RecordOptions {
   ParameterMode parameters = ParameterMode::frozen;  ///< Of the graph's parameters.
   TextureProvider* textures = nullptr;               ///< Null: no node has an image.
   /// Runs the graph's `sources`; null: nodes that need one are errors.
-  SourceBodies* sources = nullptr;
+  TextBodies* texts = nullptr;
   /// Compute what only one side of a conditional node needs only where it is taken;
   /// false changes no result, only what it costs.
   bool lazy = true;

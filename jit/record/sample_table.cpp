@@ -30,11 +30,11 @@ Cell around(Float coordinate, std::size_t size) {
 
 }  // namespace
 
-std::uint32_t add_table(Recorder& recorder, const SourceTable& table) {
+std::uint32_t add_table(Recorder& recorder, const TextTable& table) {
   return recorder.table("table." + table.values->digest(), table.values->values());
 }
 
-std::array<Float, 4> sample_table(Recorder& recorder, const SourceTable& table, std::uint32_t index,
+std::array<Float, 4> sample_table(Recorder& recorder, const TextTable& table, std::uint32_t index,
                                   std::span<const Float> place) {
   Int base(0);
   std::vector<Float> fractions;
@@ -42,7 +42,7 @@ std::array<Float, 4> sample_table(Recorder& recorder, const SourceTable& table, 
   int stride = static_cast<int>(table.channels);
   for (std::size_t axis = 0; axis < place.size(); ++axis) {
     const std::size_t size = table.size[axis];
-    if (table.filter == SourceTable::Filter::nearest) {
+    if (table.filter == TextTable::Filter::nearest) {
       base = base + nearest(place[axis], size) * Int(stride);
     } else if (size > 1) {
       const Cell cell = around(place[axis], size);

@@ -6,7 +6,7 @@
 
 #include "jit/graph/check/check.h"
 #include "jit/graph/find.h"
-#include "jit/graph/resolve/node_source.h"
+#include "jit/graph/resolve/node_text.h"
 #include "jit/shading/compilation.h"
 
 namespace nacre {
@@ -60,9 +60,9 @@ class ShadingCheck {
     Diagnostics known;
     const Definitions definitions(document_, &parts_.library->definitions(), known);
     for (const NodeDef* def : definitions.all()) {
-      const Element* source = definitions.source_of(*def);
-      if (source == nullptr || &source->document() != &document_ || !may_be_source(*def)) continue;
-      parts_.sources->check(node_source(*def, *source), *def, diagnostics);
+      const Element* source = definitions.text_of(*def);
+      if (source == nullptr || &source->document() != &document_ || !may_be_text(*def)) continue;
+      parts_.texts->check(node_text(*def, *source), *def, diagnostics);
     }
   }
 

@@ -9,7 +9,7 @@
 #include "jit/compile/compile.h"
 #include "jit/compile/lower.h"
 #include "jit/compile/stages.h"
-#include "jit/record/source_bodies.h"
+#include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
 #include "pbs/shader_channels.h"
 #include "pbs/sides.h"
@@ -114,13 +114,13 @@ std::unique_ptr<MaterialKernels> Compilation::make_material(const Graph& graph,
 std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   const FileRoots roots = options_.files_anywhere
                               ? FileRoots{}
-                              : image_roots(graph, options_.search_paths, parts_.sources->roots());
+                              : image_roots(graph, options_.search_paths, parts_.texts->roots());
   textures_->give_access(image_access(roots, options_.missing_images, options_.compile.stop));
   const RecordOptions record{
       .accuracy = options_.compile.accuracy,
       .parameters = options_.parameters,
       .textures = textures_.get(),
-      .sources = parts_.sources.get(),
+      .texts = parts_.texts.get(),
       .lazy = options_.lazy,
       .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
       .max_instructions = options_.compile.max_instructions,

@@ -36,7 +36,7 @@ struct SystemOptions {
   std::vector<HostBody> bodies = {};
   /// Read the data library's own GLSL too, so that GraphOptions::prefer can ask for
   /// it. Node packs' texts are always read.
-  bool standard_sources = false;
+  bool standard_texts = false;
   /// An OpenColorIO configuration, whose colour spaces documents may name (see
   /// load_ocio_config); empty: none. A host with colour spaces of its own gives
   /// GraphOptions::colors instead, which counts before this.

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where a node pack's texts may include from: the library folders.
-std::vector<fs::path> source_roots(const std::vector<fs::path>& libraries) {
+std::vector<fs::path> text_roots(const std::vector<fs::path>& libraries) {
   std::vector<fs::path> roots;
   std::error_code ignored;
   for (const fs::path& path : libraries) {
@@ -27,7 +27,7 @@ std::unique_ptr<SystemParts> SystemParts::create(const SystemOptions& options,
                                                  Diagnostics& diagnostics) {
   auto parts = std::make_unique<SystemParts>();
   parts->library = load_library(options.libraries, diagnostics,
-                                {.read = {}, .standard_sources = options.standard_sources});
+                                {.read = {}, .standard_texts = options.standard_texts});
   if (parts->library == nullptr) return nullptr;
   const Definitions& definitions = parts->library->definitions();
   parts->bodies = std::make_unique<Bodies>(definitions);
@@ -38,7 +38,7 @@ std::unique_ptr<SystemParts> SystemParts::create(const SystemOptions& options,
                       "the name of a nodedef", body.nodedef);
     return nullptr;
   }
-  parts->sources = std::make_unique<SourceBodies>(source_roots(options.libraries));
+  parts->texts = std::make_unique<TextBodies>(text_roots(options.libraries));
   if (!options.ocio_config.empty()) {
     parts->colors = load_ocio_config(options.ocio_config, diagnostics);
     if (parts->colors == nullptr) return nullptr;

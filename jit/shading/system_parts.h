@@ -7,7 +7,7 @@
 #include "jit/graph/build/build.h"
 #include "jit/graph/color/color_config.h"
 #include "jit/record/bodies.h"
-#include "jit/record/source_bodies.h"
+#include "jit/record/text_bodies.h"
 #include "jit/service/compile_service.h"
 #include "jit/shading/shading_system.h"
 #include "runtime/texture/texture_store.h"
@@ -19,7 +19,7 @@ namespace nacre {
 struct SystemParts {
   std::shared_ptr<const Library> library;
   std::unique_ptr<Bodies> bodies;
-  std::unique_ptr<SourceBodies> sources;
+  std::unique_ptr<TextBodies> texts;
   std::shared_ptr<const ColorConfig> colors;
   std::unique_ptr<TextureStore> textures;
   std::unique_ptr<CompileService> service;

@@ -14,7 +14,7 @@ Float fifth_power(Float x) { return square(square(x)) * x; }
 class BurleyDiffuse final : public CosineLobe {
  public:
   BurleyDiffuse(Float3 normal, Color3 color, Float roughness)
-      : CosineLobe("burley_diffuse_bsdf", Side::viewer, normal),
+      : CosineLobe("burley_diffuse_bsdf", Hemisphere::viewer, normal),
         color_(color),
         roughness_(roughness) {}
 

@@ -69,7 +69,7 @@ Float loss(Float cosine) {
 class OrenNayar final : public CosineLobe {
  public:
   OrenNayar(Recorder& recorder, Float3 normal, Color3 color, const Model& model)
-      : CosineLobe("oren_nayar_diffuse_bsdf", Side::viewer, normal), color_(color) {
+      : CosineLobe("oren_nayar_diffuse_bsdf", Hemisphere::viewer, normal), color_(color) {
     model_ = {.a = keep(recorder, model.a),
               .b = keep(recorder, model.b),
               .below = keep(recorder, model.below),

@@ -11,7 +11,7 @@ namespace nacre {
 /// What is not modelled, and said in the manifest: light that leaves elsewhere.
 void record_closure_subsurface_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  auto lobe = std::make_shared<LambertLobe>("subsurface_bsdf", CosineLobe::Side::viewer,
+  auto lobe = std::make_shared<LambertLobe>("subsurface_bsdf", CosineLobe::Hemisphere::viewer,
                                             prepare_normal(recorder, call.vector3("normal")),
                                             prepare_tint(recorder, call.vector3("color")));
   std::vector<std::string> left_out;

@@ -9,7 +9,7 @@ namespace nacre {
 /// it, so that light crosses the surface in either direction.
 void record_closure_translucent_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  auto lobe = std::make_shared<LambertLobe>("translucent_bsdf", CosineLobe::Side::other,
+  auto lobe = std::make_shared<LambertLobe>("translucent_bsdf", CosineLobe::Hemisphere::other,
                                             prepare_normal(recorder, call.vector3("normal")),
                                             prepare_tint(recorder, call.vector3("color")));
   set_lobe(call, std::move(lobe));

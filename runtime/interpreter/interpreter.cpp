@@ -29,7 +29,7 @@ class Run {
   RunStatus all_blocks() {
     const Prepared& entry = functions_.front();
     frames_.resize(entry.registers.count);
-    Frame frame{.base = 0, .prepared = &entry};
+    Activation frame{.base = 0, .prepared = &entry};
     load_constants(frame);
     steps_left_ = static_cast<double>(limit_.max_steps());
     execute(frame, true);
@@ -46,11 +46,11 @@ class Run {
 
  private:
   /// A function being executed: its registers are frames_[base ...].
-  struct Frame {
+  struct Activation {
     std::size_t base;
     const Prepared* prepared;
     std::span<const ValueId> arguments{};  ///< The caller's values.
-    const Frame* caller = nullptr;
+    const Activation* caller = nullptr;
     std::size_t results = 0;  ///< Where `give` writes: registers of the caller's call.
   };
   struct LoopState {
@@ -64,14 +64,14 @@ class Run {
            block_.arguments.stop->load(std::memory_order_relaxed) != 0;
   }
 
-  Register& reg(const Frame& frame, ValueId id) {
+  Register& reg(const Activation& frame, ValueId id) {
     return frames_[frame.base + frame.prepared->registers.of[id]];
   }
-  const std::uint32_t* data(const Frame& frame, ValueId id) {
+  const std::uint32_t* data(const Activation& frame, ValueId id) {
     return id == no_value ? nullptr : reg(frame, id).data();
   }
 
-  void load_constants(const Frame& frame) {
+  void load_constants(const Activation& frame) {
     const Function& function = *frame.prepared->function;
     for (std::size_t i = 0; i < function.code.size(); ++i) {
       if (function.code[i].op != Op::constant) continue;
@@ -80,7 +80,7 @@ class Run {
   }
 
   /// What is computed once a call, or the rest.
-  void execute(const Frame& frame, bool once) {
+  void execute(const Activation& frame, bool once) {
     const Function& function = *frame.prepared->function;
     std::vector<LoopState> loops;
     for (std::size_t i = 0; i < function.code.size(); ++i) {
@@ -110,7 +110,7 @@ class Run {
   }
 
   /// The mask of the innermost if_any around instruction i.
-  const Register& mask_of_if(const Frame& frame, std::size_t i) {
+  const Register& mask_of_if(const Activation& frame, std::size_t i) {
     const Function& function = *frame.prepared->function;
     std::size_t open = i;
     do {
@@ -119,7 +119,7 @@ class Run {
     return reg(frame, function.code[open].operands[0]);
   }
 
-  void blend(const Frame& frame, ValueId to, const Register& mask, ValueId yes, ValueId no) {
+  void blend(const Activation& frame, ValueId to, const Register& mask, ValueId yes, ValueId no) {
     const Register& a = reg(frame, yes);
     const Register& b = reg(frame, no);
     Register& result = reg(frame, to);
@@ -127,7 +127,7 @@ class Run {
   }
 
   /// Enters the region, or gives its merges their outer values and skips it.
-  std::size_t open_if(const Frame& frame, std::size_t i) {
+  std::size_t open_if(const Activation& frame, std::size_t i) {
     const Function& function = *frame.prepared->function;
     if (any(reg(frame, function.code[i].operands[0]))) return i;
     const std::size_t end = frame.prepared->end[i];
@@ -143,7 +143,7 @@ class Run {
     return end;
   }
 
-  std::size_t open_loop(const Frame& frame, std::size_t i, std::vector<LoopState>& loops) {
+  std::size_t open_loop(const Activation& frame, std::size_t i, std::vector<LoopState>& loops) {
     const Function& function = *frame.prepared->function;
     const std::size_t end = frame.prepared->end[i];
     LoopState state{.start = i, .active = reg(frame, function.code[i].operands[0])};
@@ -164,7 +164,7 @@ class Run {
     return i;
   }
 
-  std::size_t close_loop(const Frame& frame, std::size_t i, std::vector<LoopState>& loops) {
+  std::size_t close_loop(const Activation& frame, std::size_t i, std::vector<LoopState>& loops) {
     const Function& function = *frame.prepared->function;
     LoopState& state = loops.back();
     const std::uint32_t imm = function.code[state.start].imm;
@@ -182,14 +182,14 @@ class Run {
 
   /// False once there were too many steps, or somebody asks to stop: then the loops around
   /// end too, at their next round, and the block comes to its end.
-  bool pays_for_round(const Frame& frame, std::size_t opening) {
+  bool pays_for_round(const Activation& frame, std::size_t opening) {
     if (!limit_.is_counted()) return true;
     steps_left_ -= frame.prepared->round[opening];
     return steps_left_ >= 0 && !is_asked_to_stop();
   }
 
   template <class F>
-  void for_each_next(const Frame& frame, std::size_t opening, F&& f) {
+  void for_each_next(const Activation& frame, std::size_t opening, F&& f) {
     const Function& function = *frame.prepared->function;
     int depth = 0;
     for (std::size_t k = opening + 1; k < frame.prepared->end[opening]; ++k) {
@@ -200,7 +200,7 @@ class Run {
     }
   }
 
-  void step(const Frame& frame, ValueId id, const Instruction& instruction) {
+  void step(const Activation& frame, ValueId id, const Instruction& instruction) {
     if (const LaneOp op = ops_[static_cast<std::size_t>(instruction.op)]; op != nullptr) {
       op(reg(frame, id).data(), data(frame, instruction.operands[0]),
          data(frame, instruction.operands[1]), data(frame, instruction.operands[2]));
@@ -231,22 +231,22 @@ class Run {
     }
   }
 
-  void call(const Frame& frame, const Instruction& instruction) {
+  void call(const Activation& frame, const Instruction& instruction) {
     const Prepared& callee = functions_[instruction.imm];
     const std::size_t base = frame.base + frame.prepared->registers.count;
     if (frames_.size() < base + callee.registers.count) {
       frames_.resize(base + callee.registers.count);
     }
-    const Frame inner{.base = base,
-                      .prepared = &callee,
-                      .arguments = frame.prepared->function->operands(instruction),
-                      .caller = &frame};
+    const Activation inner{.base = base,
+                           .prepared = &callee,
+                           .arguments = frame.prepared->function->operands(instruction),
+                           .caller = &frame};
     load_constants(inner);
     execute(inner, false);
     std::swap(results_, results_pending_);
   }
 
-  void texture_call(const Frame& frame, const Instruction& instruction) {
+  void texture_call(const Activation& frame, const Instruction& instruction) {
     const auto operands = frame.prepared->function->operands(instruction);
     std::array<const Register*, 7> from{};
     for (std::size_t k = 0; k < from.size(); ++k) from[k] = &reg(frame, operands[k]);

@@ -34,7 +34,7 @@ class Run {
   }
 
  private:
-  struct Frame {
+  struct Activation {
     const Function& function;
     const FunctionCost& cost;
     const std::vector<Value64>& arguments;
@@ -48,16 +48,16 @@ class Run {
 
   std::vector<Value64> call(std::uint32_t number, const std::vector<Value64>& arguments) {
     const Function& function = program_.functions[number];
-    Frame frame{.function = function,
-                .cost = costs_[number],
-                .arguments = arguments,
-                .values = std::vector<Value64>(function.code.size()),
-                .results = std::vector<Value64>(function.results.size())};
+    Activation frame{.function = function,
+                     .cost = costs_[number],
+                     .arguments = arguments,
+                     .values = std::vector<Value64>(function.code.size()),
+                     .results = std::vector<Value64>(function.results.size())};
     run(frame, 0, function.code.size());
     return std::move(frame.results);
   }
 
-  void run(Frame& frame, std::size_t first, std::size_t end) {
+  void run(Activation& frame, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
       const Instruction& instruction = frame.function.code[i];
       if (!opens_region(instruction.op)) {
@@ -74,7 +74,7 @@ class Run {
     }
   }
 
-  void run_if(Frame& frame, std::size_t open, std::size_t close) {
+  void run_if(Activation& frame, std::size_t open, std::size_t close) {
     const bool inside = frame.values[frame.function.code[open].operands[0]].i != 0;
     if (inside) run(frame, open + 1, close);
     for_each_own(frame.function, open, close, Op::merge, [&](std::size_t k) {
@@ -85,12 +85,12 @@ class Run {
   }
 
   /// A literal stands wherever it was recorded, in a region not run yet too.
-  void ensure_literal(Frame& frame, ValueId id) {
+  void ensure_literal(Activation& frame, ValueId id) {
     const Instruction& instruction = frame.function.code[id];
     if (instruction.op == Op::constant) step(frame, id, instruction);
   }
 
-  void run_loop(Frame& frame, std::size_t open, std::size_t close) {
+  void run_loop(Activation& frame, std::size_t open, std::size_t close) {
     const Function& function = frame.function;
     for_each_own(function, open, close, Op::carry, [&](std::size_t k) {
       ensure_literal(frame, function.code[k].operands[0]);
@@ -122,7 +122,7 @@ class Run {
 
   /// False once there were too many steps, or somebody asks to stop: then the loops around
   /// end too, at their next round, and the point comes to its end.
-  bool pays_for_round(const Frame& frame, std::size_t open) {
+  bool pays_for_round(const Activation& frame, std::size_t open) {
     if (!limit_.is_counted()) return true;
     steps_left_ -= frame.cost.rounds.at(static_cast<ValueId>(open));
     return steps_left_ >= 0 && !is_asked_to_stop();
@@ -141,7 +141,7 @@ class Run {
     }
   }
 
-  void step(Frame& frame, std::size_t i, const Instruction& instruction) {
+  void step(Activation& frame, std::size_t i, const Instruction& instruction) {
     const auto operand = [&](std::size_t k) -> const Value64& {
       return frame.values[instruction.operands[k]];
     };
@@ -205,7 +205,7 @@ class Run {
     return {.f = 0.0, .i = bits};
   }
 
-  static std::uint32_t integer(const Instruction& instruction, const Frame& frame) {
+  static std::uint32_t integer(const Instruction& instruction, const Activation& frame) {
     std::array<std::uint32_t, 3> operands{};
     for (std::size_t k = 0; k < instruction.count; ++k) {
       operands[k] = frame.values[instruction.operands[k]].i;
@@ -227,7 +227,7 @@ class Run {
     return texture.words[word < texture.count ? word : 0u];
   }
 
-  void texture_call(const Frame& frame, const Instruction& instruction) {
+  void texture_call(const Activation& frame, const Instruction& instruction) {
     const auto operands = frame.function.operands(instruction);
     std::array<float, 6> x{};
     for (std::size_t k = 0; k < 6; ++k) {

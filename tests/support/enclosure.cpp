@@ -68,7 +68,7 @@ class Run {
   }
 
  private:
-  struct Frame {
+  struct Activation {
     const Function& function;
     const std::vector<Value>& arguments;
     std::vector<Value> values;
@@ -76,10 +76,10 @@ class Run {
   };
 
   std::vector<Value> call(const Function& function, const std::vector<Value>& arguments) {
-    Frame frame{.function = function,
-                .arguments = arguments,
-                .values = std::vector<Value>(function.code.size()),
-                .results = std::vector<Value>(function.results.size())};
+    Activation frame{.function = function,
+                     .arguments = arguments,
+                     .values = std::vector<Value>(function.code.size()),
+                     .results = std::vector<Value>(function.results.size())};
     // A literal stands wherever it was recorded, in a region that never runs too.
     for (std::size_t i = 0; i < function.code.size(); ++i) {
       if (function.code[i].op == Op::constant) step(frame, i, function.code[i]);
@@ -88,7 +88,7 @@ class Run {
     return std::move(frame.results);
   }
 
-  void run(Frame& frame, std::size_t first, std::size_t end) {
+  void run(Activation& frame, std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
       const Instruction& instruction = frame.function.code[i];
       if (!opens_region(instruction.op)) {
@@ -113,7 +113,7 @@ class Run {
     }
   }
 
-  void run_if(Frame& frame, std::size_t open, std::size_t close) {
+  void run_if(Activation& frame, std::size_t open, std::size_t close) {
     auto& values = frame.values;
     const Value mask = values[frame.function.code[open].operands[0]];
     if (mask.may_be_true) run(frame, open + 1, close);
@@ -122,7 +122,7 @@ class Run {
     });
   }
 
-  void run_loop(Frame& frame, std::size_t open, std::size_t close) {
+  void run_loop(Activation& frame, std::size_t open, std::size_t close) {
     const Function& function = frame.function;
     auto& values = frame.values;
     for_each_own(function, open, close, Op::carry,
@@ -157,7 +157,7 @@ class Run {
     return number(exactly(static_cast<double>(std::bit_cast<float>(flush_denormal(bits)))));
   }
 
-  void step(Frame& frame, std::size_t i, const Instruction& instruction) {
+  void step(Activation& frame, std::size_t i, const Instruction& instruction) {
     const auto operand = [&](std::size_t k) -> const Value& {
       return frame.values[instruction.operands[k]];
     };
@@ -188,7 +188,7 @@ class Run {
     }
   }
 
-  void call_function(Frame& frame, const Instruction& instruction) {
+  void call_function(Activation& frame, const Instruction& instruction) {
     std::vector<Value> arguments;
     for (const ValueId id : frame.function.operands(instruction)) {
       arguments.push_back(frame.values[id]);
@@ -214,7 +214,7 @@ class Run {
     return {static_cast<double>(low), static_cast<double>(high), false};
   }
 
-  Value compute_or_convert(const Frame& frame, const Instruction& instruction) const {
+  Value compute_or_convert(const Activation& frame, const Instruction& instruction) const {
     const auto operand = [&](std::size_t k) {
       return k < instruction.count ? frame.values[instruction.operands[k]] : Value{};
     };
@@ -260,7 +260,7 @@ class Run {
 
   /// An operation on integers and truth values: known where all its operands are, and
   /// where one truth value decides.
-  static Value of_known(const Instruction& instruction, const Frame& frame) {
+  static Value of_known(const Instruction& instruction, const Activation& frame) {
     std::array<std::uint32_t, 3> bits{};
     bool known = true;
     for (std::size_t k = 0; k < instruction.count; ++k) {
@@ -276,7 +276,7 @@ class Run {
     return instruction.type == Scalar::b1 ? of_truths(instruction, frame) : integer({});
   }
 
-  static Value of_truths(const Instruction& instruction, const Frame& frame) {
+  static Value of_truths(const Instruction& instruction, const Activation& frame) {
     if (instruction.op != Op::band && instruction.op != Op::bor) return truth(true, true);
     const Value& a = frame.values[instruction.operands[0]];
     const Value& b = frame.values[instruction.operands[1]];

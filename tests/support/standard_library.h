@@ -22,7 +22,7 @@ inline const Library& standard_library() {
   static const std::shared_ptr<const Library> library = [] {
     Diagnostics diagnostics;
     auto loaded = load_library({standard_library_folder()}, diagnostics,
-                               {.read = {}, .standard_sources = true});
+                               {.read = {}, .standard_texts = true});
     if (loaded == nullptr) {
       ADD_FAILURE() << diagnostics.to_string();
       std::exit(1);

@@ -68,7 +68,7 @@ void make_bindings_inputs(Element& shader) {
 void make_shader(const Upgrade& upgrade, Element& reference, const ShaderNode& shader,
                  std::string_view name) {
   Document& document = upgrade.document;
-  Document::set_category(reference, document.keep(shader.category));
+  Document::set_category(reference, document.intern(shader.category));
   rename(document, reference, name);
   set_kept(document, reference, "type", shader.type);
   document.remove_attribute(reference, "node");

@@ -124,14 +124,14 @@ void move_attribute(Document& document, Element& element, std::string_view from,
 }
 
 void rename(Document& document, Element& element, std::string_view name) {
-  const std::string_view kept = document.keep(name);
+  const std::string_view kept = document.intern(name);
   Document::set_name(element, kept);
   document.set_attribute(element, "name", kept);
 }
 
 void set_kept(Document& document, Element& element, std::string_view attribute,
               std::string_view value) {
-  document.set_attribute(element, attribute, document.keep(value));
+  document.set_attribute(element, attribute, document.intern(value));
 }
 
 Element& add_input(Document& document, Element& node, std::string_view name, std::string_view type,

@@ -51,7 +51,7 @@ std::string Scope::free_name(std::string_view wanted) const {
 
 Element& Scope::add_node(std::string_view category, std::string_view wanted, std::string_view type,
                          const Element& user) {
-  Element& node = document_.create_at(document_.keep(category), user);
+  Element& node = document_.create_at(document_.intern(category), user);
   upgrading::rename(document_, node, free_name(wanted));
   set_kept(document_, node, "type", type);
   adopt(node, user);
@@ -60,7 +60,7 @@ Element& Scope::add_node(std::string_view category, std::string_view wanted, std
 
 Element& Scope::add_node_after(std::string_view category, std::string_view wanted,
                                std::string_view type, const Element& source) {
-  Element& node = document_.create_at(document_.keep(category), source);
+  Element& node = document_.create_at(document_.intern(category), source);
   upgrading::rename(document_, node, free_name(wanted));
   set_kept(document_, node, "type", type);
   names_.emplace(node.name(), &node);

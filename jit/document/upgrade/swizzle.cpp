@@ -73,7 +73,7 @@ bool can_fold(const Swizzle& swizzle) {
 void set_node(const Upgrade& upgrade, const Swizzle& swizzle, const std::string& category,
               const std::string& nodedef) {
   rename_nodedef(upgrade, swizzle.node, nodedef);
-  Document::set_category(swizzle.node, upgrade.document.keep(category));
+  Document::set_category(swizzle.node, upgrade.document.intern(category));
 }
 
 /// Numbers stand between commas or blanks.

@@ -97,7 +97,7 @@ void replace_backdrop(const Upgrade& upgrade, Element& backdrop) {
 }
 
 void set_node(const Upgrade& upgrade, Element& node, std::string_view category) {
-  Document::set_category(node, upgrade.document.keep(category));
+  Document::set_category(node, upgrade.document.intern(category));
   // Nodedefs of the standard are found again by the new category and the types.
   if (!has_own_nodedef(upgrade, node)) upgrade.document.remove_attribute(node, "nodedef");
 }

@@ -48,13 +48,13 @@ void GraphBuilder::fail(std::string code, std::string path, std::string message,
 }
 
 void GraphBuilder::set_attribute(Element& element, std::string_view name, std::string_view value) {
-  document_->set_attribute(element, document_->keep(name), document_->keep(value));
+  document_->set_attribute(element, document_->intern(name), document_->intern(value));
 }
 
 Element& GraphBuilder::add_element(Element& parent, std::string_view category,
                                    const std::string& name, std::string_view type) {
-  Element& element = document_->create(document_->keep(category), 0, 0);
-  Document::set_name(element, document_->keep(name));
+  Element& element = document_->create(document_->intern(category), 0, 0);
+  Document::set_name(element, document_->intern(name));
   set_attribute(element, "name", name);
   set_attribute(element, "type", type);
   document_->append(parent, element);

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "jit/graph/source_table.h"
+#include "jit/graph/text_table.h"
 
 namespace nacre {
 
@@ -15,8 +15,8 @@ struct ColorTransform {
   /// In the GLSL subset of jit/glsl; defines `vec4 function(vec4 rgba)`. A colour
   /// without alpha is transformed with alpha 1.
   std::string text;
-  std::string function;             ///< Its name in the text.
-  std::vector<SourceTable> tables;  ///< What the text declares as uniform samplers.
+  std::string function;           ///< Its name in the text.
+  std::vector<TextTable> tables;  ///< What the text declares as uniform samplers.
 };
 
 /// Colour spaces that somebody else defines: an OpenColorIO configuration

@@ -36,7 +36,7 @@ class ColorTransforms {
   /// Definitions of the document that an element is in, if that was made here; else null.
   const Definitions* definitions_of(const Element& element) const;
   /// The text that implements a nodedef of the configuration's; nothing for another.
-  std::optional<NodeSource> source_of(const NodeDef& def) const;
+  std::optional<NodeText> text_of(const NodeDef& def) const;
   bool has_source(const NodeDef& def) const { return transform_of(def) != nullptr; }
 
  private:

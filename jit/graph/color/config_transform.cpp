@@ -101,12 +101,12 @@ const ColorTransforms::Transform* ColorTransforms::transform_of(const NodeDef& d
   return nullptr;
 }
 
-std::optional<NodeSource> ColorTransforms::source_of(const NodeDef& def) const {
+std::optional<NodeText> ColorTransforms::text_of(const NodeDef& def) const {
   const Transform* transform = transform_of(def);
   if (transform == nullptr) return std::nullopt;
   const ColorTransform& color = *transform->color;
   const ConfigSpaces& spaces = transform->spaces;
-  NodeSource source;
+  NodeText source;
   source.nodedef = def.name;
   source.text = color.text + '\n';
   source.function = color.function + "_of_" + std::string(type_name(def.outputs[0].type));

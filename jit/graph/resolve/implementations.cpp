@@ -5,14 +5,14 @@
 #include "jit/document/inheritance.h"
 #include "jit/document/select.h"
 #include "jit/graph/resolve/lenient.h"
-#include "jit/graph/resolve/node_source.h"
+#include "jit/graph/resolve/node_text.h"
 
 namespace nacre {
 
 bool Implementations::is_native(const NodeDef& def) const {
   // What a material consists of is asked of the node itself, never of a graph.
   if (def.category == "surfacematerial" || def.category == "volumematerial") return true;
-  return has_body(def) || runs_source(def);
+  return has_body(def) || runs_text(def);
 }
 
 bool Implementations::has_body(const NodeDef& def) const {
@@ -21,16 +21,16 @@ bool Implementations::has_body(const NodeDef& def) const {
   return options_.is_native ? options_.is_native(def.name) : !has_graph;
 }
 
-bool Implementations::runs_source(const NodeDef& def) const {
+bool Implementations::runs_text(const NodeDef& def) const {
   if (colors_.has_source(def)) return true;
-  if (definitions_.source_of(def) == nullptr || !may_be_source(def)) return false;
+  if (definitions_.text_of(def) == nullptr || !may_be_text(def)) return false;
   if (options_.prefer == Preference::source) return true;
   return !has_body(def) && graph_of(def) == nullptr;
 }
 
-NodeSource Implementations::source_of(const NodeDef& def) const {
-  auto of_config = colors_.source_of(def);
-  return of_config ? std::move(*of_config) : node_source(def, *definitions_.source_of(def));
+NodeText Implementations::text_of(const NodeDef& def) const {
+  auto of_config = colors_.text_of(def);
+  return of_config ? std::move(*of_config) : node_text(def, *definitions_.text_of(def));
 }
 
 const Element* Implementations::graph_of(const NodeDef& def) const {
@@ -45,7 +45,7 @@ const Definitions& Implementations::definitions_of(const Element& element) const
 // A nodedef of the library keeps the library's implementation, and ours.
 void Implementations::say_unused(const NodeDef& def) {
   for (const Element* own : definitions_.replacements(def)) {
-    const Element* used = runs_source(def) ? definitions_.source_of(def)
+    const Element* used = runs_text(def)   ? definitions_.text_of(def)
                           : is_native(def) ? nullptr
                                            : graph_of(def);
     if (used != nullptr && &used->document() == &own->document()) return;

@@ -28,9 +28,9 @@ class Implementations {
 
   /// Whether it becomes a node of the Graph, by a body or a text, whatever graph it has.
   bool is_native(const NodeDef& def) const;
-  bool runs_source(const NodeDef& def) const;
-  /// The text, of a nodedef that `runs_source`.
-  NodeSource source_of(const NodeDef& def) const;
+  bool runs_text(const NodeDef& def) const;
+  /// The text, of a nodedef that `runs_text`.
+  NodeText text_of(const NodeDef& def) const;
   const Element* graph_of(const NodeDef& def) const;
 
   /// Warns of implementations that a document has for a nodedef of the library.

@@ -7,51 +7,51 @@
 
 namespace nacre {
 
-std::optional<Resolver::Key> Resolver::step_input(Frame& frame) {
-  const Instance& instance = *static_cast<const Instance*>(frame.key.subject);
-  const NodeDefInput& input = instance.def->inputs[frame.key.index];
-  if (frame.stage == Stage::start) return start_input(frame, instance, input);
-  if (frame.stage == Stage::received) {
-    frame.result = waited(frame);
-    const auto* port = static_cast<const Element*>(frame.waiting_for.subject);
-    if (port->parent() == instance.element) slots_.erase(frame.waiting_for);
-    return check_input(frame, instance, input);
+std::optional<Resolver::Key> Resolver::step_input(Task& task) {
+  const Instance& instance = *static_cast<const Instance*>(task.key.subject);
+  const NodeDefInput& input = instance.def->inputs[task.key.index];
+  if (task.stage == Stage::start) return start_input(task, instance, input);
+  if (task.stage == Stage::received) {
+    task.result = waited(task);
+    const auto* port = static_cast<const Element*>(task.waiting_for.subject);
+    if (port->parent() == instance.element) slots_.erase(task.waiting_for);
+    return check_input(task, instance, input);
   }
-  if (frame.stage == Stage::retyped) {
-    const std::string_view unit = frame.result.unit;
-    const Element* carrier = frame.result.carrier;
-    frame.result = waited(frame);
-    frame.result.unit = unit;
-    frame.result.carrier = carrier;
-    return check_input(frame, instance, input);
+  if (task.stage == Stage::retyped) {
+    const std::string_view unit = task.result.unit;
+    const Element* carrier = task.result.carrier;
+    task.result = waited(task);
+    task.result.unit = unit;
+    task.result.carrier = carrier;
+    return check_input(task, instance, input);
   }
-  frame.result = waited(frame);
+  task.result = waited(task);
   return std::nullopt;
 }
 
-std::optional<Resolver::Key> Resolver::start_input(Frame& frame, const Instance& instance,
+std::optional<Resolver::Key> Resolver::start_input(Task& task, const Instance& instance,
                                                    const NodeDefInput& input) {
-  Resolved& result = frame.result;
+  Resolved& result = task.result;
   result.type = input.type;
-  frame.stage = Stage::converted;
+  task.stage = Stage::converted;
   for (const auto& [name, source] : instance.inputs) {
     if (name != input.name) continue;
     result.source = source;
     return std::nullopt;
   }
   if (const Element* element = instances_.input(instance, input.member.port)) {
-    frame.stage = Stage::received;
+    task.stage = Stage::received;
     return Key{Kind::port, input.member.leaf, element, instance.context};
   }
-  return default_input(frame, instance, input);
+  return default_input(task, instance, input);
 }
 
-std::optional<Resolver::Key> Resolver::default_input(Frame& frame, const Instance& instance,
+std::optional<Resolver::Key> Resolver::default_input(Task& task, const Instance& instance,
                                                      const NodeDefInput& input) {
-  Resolved& result = frame.result;
+  Resolved& result = task.result;
   result = {};
   result.type = input.type;
-  frame.stage = Stage::converted;
+  task.stage = Stage::converted;
   if (!input.defaultgeomprop.empty()) {
     const Instance* geomprop = instances_.of_geomprop(input.defaultgeomprop, *instance.origin);
     result.failed = geomprop == nullptr;
@@ -86,16 +86,16 @@ std::optional<Resolver::Key> Resolver::default_input(Frame& frame, const Instanc
                         instance.path + '/' + std::string(input.name), *instance.origin);
 }
 
-std::optional<Resolver::Key> Resolver::check_input(Frame& frame, const Instance& instance,
+std::optional<Resolver::Key> Resolver::check_input(Task& task, const Instance& instance,
                                                    const NodeDefInput& input) {
-  Resolved& result = frame.result;
+  Resolved& result = task.result;
   if (result.failed) return std::nullopt;
-  if (result.is_absent) return default_input(frame, instance, input);
+  if (result.is_absent) return default_input(task, instance, input);
   const Element& element = *instances_.input(instance, input.member.port);
   take_string(input.type, result);
   if (complaints_.is_lenient() && stands_for(result.type, input.type)) {
     // Finding the nodedef has said so.
-    frame.stage = Stage::retyped;
+    task.stage = Stage::retyped;
     const auto key =
         retype(result, input.type, instance.path + '/' + std::string(input.name), element);
     if (key || result.failed) return key;
@@ -108,7 +108,7 @@ std::optional<Resolver::Key> Resolver::check_input(Frame& frame, const Instance&
   }
   result.failed = !literals_.check_enum(input, result);
   if (input.uniform) literals_.make_uniform(input, element, result);
-  frame.stage = Stage::converted;
+  task.stage = Stage::converted;
   return convert_unit(result, input, instance.path + '/' + std::string(input.name), element);
 }
 

@@ -32,27 +32,27 @@ std::size_t Resolver::KeyHash::operator()(const Key& key) const {
 
 Resolved Resolver::run(Key key) {
   if (const auto known = slots_.find(key); known != slots_.end()) return known->second.result;
-  std::deque<Frame> stack;
+  std::deque<Task> stack;
   const auto open = [&](const Key& wanted) {
     Slot& slot = slots_[wanted];
     stack.push_back({wanted, &slot, slot.result, Stage::start, 0, {}});
   };
   open(key);
   while (!stack.empty()) {
-    Frame& frame = stack.back();
+    Task& task = stack.back();
     // Graphs within graphs may double at each level: stop at once.
-    if (is_too_large(frame) || is_due(frame)) {
-      for (const Frame& open_frame : stack) *open_frame.slot = {true, failure()};
+    if (is_too_large(task) || is_due(task)) {
+      for (const Task& open_task : stack) *open_task.slot = {true, failure()};
       return failure();
     }
-    const std::optional<Key> wanted = step(frame);
+    const std::optional<Key> wanted = step(task);
     if (!wanted) {
-      bytes_ += bytes_of(frame.result.source);
-      frame.slot->done = true;
+      bytes_ += bytes_of(task.result.source);
+      task.slot->done = true;
       stack.pop_back();
       continue;
     }
-    frame.waiting_for = *wanted;
+    task.waiting_for = *wanted;
     const auto known = slots_.find(*wanted);
     if (known == slots_.end()) {
       open(*wanted);
@@ -60,8 +60,8 @@ Resolved Resolver::run(Key key) {
       // In a cycle each waits for the next; whoever closes it fails, and the
       // failure travels back along the stack.
       report_cycle(stack, *wanted);
-      frame.result.failed = true;
-      frame.slot->done = true;
+      task.result.failed = true;
+      task.slot->done = true;
       stack.pop_back();
     }
   }
@@ -83,16 +83,16 @@ double Resolver::fullness() const {
                    static_cast<double>(bytes_ + instances_.bytes()) / (bytes_of_node * limit)});
 }
 
-bool Resolver::is_too_large(const Frame& frame) {
+bool Resolver::is_too_large(const Task& task) {
   if (fullness() <= 1) return false;
   if (!too_large_) {
     const auto most = static_cast<double>(options_.max_nodes);
     if (static_cast<double>(bytes_ + instances_.bytes()) > bytes_of_node * most) {
-      complaints_.error("graph-too-large", where(frame),
+      complaints_.error("graph-too-large", where(task),
                         "the names and values in the graph take too much",
                         fmt::format("at most {:.0f} bytes", bytes_of_node * most));
     } else {
-      complaints_.error("too-many-nodes", where(frame), "the graph has too many nodes",
+      complaints_.error("too-many-nodes", where(task), "the graph has too many nodes",
                         fmt::format("at most {}", options_.max_nodes));
     }
   }
@@ -100,43 +100,43 @@ bool Resolver::is_too_large(const Frame& frame) {
   return true;
 }
 
-bool Resolver::is_due(const Frame& frame) {
+bool Resolver::is_due(const Task& task) {
   if (due_) return true;
   if ((++steps_ & 0x3F) != 0 || !options_.stop.is_due()) return false;
-  return due_ = report_if_due(options_.stop, "building the graph", location(where(frame)),
+  return due_ = report_if_due(options_.stop, "building the graph", location(where(task)),
                               complaints_.diagnostics());
 }
 
-const Element& Resolver::where(const Frame& frame) {
-  return frame.key.kind == Kind::port ? *static_cast<const Element*>(frame.key.subject)
-                                      : *static_cast<const Instance*>(frame.key.subject)->origin;
+const Element& Resolver::where(const Task& task) {
+  return task.key.kind == Kind::port ? *static_cast<const Element*>(task.key.subject)
+                                     : *static_cast<const Instance*>(task.key.subject)->origin;
 }
 
-std::optional<Resolver::Key> Resolver::step(Frame& frame) {
-  switch (frame.key.kind) {
-    case Kind::node: return step_node(frame);
-    case Kind::output: return step_output(frame);
-    case Kind::input: return step_input(frame);
-    case Kind::port: return step_port(frame);
+std::optional<Resolver::Key> Resolver::step(Task& task) {
+  switch (task.key.kind) {
+    case Kind::node: return step_node(task);
+    case Kind::output: return step_output(task);
+    case Kind::input: return step_input(task);
+    case Kind::port: return step_port(task);
   }
   return std::nullopt;
 }
 
-void Resolver::report_cycle(const std::deque<Frame>& stack, const Key& again) {
-  const auto first = std::find_if(stack.begin(), stack.end(),
-                                  [&](const Frame& frame) { return frame.key == again; });
+void Resolver::report_cycle(const std::deque<Task>& stack, const Key& again) {
+  const auto first =
+      std::find_if(stack.begin(), stack.end(), [&](const Task& task) { return task.key == again; });
   std::string path;
   const Element* where = nullptr;
   std::size_t shown = 0;
   std::string last;
-  for (auto frame = first; frame != stack.end(); ++frame) {
+  for (auto task = first; task != stack.end(); ++task) {
     std::string name;
-    if (frame->key.kind == Kind::port) {
-      const auto& port = *static_cast<const Element*>(frame->key.subject);
+    if (task->key.kind == Kind::port) {
+      const auto& port = *static_cast<const Element*>(task->key.subject);
       if (where == nullptr) where = &port;
       name = element_path(port);
     } else {
-      name = static_cast<const Instance*>(frame->key.subject)->path;
+      name = static_cast<const Instance*>(task->key.subject)->path;
     }
     if (name == last) continue;
     last = name;

@@ -85,7 +85,7 @@ class Resolver {
   };
   /// Chains are as long as graphs are large, and so is the stack of frames: what they
   /// come to stands in the slot alone.
-  struct Frame {
+  struct Task {
     Key key{};
     Slot* slot = nullptr;
     Resolved& result;
@@ -96,43 +96,42 @@ class Resolver {
 
   // The machine (resolver.cpp).
   Resolved run(Key key);
-  std::optional<Key> step(Frame& frame);
+  std::optional<Key> step(Task& task);
   static Resolved failure();
   static std::size_t bytes_of(const Source& source);
-  bool is_too_large(const Frame& frame);
-  bool is_due(const Frame& frame);
-  static const Element& where(const Frame& frame);
-  void report_cycle(const std::deque<Frame>& stack, const Key& again);
-  const Resolved& waited(const Frame& frame) { return slots_.at(frame.waiting_for).result; }
+  bool is_too_large(const Task& task);
+  bool is_due(const Task& task);
+  static const Element& where(const Task& task);
+  void report_cycle(const std::deque<Task>& stack, const Key& again);
+  const Resolved& waited(const Task& task) { return slots_.at(task.waiting_for).result; }
 
-  // One step of each kind: what it has to wait for, or nothing when the frame's result
+  // One step of each kind: what it has to wait for, or nothing when the task's result
   // stands. Nodes and their outputs (output_steps.cpp).
-  std::optional<Key> step_node(Frame& frame);
-  std::optional<Key> step_output(Frame& frame);
-  std::optional<Key> start_output(Frame& frame, const Instance& instance);
-  std::optional<Key> start_enabled_output(Frame& frame, const Instance& instance);
-  std::optional<Key> pass_through(Frame& frame, const Instance& instance);
-  std::optional<Key> finish_native_output(Frame& frame, const Instance& instance);
-  std::optional<Key> convert_texels(Frame& frame, const Instance& instance, const Resolved& file);
+  std::optional<Key> step_node(Task& task);
+  std::optional<Key> step_output(Task& task);
+  std::optional<Key> start_output(Task& task, const Instance& instance);
+  std::optional<Key> start_enabled_output(Task& task, const Instance& instance);
+  std::optional<Key> pass_through(Task& task, const Instance& instance);
+  std::optional<Key> finish_native_output(Task& task, const Instance& instance);
+  std::optional<Key> convert_texels(Task& task, const Instance& instance, const Resolved& file);
   void add_source(const NodeDef& def);
 
   // Inputs of nodes (input_steps.cpp).
-  std::optional<Key> step_input(Frame& frame);
-  std::optional<Key> start_input(Frame& frame, const Instance& instance, const NodeDefInput& input);
-  std::optional<Key> default_input(Frame& frame, const Instance& instance,
-                                   const NodeDefInput& input);
-  std::optional<Key> check_input(Frame& frame, const Instance& instance, const NodeDefInput& input);
+  std::optional<Key> step_input(Task& task);
+  std::optional<Key> start_input(Task& task, const Instance& instance, const NodeDefInput& input);
+  std::optional<Key> default_input(Task& task, const Instance& instance, const NodeDefInput& input);
+  std::optional<Key> check_input(Task& task, const Instance& instance, const NodeDefInput& input);
 
   // Elements that are connected, or say a value (port_steps.cpp).
   /// Of a port whose type is a structure, one leaf: 1 + its number.
-  static bool is_leaf(const Frame& frame) { return frame.key.index != 0; }
-  std::optional<Key> step_port(Frame& frame);
-  std::optional<Key> start_port(Frame& frame, const Element& port);
-  std::optional<Key> take_value(Frame& frame, const Element& port, Type type);
-  std::optional<Key> follow_interface(Frame& frame, const Element& port, std::string_view name);
-  std::optional<Key> miss_interface(Frame& frame, const Element& port);
-  std::optional<Key> port_without_source(Frame& frame, const Element& port);
-  std::optional<Key> check_port_type(Frame& frame, const Element& port);
+  static bool is_leaf(const Task& task) { return task.key.index != 0; }
+  std::optional<Key> step_port(Task& task);
+  std::optional<Key> start_port(Task& task, const Element& port);
+  std::optional<Key> take_value(Task& task, const Element& port, Type type);
+  std::optional<Key> follow_interface(Task& task, const Element& port, std::string_view name);
+  std::optional<Key> miss_interface(Task& task, const Element& port);
+  std::optional<Key> port_without_source(Task& task, const Element& port);
+  std::optional<Key> check_port_type(Task& task, const Element& port);
 
   // Nodes put between a value and who reads it (conversions.cpp): the key of what is to be
   // waited for, or nothing where the result is as it should be.

@@ -9,10 +9,10 @@
 #include <map>
 #include <random>
 
-#include "jit/graph/resolve/node_source.h"
+#include "jit/graph/resolve/node_text.h"
 #include "jit/passes/derive.h"
 #include "jit/record/bodies.h"
-#include "jit/record/source_bodies.h"
+#include "jit/record/text_bodies.h"
 #include "tests/nodes/node_runner.h"
 #include "tests/support/standard_library.h"
 
@@ -255,9 +255,9 @@ struct Comparison {
   }
 };
 
-void compare(const NodeDef& def, const NodeBody& body, SourceBodies& sources, unsigned seed,
+void compare(const NodeDef& def, const NodeBody& body, TextBodies& sources, unsigned seed,
              Comparison& result) {
-  const NodeSource source = node_source(def, *standard_library().definitions().source_of(def));
+  const NodeText source = node_text(def, *standard_library().definitions().text_of(def));
   Columns columns = random_columns(def, seed);
   restrict_inputs(def.category, columns);
   for (const auto& texts : text_choices(def)) {
@@ -295,11 +295,11 @@ class LibraryOracle : public testing::TestWithParam<std::string> {};
 
 TEST_P(LibraryOracle, BodiesAgreeWithTheLibrarysText) {
   const Bodies bodies(standard_library().definitions());
-  SourceBodies sources;
+  TextBodies sources;
   for (const NodeDef* def : standard_library().definitions().all()) {
     if (def->nodegroup != GetParam()) continue;
     const NodeBody* body = bodies.find(def->name);
-    if (body == nullptr || standard_library().definitions().source_of(*def) == nullptr) continue;
+    if (body == nullptr || standard_library().definitions().text_of(*def) == nullptr) continue;
     if (!not_comparable(*def).empty()) continue;
     // Again, where the text says nothing at many of the points.
     Comparison result;
@@ -323,7 +323,7 @@ TEST(LibraryOracleList, IsComplete) {
   std::map<std::string, int> left_out;
   int compared = 0;
   for (const NodeDef* def : standard_library().definitions().all()) {
-    if (standard_library().definitions().source_of(*def) == nullptr) continue;
+    if (standard_library().definitions().text_of(*def) == nullptr) continue;
     const std::string reason = not_comparable(*def);
     if (!reason.empty()) {
       ++left_out[reason];

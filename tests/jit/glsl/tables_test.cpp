@@ -12,13 +12,13 @@
 namespace nacre {
 namespace {
 
-SourceTable table(std::array<std::size_t, 3> size, std::size_t channels, SourceTable::Filter filter,
-                  std::vector<float> values) {
+TextTable table(std::array<std::size_t, 3> size, std::size_t channels, TextTable::Filter filter,
+                std::vector<float> values) {
   return {"t", size, channels, filter, std::make_shared<TableValues>(std::move(values))};
 }
 
 /// The four components at places (x, y, z), in double precision.
-std::array<std::vector<double>, 4> sample(const SourceTable& table, std::size_t axes,
+std::array<std::vector<double>, 4> sample(const TextTable& table, std::size_t axes,
                                           const Columns& places) {
   EXPECT_TRUE(is_whole(table));
   const auto columns = evaluate(places, [&](Recorder& recorder) {
@@ -36,7 +36,7 @@ std::array<std::vector<double>, 4> sample(const SourceTable& table, std::size_t 
 }
 
 /// A polynomial linear in each axis is its own interpolation.
-TEST(SourceTables, LinearFiltersReproduceTrilinearFunctions) {
+TEST(TextTables, LinearFiltersReproduceTrilinearFunctions) {
   const std::array<std::size_t, 3> size{4, 3, 5};
   const auto f = [](double x, double y, double z, std::size_t k) {
     const auto c = static_cast<double>(k);
@@ -59,7 +59,7 @@ TEST(SourceTables, LinearFiltersReproduceTrilinearFunctions) {
     places["y"].push_back(-0.25f + 1.5f * static_cast<float>(i / 10 % 10) / 9);
     places["z"].push_back(-0.25f + 1.5f * static_cast<float>(i / 100) / 9);
   }
-  const auto found = sample(table(size, 3, SourceTable::Filter::linear, values), 3, places);
+  const auto found = sample(table(size, 3, TextTable::Filter::linear, values), 3, places);
   for (std::size_t i = 0; i < 1000; ++i) {
     std::array<double, 3> at{places["x"][i], places["y"][i], places["z"][i]};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -71,13 +71,13 @@ TEST(SourceTables, LinearFiltersReproduceTrilinearFunctions) {
   }
 }
 
-TEST(SourceTables, NearestFiltersTakeTheTexelAround) {
+TEST(TextTables, NearestFiltersTakeTheTexelAround) {
   std::vector<float> values;
   for (int i = 0; i < 4 * 2 * 4; ++i) values.push_back(static_cast<float>(i));
   const Columns places{{"x", {-1.0f, 0.0f, 0.24f, 0.26f, 0.74f, 0.99f, 1.0f, 7.0f}},
                        {"y", {0.1f, 0.49f, 0.51f, 0.9f, 2.0f, -1.0f, 0.75f, 0.25f}}};
   const std::vector<int> texels{0, 0, 4, 5, 6, 3, 7, 3};
-  const auto found = sample(table({4, 2, 1}, 4, SourceTable::Filter::nearest, values), 2, places);
+  const auto found = sample(table({4, 2, 1}, 4, TextTable::Filter::nearest, values), 2, places);
   for (std::size_t i = 0; i < texels.size(); ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_EQ(found[k][i], 4 * texels[i] + static_cast<int>(k)) << i;
@@ -85,13 +85,13 @@ TEST(SourceTables, NearestFiltersTakeTheTexelAround) {
   }
 }
 
-TEST(SourceTables, EveryNumberOfChannelsAndOneTexel) {
+TEST(TextTables, EveryNumberOfChannelsAndOneTexel) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Columns places{{"x", {0.5f, -infinity, infinity, std::numeric_limits<float>::quiet_NaN()}}};
   for (std::size_t channels = 1; channels <= 4; ++channels) {
     std::vector<float> values{3, 5, 7, 9};
     values.resize(channels);
-    for (const auto filter : {SourceTable::Filter::nearest, SourceTable::Filter::linear}) {
+    for (const auto filter : {TextTable::Filter::nearest, TextTable::Filter::linear}) {
       const auto found = sample(table({1, 1, 1}, channels, filter, values), 1, places);
       for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(found[0][i], 3);
@@ -102,12 +102,12 @@ TEST(SourceTables, EveryNumberOfChannelsAndOneTexel) {
     }
   }
   // The first texel for no number, the edges for infinities.
-  const auto found = sample(table({3, 1, 1}, 1, SourceTable::Filter::linear, {1, 2, 4}), 1, places);
+  const auto found = sample(table({3, 1, 1}, 1, TextTable::Filter::linear, {1, 2, 4}), 1, places);
   EXPECT_EQ(found[0], (std::vector<double>{2, 1, 4, 1}));
 }
 
-TEST(SourceTables, WholeOnesHaveTheirNumbers) {
-  const auto linear = SourceTable::Filter::linear;
+TEST(TextTables, WholeOnesHaveTheirNumbers) {
+  const auto linear = TextTable::Filter::linear;
   EXPECT_TRUE(is_whole(table({2, 1, 1}, 3, linear, std::vector<float>(6))));
   EXPECT_FALSE(is_whole(table({2, 1, 1}, 3, linear, std::vector<float>(5))));
   EXPECT_FALSE(is_whole(table({0, 1, 1}, 3, linear, {})));

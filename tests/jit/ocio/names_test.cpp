@@ -225,7 +225,7 @@ TEST_F(Names, AHostsOwnSpacesCount) {
 
 TEST_F(Names, ATextOutsideTheSubsetIsAnError) {
   open_text(small_config);
-  const auto complain = [&](const std::string& text, std::vector<SourceTable> tables,
+  const auto complain = [&](const std::string& text, std::vector<TextTable> tables,
                             const std::string& code) {
     host_ = std::make_shared<HostColors>(ColorTransform{text, "f", std::move(tables)});
     EXPECT_TRUE(value("a", "b").empty());
@@ -242,7 +242,7 @@ TEST_F(Names, ATextOutsideTheSubsetIsAnError) {
            {{"t",
              {4, 1, 1},
              1,
-             SourceTable::Filter::linear,
+             TextTable::Filter::linear,
              std::make_shared<TableValues>(std::vector<float>{1, 2, 3})}},
            "glsl-texture");
 }

@@ -17,7 +17,7 @@ glsl::Type glsl_type(Type type);
 
 /// The ports of a node as its nodedef declares them: what came apart as "in.a", "in.b.c"
 /// is one structure again. Lives as long as the types of its values are used.
-class SourcePorts {
+class TextPorts {
  public:
   struct Port {
     std::string name;
@@ -26,7 +26,7 @@ class SourcePorts {
     std::size_t count = 1;  ///< and how many.
   };
 
-  SourcePorts(const NodeSource& source, const std::vector<NodeCall::Port>& ports);
+  TextPorts(const NodeText& source, const std::vector<NodeCall::Port>& ports);
 
   const std::vector<Port>& all() const { return ports_; }
 

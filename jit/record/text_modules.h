@@ -17,16 +17,16 @@ namespace nacre {
 
 /// The texts of implementations, each read once for as long as the files that it comes from
 /// stay as they are. May be used from any thread.
-class SourceModules {
+class TextModules {
  public:
   /// `roots`: folders in which files are looked for after the folder of the including file
   /// and that of the document. Nothing outside the roots and the document's folder is read.
-  explicit SourceModules(std::vector<std::filesystem::path> roots);
+  explicit TextModules(std::vector<std::filesystem::path> roots);
   const std::vector<std::filesystem::path>& roots() const { return roots_; }
 
   /// The source's text: an expression where it names no function, else what defines that
   /// function. Null, with a diagnostic, for one that cannot be read.
-  std::shared_ptr<const glsl::Module> find(const NodeSource& source, Diagnostics& diagnostics,
+  std::shared_ptr<const glsl::Module> find(const NodeText& source, Diagnostics& diagnostics,
                                            const Stop& stop);
 
  private:
@@ -48,7 +48,7 @@ class SourceModules {
     bool is_current() const;
   };
 
-  Entry read(const NodeSource& source, Diagnostics& diagnostics, const Stop& stop) const;
+  Entry read(const NodeText& source, Diagnostics& diagnostics, const Stop& stop) const;
 
   const std::vector<std::filesystem::path> roots_;
   const std::shared_ptr<const glsl::Prelude> prelude_;

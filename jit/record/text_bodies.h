@@ -6,7 +6,7 @@
 
 #include "jit/document/nodedef.h"
 #include "jit/graph/graph.h"
-#include "jit/record/source_modules.h"
+#include "jit/record/text_modules.h"
 #include "runtime/node/node_call.h"
 #include "runtime/stop.h"
 
@@ -19,25 +19,24 @@ namespace nacre {
 /// as matN whose columns are MaterialX's rows, a string as the index of its
 /// value among those allowed (else 0), a file name as sampler2D. A structure (typedef)
 /// is one that the text declares, of any name, with the same members in the same order.
-class SourceBodies {
+class TextBodies {
  public:
-  /// `roots` as in SourceModules.
-  explicit SourceBodies(std::vector<std::filesystem::path> roots = {})
-      : modules_(std::move(roots)) {}
+  /// `roots` as in TextModules.
+  explicit TextBodies(std::vector<std::filesystem::path> roots = {}) : modules_(std::move(roots)) {}
   const std::vector<std::filesystem::path>& roots() const { return modules_.roots(); }
 
   /// Records the node and sets its outputs. False, with a diagnostic, for a
   /// text that cannot be read or does not fit the node: it says the file, line and column
   /// of the text and the path of the implementation, and is said once for all nodes.
-  bool record(const NodeSource& source, NodeCall& call, const Stop& stop = {});
+  bool record(const NodeText& source, NodeCall& call, const Stop& stop = {});
 
   /// Records the node on its own, every number unknown, to find what is wrong
   /// with the text.
-  bool check(const NodeSource& source, const NodeDef& def, Diagnostics& diagnostics,
+  bool check(const NodeText& source, const NodeDef& def, Diagnostics& diagnostics,
              const Stop& stop = {});
 
  private:
-  SourceModules modules_;
+  TextModules modules_;
 };
 
 }  // namespace nacre

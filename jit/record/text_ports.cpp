@@ -1,4 +1,4 @@
-#include "jit/record/source_ports.h"
+#include "jit/record/text_ports.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@ namespace nacre {
 
 namespace {
 
-int enum_index(const NodeSource& source, std::string_view input, const std::string& text) {
+int enum_index(const NodeText& source, std::string_view input, const std::string& text) {
   for (const auto& [name, values] : source.enums) {
     const auto found = std::find(values.begin(), values.end(), text);
     if (name == input && found != values.end()) return static_cast<int>(found - values.begin());
@@ -17,7 +17,7 @@ int enum_index(const NodeSource& source, std::string_view input, const std::stri
   return 0;
 }
 
-glsl::Value value_of(const NodeSource& source, const NodeCall::Port& port) {
+glsl::Value value_of(const NodeText& source, const NodeCall::Port& port) {
   glsl::Value value{glsl_type(port.value.type), port.value.parts, {}};
   if (port.value.type == Type::filename) {
     value.text = port.value.text;
@@ -96,7 +96,7 @@ glsl::Type glsl_type(Type type) {
   }
 }
 
-SourcePorts::SourcePorts(const NodeSource& source, const std::vector<NodeCall::Port>& ports) {
+TextPorts::TextPorts(const NodeText& source, const std::vector<NodeCall::Port>& ports) {
   Members members;
   for (const NodeCall::Port& port : ports) members.emplace_back(port.name, value_of(source, port));
   for (std::size_t first = 0; first < members.size();) {
@@ -113,8 +113,8 @@ SourcePorts::SourcePorts(const NodeSource& source, const std::vector<NodeCall::P
 }
 
 /// Members [first, end), whose paths agree in their first `skip` letters.
-glsl::Value SourcePorts::structure_of(const Members& members, std::size_t first, std::size_t end,
-                                      std::size_t skip) {
+glsl::Value TextPorts::structure_of(const Members& members, std::size_t first, std::size_t end,
+                                    std::size_t skip) {
   glsl::Struct& made = types_.emplace_back();
   glsl::Value result{{glsl::Base::structure}, {}, {}};
   result.type.structure = &made;

@@ -1,4 +1,4 @@
-#include "jit/graph/resolve/node_source.h"
+#include "jit/graph/resolve/node_text.h"
 
 #include <algorithm>
 
@@ -6,13 +6,13 @@
 
 namespace nacre {
 
-bool may_be_source(const NodeDef& def) {
+bool may_be_text(const NodeDef& def) {
   return std::all_of(def.outputs.begin(), def.outputs.end(),
                      [](const NodeDefOutput& output) { return is_numeric(output.type); });
 }
 
-NodeSource node_source(const NodeDef& def, const Element& implementation) {
-  NodeSource source;
+NodeText node_text(const NodeDef& def, const Element& implementation) {
+  NodeText source;
   source.nodedef = def.name;
   source.file = implementation.attribute("file");
   source.text = implementation.attribute("sourcecode");

@@ -36,7 +36,7 @@ class Sources : public ::testing::Test {
     system_ =
         ShadingSystem::create({.libraries = {standard_library_folder(), pack_folder() / "nodes"},
                                .bodies = std::move(bodies),
-                               .standard_sources = true},
+                               .standard_texts = true},
                               diagnostics_);
     ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
   }

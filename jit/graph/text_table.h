@@ -29,7 +29,7 @@ class TableValues {
 /// texture(NAME, place). Places count from 0 to 1 over the texels, outside means the
 /// edge, and between texel centres the numbers are linear along every axis (OpenGL 4.6
 /// core profile, 8.14.2, clamp to edge).
-struct SourceTable {
+struct TextTable {
   /// What a look-up between texel centres gives.
   enum class Filter : std::uint8_t { nearest, linear };
 
@@ -43,6 +43,6 @@ struct SourceTable {
 
 /// Whether the sizes are in range and there are as many values as they ask for; no
 /// more than 2^28.
-bool is_whole(const SourceTable& table);
+bool is_whole(const TextTable& table);
 
 }  // namespace nacre

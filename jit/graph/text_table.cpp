@@ -1,4 +1,4 @@
-#include "jit/graph/source_table.h"
+#include "jit/graph/text_table.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +10,7 @@ namespace nacre {
 TableValues::TableValues(std::vector<float> values)
     : values_(std::move(values)), digest_(to_hex(nacre::digest(values_))) {}
 
-bool is_whole(const SourceTable& table) {
+bool is_whole(const TextTable& table) {
   constexpr std::size_t most = std::size_t{1} << 28;
   if (table.values == nullptr || table.channels < 1 || table.channels > 4) return false;
   std::size_t count = table.channels;

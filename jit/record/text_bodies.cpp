@@ -1,4 +1,4 @@
-#include "jit/record/source_bodies.h"
+#include "jit/record/text_bodies.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "jit/record/sample_table.h"
-#include "jit/record/source_ports.h"
+#include "jit/record/text_ports.h"
 #include "nodes/texture2d/sampler.h"
 
 namespace nacre {
@@ -18,11 +18,11 @@ namespace {
 /// Reads the tables that come with a text.
 class Tables {
  public:
-  Tables(const NodeSource& source, Recorder& recorder) : source_(source), recorder_(recorder) {}
+  Tables(const NodeText& source, Recorder& recorder) : source_(source), recorder_(recorder) {}
 
   std::optional<glsl::Value> read(const glsl::Value& sampler, const glsl::Value& place) {
     const auto table = std::find_if(source_.tables.begin(), source_.tables.end(),
-                                    [&](const SourceTable& t) { return t.name == sampler.text; });
+                                    [&](const TextTable& t) { return t.name == sampler.text; });
     if (table == source_.tables.end() || !is_whole(*table)) return std::nullopt;
     const auto [known, is_new] = added_.try_emplace(table->name, 0);
     if (is_new) known->second = add_table(recorder_, *table);
@@ -36,7 +36,7 @@ class Tables {
   }
 
  private:
-  const NodeSource& source_;
+  const NodeText& source_;
   Recorder& recorder_;
   std::map<std::string, std::uint32_t> added_;
 };
@@ -52,7 +52,7 @@ std::optional<glsl::Value> read_image(NodeCall& call, const std::string& image,
                      {}};
 }
 
-glsl::TextureLookup texture_lookup(const NodeSource& source, NodeCall& call) {
+glsl::TextureLookup texture_lookup(const NodeText& source, NodeCall& call) {
   const auto tables = std::make_shared<Tables>(source, call.recorder());
   return [&call, tables](const glsl::Value& sampler, const glsl::Value& place,
                          const glsl::Value* ddx, const glsl::Value*) -> std::optional<glsl::Value> {
@@ -65,7 +65,7 @@ glsl::TextureLookup texture_lookup(const NodeSource& source, NodeCall& call) {
 
 /// Hands on what was found about a text: with the path of the implementation that it is of,
 /// where none is given, and not what was said before, of another node of that kind.
-void say_once(const NodeSource& source, const Diagnostics& found, Diagnostics& diagnostics) {
+void say_once(const NodeText& source, const Diagnostics& found, Diagnostics& diagnostics) {
   for (Diagnostic one : found.all()) {
     if (one.where.path.empty()) one.where.path = source.where.path;
     const auto is_same = [&](const Diagnostic& other) {
@@ -78,7 +78,7 @@ void say_once(const NodeSource& source, const Diagnostics& found, Diagnostics& d
   }
 }
 
-bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string message,
+bool misfit(const NodeText& source, Diagnostics& diagnostics, std::string message,
             std::string expected, std::string found) {
   diagnostics.error("source-misfit", source.where, std::move(message), std::move(expected),
                     std::move(found));
@@ -86,7 +86,7 @@ bool misfit(const NodeSource& source, Diagnostics& diagnostics, std::string mess
 }
 
 /// Sets what an output stands for: itself, or the leaves of its structure.
-void set_output(NodeCall& call, const SourcePorts::Port& output, const glsl::Value& value) {
+void set_output(NodeCall& call, const TextPorts::Port& output, const glsl::Value& value) {
   auto part = value.parts.begin();
   for (std::size_t i = output.first; i < output.first + output.count; ++i) {
     const NodeCall::Port& leaf = call.outputs()[i];
@@ -98,9 +98,9 @@ void set_output(NodeCall& call, const SourcePorts::Port& output, const glsl::Val
 
 /// Sets the node's only output to the value of an expression, or of a function that
 /// returns it.
-bool set_only_output(const NodeSource& source, NodeCall& call, const SourcePorts& outputs,
+bool set_only_output(const NodeText& source, NodeCall& call, const TextPorts& outputs,
                      std::string message, const glsl::Value& value, Diagnostics& diagnostics) {
-  const SourcePorts::Port& output = outputs.all().front();
+  const TextPorts::Port& output = outputs.all().front();
   if (outputs.all().size() != 1) {
     return misfit(source, diagnostics, std::move(message), "one output",
                   fmt::format("{} outputs", outputs.all().size()));
@@ -112,17 +112,17 @@ bool set_only_output(const NodeSource& source, NodeCall& call, const SourcePorts
   return true;
 }
 
-bool record_expression(const NodeSource& source, const glsl::Module& module, NodeCall& call,
+bool record_expression(const NodeText& source, const glsl::Module& module, NodeCall& call,
                        const glsl::RecordLimits& limits, Diagnostics& diagnostics) {
-  const SourcePorts inputs(source, call.inputs());
+  const TextPorts inputs(source, call.inputs());
   std::deque<std::string> names;
   std::vector<std::pair<std::string_view, glsl::Value>> values;
-  for (const SourcePorts::Port& input : inputs.all()) {
+  for (const TextPorts::Port& input : inputs.all()) {
     values.emplace_back(names.emplace_back(fmt::format("__{}__", input.name)), input.value);
   }
   auto result = module.record_expression(values, call.recorder(), diagnostics, limits);
   if (!result) return false;
-  const SourcePorts outputs(source, call.outputs());
+  const TextPorts outputs(source, call.outputs());
   const glsl::Type& wanted = outputs.all().front().value.type;
   if (glsl::converts(result->type, wanted)) result = glsl::convert(*result, wanted);
   return set_only_output(source, call, outputs, "the expression has another type than the output",
@@ -130,9 +130,9 @@ bool record_expression(const NodeSource& source, const glsl::Module& module, Nod
 }
 
 /// The value as the parameter's type, or nothing, with a diagnostic.
-std::optional<glsl::Value> fitted(const NodeSource& source, Diagnostics& diagnostics,
+std::optional<glsl::Value> fitted(const NodeText& source, Diagnostics& diagnostics,
                                   const glsl::Function::Parameter& parameter, std::size_t number,
-                                  const SourcePorts::Port& port, bool is_input) {
+                                  const TextPorts::Port& port, bool is_input) {
   const bool converts = is_input && glsl::converts(port.value.type, parameter.type);
   if (converts && parameter.in) return glsl::convert(port.value, parameter.type);
   std::optional<SourceMisfit> difference = find_misfit(port.value.type, parameter.type);
@@ -153,15 +153,15 @@ std::optional<glsl::Value> fitted(const NodeSource& source, Diagnostics& diagnos
 }
 
 /// A function may also return its only output.
-bool record_function(const NodeSource& source, const glsl::Module& module, NodeCall& call,
+bool record_function(const NodeText& source, const glsl::Module& module, NodeCall& call,
                      const glsl::RecordLimits& limits, Diagnostics& diagnostics) {
   const glsl::Function* function = module.function(source.function);
   if (function == nullptr) {
     return misfit(source, diagnostics, "the text does not define the function",
                   "'" + source.function + "'", "no such function");
   }
-  const SourcePorts inputs(source, call.inputs());
-  const SourcePorts outputs(source, call.outputs());
+  const TextPorts inputs(source, call.inputs());
+  const TextPorts outputs(source, call.outputs());
   const bool returns = !function->type.is_void();
   const std::size_t count = inputs.all().size();
   const std::size_t wanted = count + (returns ? 0 : outputs.all().size());
@@ -174,7 +174,7 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
   std::vector<glsl::Value> arguments;
   for (std::size_t i = 0; i < wanted; ++i) {
     const bool is_input = i < count;
-    const SourcePorts::Port& port = is_input ? inputs.all()[i] : outputs.all()[i - count];
+    const TextPorts::Port& port = is_input ? inputs.all()[i] : outputs.all()[i - count];
     auto argument = fitted(source, diagnostics, function->parameters[i], i + 1, port, is_input);
     if (!argument) return false;
     arguments.push_back(std::move(*argument));
@@ -195,7 +195,7 @@ bool record_function(const NodeSource& source, const glsl::Module& module, NodeC
 
 }  // namespace
 
-bool SourceBodies::record(const NodeSource& source, NodeCall& call, const Stop& stop) {
+bool TextBodies::record(const NodeText& source, NodeCall& call, const Stop& stop) {
   Diagnostics found;
   const glsl::RecordLimits limits{.stop = stop};
   const std::shared_ptr<const glsl::Module> module = modules_.find(source, found, stop);
@@ -207,8 +207,8 @@ bool SourceBodies::record(const NodeSource& source, NodeCall& call, const Stop& 
   return done;
 }
 
-bool SourceBodies::check(const NodeSource& source, const NodeDef& def, Diagnostics& diagnostics,
-                         const Stop& stop) {
+bool TextBodies::check(const NodeText& source, const NodeDef& def, Diagnostics& diagnostics,
+                       const Stop& stop) {
   Recorder recorder;
   std::vector<NodeCall::Port> inputs;
   for (const NodeDefInput& input : def.inputs) {

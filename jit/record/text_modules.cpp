@@ -1,4 +1,4 @@
-#include "jit/record/source_modules.h"
+#include "jit/record/text_modules.h"
 
 #include <algorithm>
 #include <fstream>
@@ -65,17 +65,16 @@ std::string with_names(std::string text) {
 
 }  // namespace
 
-SourceModules::SourceModules(std::vector<fs::path> roots)
+TextModules::TextModules(std::vector<fs::path> roots)
     : roots_(std::move(roots)), prelude_(glsl::Prelude::read()) {}
 
-bool SourceModules::Entry::is_current() const {
+bool TextModules::Entry::is_current() const {
   return std::all_of(files.begin(), files.end(),
                      [](const auto& file) { return identify(file.first) == file.second; });
 }
 
-std::shared_ptr<const glsl::Module> SourceModules::find(const NodeSource& source,
-                                                        Diagnostics& diagnostics,
-                                                        const Stop& stop) {
+std::shared_ptr<const glsl::Module> TextModules::find(const NodeText& source,
+                                                      Diagnostics& diagnostics, const Stop& stop) {
   // What is said of a file's text names the file, wherever it is used.
   const bool is_inline = source.file.empty();
   Key key{source.function.empty(),
@@ -93,8 +92,8 @@ std::shared_ptr<const glsl::Module> SourceModules::find(const NodeSource& source
   return modules_.insert_or_assign(std::move(key), std::move(entry)).first->second.module;
 }
 
-SourceModules::Entry SourceModules::read(const NodeSource& source, Diagnostics& diagnostics,
-                                         const Stop& stop) const {
+TextModules::Entry TextModules::read(const NodeText& source, Diagnostics& diagnostics,
+                                     const Stop& stop) const {
   Entry entry;
   const fs::path home = fs::path(source.document).parent_path();
   std::vector<fs::path> allowed{home};

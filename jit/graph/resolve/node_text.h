@@ -7,10 +7,10 @@ namespace nacre {
 
 /// Whether a text may implement the nodedef: it computes numbers and nothing else,
 /// so closures and shaders are none.
-bool may_be_source(const NodeDef& def);
+bool may_be_text(const NodeDef& def);
 
 /// The implementation by text of a nodedef that an <implementation> element
-/// gives: see Definitions::source_of.
-NodeSource node_source(const NodeDef& def, const Element& implementation);
+/// gives: see Definitions::text_of.
+NodeText node_text(const NodeDef& def, const Element& implementation);
 
 }  // namespace nacre
