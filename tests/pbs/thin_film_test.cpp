@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "tests/pbs/reference/thin_film.h"
+#include "tests/pbs/independent/thin_film.h"
 #include "tests/support/run_kernel.h"
 
 namespace nacre {

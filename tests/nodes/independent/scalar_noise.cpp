@@ -1,4 +1,4 @@
-#include "tests/nodes/reference/scalar_noise.h"
+#include "tests/nodes/independent/scalar_noise.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "tests/pbs/reference/thin_film.h"
+#include "tests/pbs/independent/thin_film.h"
 
 #include <cmath>
 #include <numbers>
