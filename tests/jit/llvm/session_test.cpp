@@ -70,7 +70,7 @@ TEST(Session, UnloadedCodeLeavesNothing) {
 
 /// Linux allows a process 65,530 mappings.
 TEST(Session, ThousandsOfKernelsAreAFewMappings) {
-  const std::size_t count = std::getenv("NACRE_TEST_FULL") != nullptr ? 40000 : 3000;
+  const std::size_t count = std::getenv("NACRE_TEST_FULL") != nullptr ? 100000 : 3000;
   Diagnostics diagnostics;
   const auto own = JitSession::create({}, diagnostics);
   const Program program = small_program(1.0f);

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -230,6 +231,39 @@ TEST(Worker, ChildrenOfForkHaveTheirOwn) {
   ASSERT_NE(after, nullptr);
   EXPECT_STREQ(after->engine(), "jit");
   EXPECT_EQ(diagnostics.to_string(), "");
+}
+
+/// Threads that compile, run and unload, with a fault every now and then.
+TEST(Worker, EightThreadsAmongFaults) {
+  ServiceOptions options;
+  options.threads = 8;
+  options.worker = FAULTY_WORKER;
+  options.worker_limits = {.seconds = 60, .megabytes = 1024};
+  Diagnostics none;
+  const auto one = CompileService::create(options, none);
+  std::atomic<int> compiled = 0;
+  std::atomic<int> interpreted = 0;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 8; ++t) {
+    threads.emplace_back([&, t] {
+      for (int k = 0; k < 12; ++k) {
+        const bool is_faulty = (t + k) % 4 == 0;
+        const auto number = static_cast<float>(100 * t + k);
+        Diagnostics diagnostics;
+        const auto kernel = one->request(
+            named_program(is_faulty ? (k % 2 == 0 ? "crash" : "fatal") : "sound", number), quick(),
+            diagnostics);
+        ASSERT_NE(kernel, nullptr) << diagnostics.to_string();
+        EXPECT_EQ(run_small(*kernel, 1.0f), 2.0f + number);
+        EXPECT_EQ(std::string(kernel->engine()), is_faulty ? "interpreter" : "jit");
+        ++(is_faulty ? interpreted : compiled);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(compiled, 72);
+  EXPECT_EQ(interpreted, 24);
+  EXPECT_LE(children(), 8);
 }
 
 /// A host that waits for any child takes the end of ours.
