@@ -16,7 +16,8 @@ OURS = re.compile(
 
 
 def main() -> int:
-    listing = subprocess.run(["nm", "--dynamic", "--demangle", "--defined-only", sys.argv[1]],
+    listing = subprocess.run(["nm", "--dynamic", "--demangle", "--defined-only", "--extern-only",
+                              sys.argv[1]],
                              capture_output=True, text=True, check=True).stdout
     # "0000000000003cd0 T nacre::is_closure(nacre::Type)"; version names have type A.
     symbols = [line.split(maxsplit=2) for line in listing.splitlines()]

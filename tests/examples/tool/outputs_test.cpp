@@ -155,7 +155,7 @@ TEST_F(Outputs, ErrorsNameTheFile) {
   // Sines become polynomials: too large only when lowered.
   EXPECT_EQ(bake(sines, "--max-instructions 20" + out), 1);
   EXPECT_TRUE(line_of("[program-too-large]").starts_with(file("a.mtlx") + ":2:")) << errors_;
-  EXPECT_EQ(bake(sines, "--max-compile-time 0" + out), 0);
+  EXPECT_EQ(bake(sines, "--wait-for-code --max-compile-time 0" + out), 0);
   EXPECT_TRUE(line_of("[compile-timeout]").starts_with(file("a.mtlx") + ":2:")) << errors_;
   EXPECT_EQ(bake(sines, "--udim 12" + out), 1);
   EXPECT_TRUE(line_of("[bad-udim]").starts_with(file("a.mtlx") + ":")) << errors_;
