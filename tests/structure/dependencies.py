@@ -34,7 +34,7 @@ QUARANTINE = {
     "gtest/": ("tests",),
     "gmock/": ("tests",),
     "llvm-c/": ("jit/llvm",),
-    "llvm/": ("jit/llvm", "tests/jit/worker"),
+    "llvm/": ("jit/llvm", "tests/jit/llvm", "tests/jit/worker"),
     "nlohmann/": ("bench", "examples", "tests"),
     "pugixml": ("jit/document",),
 }
