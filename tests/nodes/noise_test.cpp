@@ -7,8 +7,8 @@
 
 #include "jit/passes/derive.h"
 #include "runtime/interpreter/interpreter.h"
-#include "tests/nodes/node_runner.h"
 #include "tests/nodes/independent/scalar_noise.h"
+#include "tests/nodes/node_runner.h"
 
 namespace nacre {
 namespace {

@@ -118,7 +118,7 @@ class Checks(unittest.TestCase):
         self.assert_finds(form.marked_lists, "nodes/list.cpp:")
 
     def test_tests_of_no_folder(self):
-        self.write("tests/jit/graph/reference/good.cpp", "")
+        self.write("tests/jit/graph/independent/good.cpp", "")
         self.write("tests/support/good.h", "")
         self.write("tests/jit/graphs/bad_test.cpp", "")
         self.assert_finds(form.mirror, "tests/jit/graphs/bad_test.cpp:")

@@ -88,7 +88,7 @@ def mirror(root: pathlib.Path) -> list[str]:
     faults = []
     for file in tree.files(root / "tests", tree.CODE):
         folder = pathlib.PurePosixPath(file).parent
-        while folder.name == "reference":  # What tests compare with.
+        while folder.name == "independent":  # What tests compare with.
             folder = folder.parent
         if folder.as_posix() not in TESTS_OF_MANY and not (root / folder).is_dir():
             faults.append(f"tests/{file}: there is no {folder}/ that this could be a test of")
