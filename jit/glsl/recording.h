@@ -8,6 +8,12 @@
 
 namespace nacre::glsl {
 
+/// Where the values go that a branch gives beside what it assigns; zero outside its lanes.
+struct BranchValues {
+  Value* then = nullptr;
+  Value* otherwise = nullptr;
+};
+
 /// The walk over a syntax tree that records it; the implementation of record.h.
 /// Variables live on one stack, so that a branch can note what it changed.
 class Recording {
@@ -113,13 +119,9 @@ class Recording {
   Bool running();
 
   // Control flow (recording.cpp).
-  /// What the sides of a branch give, beside what they assign; outside its lanes zero.
-  struct Sides {
-    Value* then = nullptr;
-    Value* otherwise = nullptr;
-  };
   template <class Then, class Otherwise>
-  void branch(Bool condition, Place place, Then&& then, Otherwise&& otherwise, Sides sides = {});
+  void branch(Bool condition, Place place, Then&& then, Otherwise&& otherwise,
+              BranchValues values = {});
   using Parts = std::vector<std::vector<Ref>>;  ///< Of all variables.
   template <class Body>
   void region(Bool where, const Parts& before, const Parts& outside, Body&& body, Value* result);
@@ -165,17 +167,17 @@ void Recording::scoped(Body&& body) {
 /// every variable the value of the side that a lane takes.
 template <class Then, class Otherwise>
 void Recording::branch(Bool condition, Place place, Then&& then, Otherwise&& otherwise,
-                       Sides sides) {
+                       BranchValues values) {
   if (condition.is_constant(true)) return scoped(then);
   if (condition.is_constant(false)) return scoped(otherwise);
   const Bool mask = mask_;
   const auto before = snapshot(place);
   mask_ = mask & condition;
-  region(condition, before, before, then, sides.then);
+  region(condition, before, before, then, values.then);
   const auto after = snapshot(place);
   restore(before);
   mask_ = mask & !condition;
-  region(!condition, before, after, otherwise, sides.otherwise);
+  region(!condition, before, after, otherwise, values.otherwise);
   mask_ = mask;
 }
 
