@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "examples/measure/sampler.h"
@@ -85,7 +86,10 @@ std::optional<KernelCost> measure_cost(const BoundKernel& kernel, const CompileO
     rows[{place->function, instruction.origin}].nanoseconds += each;
   }
   for (auto& [part, row] : rows) cost.rows.push_back(std::move(row));
-  std::ranges::stable_sort(cost.rows, std::ranges::greater(), &CostRow::nanoseconds);
+  std::ranges::sort(cost.rows, [](const CostRow& a, const CostRow& b) {
+    return std::tie(b.nanoseconds, b.operations, a.origin, a.function) <
+           std::tie(a.nanoseconds, a.operations, b.origin, b.function);
+  });
   return cost;
 }
 
