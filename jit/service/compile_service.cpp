@@ -64,19 +64,14 @@ class Workshop {
   std::shared_ptr<CompiledKernel> find(const Program& program, const std::string& key,
                                        const CodegenOptions& options) {
     if (session_ == nullptr) return nullptr;
-    auto shared = std::make_shared<const Program>(program);
     std::shared_ptr<CompileJob> job = known_job(key);
-    if (job == nullptr && cache_ != nullptr) {
-      auto found = shared_in_process(std::make_unique<CompileJob>(key, shared, options));
-      if (found->find(*session_, *cache_)) {
-        job = std::move(found);
-        const std::scoped_lock lock(mutex_);
-        jobs_[key] = job;
-        forget_dead();
-      }
+    if (job == nullptr && cache_ != nullptr) job = cached_job(program, key, options);
+    if (job != nullptr && job->entry() != nullptr && job->join()) {
+      return std::make_shared<ServiceKernel>(std::make_shared<const Program>(program), options, job,
+                                             nullptr);
     }
-    if (job == nullptr || job->entry() == nullptr || !job->join()) return nullptr;
-    return std::make_shared<ServiceKernel>(shared, options, job, nullptr);
+    if (job == nullptr) compiler_->prepare();
+    return nullptr;
   }
 
   std::vector<std::shared_ptr<CompiledKernel>> request_all(std::vector<CodeRequest> requests,
@@ -165,6 +160,18 @@ class Workshop {
     return job;
   }
 
+  /// One that is done, for the cache has what it would make.
+  std::shared_ptr<CompileJob> cached_job(const Program& program, const std::string& key,
+                                         const CodegenOptions& options) {
+    auto job = shared_in_process(
+        std::make_unique<CompileJob>(key, std::make_shared<const Program>(program), options));
+    if (!job->find(*session_, *cache_)) return nullptr;
+    const std::scoped_lock lock(mutex_);
+    jobs_[key] = job;
+    forget_dead();
+    return job;
+  }
+
   std::shared_ptr<CompileJob> known_job(const std::string& key) {
     const std::scoped_lock lock(mutex_);
     const auto known = jobs_.find(key);
@@ -239,6 +246,7 @@ void make_what_is_made_once() {
   const Program nothing = Recorder().take();
   (void)code_key(nothing, CodegenOptions());
   (void)make_interpreter(nothing);
+  (void)widest_lanes(Target::host());
 }
 
 }  // namespace

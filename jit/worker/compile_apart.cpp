@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <utility>
@@ -19,17 +20,20 @@ using Clock = std::chrono::steady_clock;
 
 class CompilerApart final : public Compiler {
  public:
-  /// The first is started now, to load LLVM while the host does other things; a fault is
-  /// said once it is wanted.
   CompilerApart(std::filesystem::path program, const WorkerLimits& limits)
-      : program_(std::move(program)), limits_(limits) {
-    std::string fault;
-    if (auto first = WorkerProcess::start(program_, limits_, fault)) give_back(std::move(first));
-  }
+      : program_(std::move(program)), limits_(limits) {}
 
   ~CompilerApart() override {
     if (process_.is_this()) return;
     for (const std::unique_ptr<WorkerProcess>& worker : idle_) worker->forget();
+  }
+
+  /// Starts the first, to load LLVM while the host does other things; a fault is said once
+  /// it is wanted.
+  void prepare() override {
+    if (has_begun_.exchange(true)) return;
+    std::string fault;
+    if (auto first = WorkerProcess::start(program_, limits_, fault)) give_back(std::move(first));
   }
 
   std::unique_ptr<Compiler> heir() const override {
@@ -40,6 +44,7 @@ class CompilerApart final : public Compiler {
                                     Diagnostics& diagnostics, CompileStats& stats,
                                     const std::function<bool()>& cancelled) override {
     std::string fault;
+    has_begun_ = true;
     std::unique_ptr<WorkerProcess> worker = take(fault);
     if (worker == nullptr) return failed(program, "it cannot be started", fault, diagnostics);
     const std::string request = to_bytes(CompileRequest{options, program, limits_.seconds});
@@ -108,6 +113,7 @@ class CompilerApart final : public Compiler {
   const Process process_;
   const std::filesystem::path program_;
   const WorkerLimits limits_;
+  std::atomic<bool> has_begun_ = false;
   std::mutex mutex_;
   std::vector<std::unique_ptr<WorkerProcess>> idle_;  ///< The latest last.
 };

@@ -21,6 +21,8 @@ class Compiler {
   virtual std::optional<ObjectCode> compile(const Program& program, const CodegenOptions& options,
                                             Diagnostics& diagnostics, CompileStats& stats,
                                             const std::function<bool()>& cancelled) = 0;
+  /// Somebody will soon call compile(): what takes long to begin may begin.
+  virtual void prepare() {}
   /// The same for a child of fork().
   virtual std::unique_ptr<Compiler> heir() const = 0;
 };

@@ -59,7 +59,7 @@ std::optional<CompileRequest> request_from_bytes(std::string_view bytes) {
 
 std::string to_bytes(const CompileAnswer& answer) {
   BytesOut out;
-  out.add(answer.object.has_value());
+  out.add(static_cast<std::uint8_t>(answer.object.has_value() ? 1 : 0));
   if (answer.object) {
     out.add_text(answer.object->symbol);
     out.add_text(answer.object->interface);
@@ -72,7 +72,7 @@ std::string to_bytes(const CompileAnswer& answer) {
   }
   out.add(static_cast<std::uint64_t>(answer.diagnostics.all().size()));
   for (const Diagnostic& one : answer.diagnostics.all()) {
-    out.add(one.severity);
+    out.add(static_cast<std::uint8_t>(one.severity));
     for (const std::string* text : {&one.code, &one.message, &one.expected, &one.found}) {
       out.add_text(*text);
     }
@@ -83,7 +83,8 @@ std::string to_bytes(const CompileAnswer& answer) {
 std::optional<CompileAnswer> answer_from_bytes(std::string_view bytes) {
   BytesIn in(bytes);
   CompileAnswer answer;
-  if (in.take<bool>()) {
+  // As numbers: a process that went wrong may say anything.
+  if (in.take<std::uint8_t>() != 0) {
     answer.object.emplace();
     answer.object->symbol = in.take_text();
     answer.object->interface = in.take_text();
@@ -95,10 +96,12 @@ std::optional<CompileAnswer> answer_from_bytes(std::string_view bytes) {
   for (double* seconds : {&answer.stats.emit, &answer.stats.optimize, &answer.stats.codegen}) {
     *seconds = in.take<double>();
   }
-  const std::size_t count = in.take_count(sizeof(Severity) + 4 * sizeof(std::uint64_t));
+  const std::size_t count = in.take_count(sizeof(std::uint8_t) + 4 * sizeof(std::uint64_t));
   for (std::size_t i = 0; i < count; ++i) {
     Diagnostic one;
-    one.severity = in.take<Severity>();
+    const auto severity = in.take<std::uint8_t>();
+    if (severity > static_cast<std::uint8_t>(Severity::error)) return std::nullopt;
+    one.severity = static_cast<Severity>(severity);
     for (std::string* text : {&one.code, &one.message, &one.expected, &one.found}) {
       *text = in.take_text();
     }

@@ -187,26 +187,44 @@ TEST(Worker, AskedAsynchronouslyAKernelStaysInterpreted) {
   EXPECT_NE(kernel->diagnostics().to_string().find("compile-failed"), std::string::npos);
 }
 
+/// Waits until `done`, at most some seconds.
+template <class F>
+void wait_until(F&& done) {
+  for (int i = 0; i < 100 && !done(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
 TEST(Worker, WhatNobodyWantsIsEnded) {
   const auto one = service(FAULTY_WORKER, {.seconds = 600, .megabytes = 1024});
   const int before = children();
-  one->request_async(named_program("hang"), quick()).reset();
-  one->request_async(named_program("hang"), quick()).reset();
-  for (int i = 0; i < 100 && children() > before; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
+  auto kernel = one->request_async(named_program("hang"), quick());
+  wait_until([&] { return children() > before; });
+  EXPECT_GT(children(), before);
+  kernel.reset();
+  wait_until([&] { return children() <= before; });
   EXPECT_LE(children(), before);
+}
+
+/// Where everything comes from the cache, or nothing is compiled, none is begun.
+TEST(Worker, BeginsWhenThereIsSomethingToCompile) {
+  const int before = children();
+  const auto one = service(WORKER);
+  EXPECT_EQ(children(), before);
+  EXPECT_EQ(one->find(small_program(1.0f), "unknown", quick()), nullptr);
+  EXPECT_GT(children(), before);
 }
 
 TEST(Worker, NoProcessIsLeft) {
   const int before = children();
   {
     const auto one = service(WORKER);
-    EXPECT_GT(children(), before);
     std::vector<std::shared_ptr<CompiledKernel>> kernels;
     for (int i = 0; i < 8; ++i) {
       kernels.push_back(one->request_async(small_program(static_cast<float>(i)), quick()));
     }
+    wait_until([&] { return children() > before; });
+    EXPECT_GT(children(), before);
   }
   EXPECT_EQ(children(), before);
 }
