@@ -131,7 +131,9 @@ class Kernels {
   }
 
   const CompileOptions& options_;
-  const CodegenOptions codegen_ = codegen_options(options_);
+  /// Of the JIT; what it is needs LLVM, which the other engines do without.
+  const CodegenOptions codegen_ =
+      options_.backend == Backend::jit ? codegen_options(options_) : CodegenOptions{};
   CompileService* service_;
   Diagnostics& diagnostics_;
   List made_;                        ///< By place; null where refused.

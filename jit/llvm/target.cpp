@@ -113,7 +113,9 @@ std::string CodegenOptions::key() const {
                      line_tables ? " lines" : "", target.cpu, target.features);
 }
 
-int widest_lanes(const Target& target) {
+namespace {
+
+int lanes_of(const Target& target) {
   CodegenOptions options;
   options.target = target;
   std::string error;
@@ -121,6 +123,14 @@ int widest_lanes(const Target& target) {
   if (machine == nullptr) return 4;
   const codegen::Features features = codegen::features_of(*machine);
   return features.avx512 ? 16 : features.avx ? 8 : 4;
+}
+
+}  // namespace
+
+int widest_lanes(const Target& target) {
+  if (target != Target::host()) return lanes_of(target);
+  static const int found = lanes_of(Target::host());  // Asked for each compile.
+  return found;
 }
 
 namespace codegen {
