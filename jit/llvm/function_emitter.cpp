@@ -24,8 +24,8 @@ FunctionEmitter::FunctionEmitter(ModuleEmitter& module, const Function& function
 void FunctionEmitter::emit(ValueId id) {
   const EmitOp op = emit_op(at(id).op);
   assert(op != nullptr && "a pass should have expanded this operation");
-  if (at(id).op == Op::constant) return;  // Made where it is used.
-  if (parts_ != nullptr && parts_->home[id] != part_) {
+  const bool has_home = parts_ != nullptr && at(id).op != Op::constant;
+  if (has_home && parts_->home[id] != part_) {
     leave_part();
     if (parts_->home[id] != 0) enter_part(parts_->home[id]);
   }

@@ -23,6 +23,9 @@ ModuleEmitter::ModuleEmitter(const Program& program, const CodegenOptions& optio
       tables_(program.tables.size(), nullptr) {
   if (limit_.is_counted()) costs_ = function_costs(program);
   if (options.line_tables) lines_.emplace(module);
+  for (const Function& function : program.functions) {
+    uniform_arguments_.push_back(uniform_arguments(function));
+  }
 }
 
 std::int64_t ModuleEmitter::steps_of_round(const Function& function, ValueId open) const {
@@ -72,7 +75,7 @@ llvm::Function* ModuleEmitter::instance(std::uint32_t index, int lanes) {
   if (known != nullptr) return known;
   const Function& function = program_.functions[index];
   std::vector<llvm::Type*> arguments{llvm::PointerType::getUnqual(context())};
-  const std::vector<bool> uniform = uniform_arguments(function);
+  const std::vector<bool>& uniform = uniform_arguments_[index];
   for (std::size_t i = 0; i < uniform.size(); ++i) {
     arguments.push_back(stored_type(function.arguments[i], uniform[i] ? 1 : lanes));
   }

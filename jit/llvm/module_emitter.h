@@ -60,6 +60,11 @@ class ModuleEmitter {
   /// nobody asks for lines.
   llvm::DISubprogram* lines_of(const Function& function, llvm::Function& into);
 
+  /// uniform_arguments() of the outlined function `index`.
+  const std::vector<bool>& uniform_arguments_of(std::uint32_t index) const {
+    return uniform_arguments_[index];
+  }
+
   /// A function that only this module calls, by the fast convention; never inlined.
   llvm::Function* add_function(const std::string& name, llvm::FunctionType* type);
 
@@ -80,6 +85,7 @@ class ModuleEmitter {
   std::optional<LineTable> lines_;
   StepLimit limit_;
   std::vector<FunctionCost> costs_;  ///< Where they are counted.
+  std::vector<std::vector<bool>> uniform_arguments_;
   std::map<std::pair<std::uint32_t, int>, llvm::Function*> instances_;
   std::vector<llvm::GlobalVariable*> tables_;
   llvm::GlobalVariable* one_ = nullptr;

@@ -26,8 +26,7 @@ Value* call(FunctionEmitter& e, ValueId id) {
   const Instruction& instruction = e.at(id);
   const int lanes = e.lanes_of(id);
   llvm::Function* callee = e.module().instance(instruction.imm, lanes);
-  const std::vector<bool> uniform =
-      uniform_arguments(e.module().program().functions[instruction.imm]);
+  const std::vector<bool>& uniform = e.module().uniform_arguments_of(instruction.imm);
   const std::span<const ValueId> operands = e.function().operands(instruction);
   std::vector<Value*> arguments{e.kernel_arguments};
   for (std::size_t i = 0; i < operands.size(); ++i) {
