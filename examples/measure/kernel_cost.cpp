@@ -50,15 +50,16 @@ std::map<Part, CostRow> rows_of(const Program& program) {
 
 }  // namespace
 
-std::optional<KernelCost> measure_cost(const BoundKernel& kernel, const CompileOptions& options,
-                                       const Columns& given, double seconds,
-                                       Diagnostics& diagnostics) {
+std::optional<KernelCost> measure_cost(const BoundKernel& kernel, Compiler& compiler,
+                                       const CompileOptions& options, const Columns& given,
+                                       double seconds, Diagnostics& diagnostics) {
   CodegenOptions codegen = codegen_options(options);
   codegen.line_tables = true;
   const Program& program = kernel.program();
   const auto session = JitSession::create({}, diagnostics);
   if (session == nullptr) return std::nullopt;
-  const auto object = compile_object(program, codegen, diagnostics);
+  CompileStats stats;
+  const auto object = compiler.compile(program, codegen, diagnostics, stats, {});
   if (!object) return std::nullopt;
   const auto code = session->load(*object, diagnostics);
   if (code == nullptr) return std::nullopt;

@@ -9,6 +9,7 @@
 #include "examples/measure/kernel_run.h"
 #include "jit/compile/options.h"
 #include "jit/shading/bound_kernel.h"
+#include "jit/worker/compiler.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::measure {
@@ -32,8 +33,8 @@ struct KernelCost {
 /// Runs a kernel of the JIT for some `seconds` at points of shading_points(), but for the
 /// channels that are `given`, and says where the time goes. The code is made anew, with its
 /// lines. Nothing, with a diagnostic, where that cannot be.
-std::optional<KernelCost> measure_cost(const BoundKernel& kernel, const CompileOptions& options,
-                                       const Columns& given, double seconds,
-                                       Diagnostics& diagnostics);
+std::optional<KernelCost> measure_cost(const BoundKernel& kernel, Compiler& compiler,
+                                       const CompileOptions& options, const Columns& given,
+                                       double seconds, Diagnostics& diagnostics);
 
 }  // namespace nacre::measure

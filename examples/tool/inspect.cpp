@@ -72,8 +72,9 @@ Json stage_list(const std::vector<StageReport>& stages) {
   return list;
 }
 
+/// With what it costs where there is a compiler to measure with; so below.
 Json inspect_material(const Opened& opened, const std::string& material,
-                      const ShaderOptions& shader, bool with_cost, Diagnostics& diagnostics) {
+                      const ShaderOptions& shader, Compiler* for_cost, Diagnostics& diagnostics) {
   const auto kernels =
       opened.system->compile_material(*opened.document, material, shader, diagnostics);
   if (kernels == nullptr) return nullptr;
@@ -94,21 +95,24 @@ Json inspect_material(const Opened& opened, const std::string& material,
     present.emplace_back(name, &**kernel);
   }
   result["kernels"] = std::move(list);
-  if (with_cost) result["cost"] = kernel_costs(present, shader.compile, diagnostics);
+  if (for_cost != nullptr) {
+    result["cost"] = kernel_costs(present, *for_cost, shader.compile, diagnostics);
+  }
   result["stages"] = stage_list(kernels->stages);
   return result;
 }
 
 Json inspect_output(const Opened& opened, const std::string& output, const ShaderOptions& shader,
-                    bool with_cost, Diagnostics& diagnostics) {
+                    Compiler* for_cost, Diagnostics& diagnostics) {
   const auto kernel =
       opened.system->compile_outputs(*opened.document, {output}, shader, diagnostics);
   if (kernel == nullptr) return nullptr;
   Json result{{"output", output},
               {"type", type_name(kernel->outputs.front().type)},
               {"kernel", describe(kernel->kernel)}};
-  if (with_cost) {
-    result["cost"] = kernel_costs({{output, &kernel->kernel}}, shader.compile, diagnostics);
+  if (for_cost != nullptr) {
+    result["cost"] =
+        kernel_costs({{output, &kernel->kernel}}, *for_cost, shader.compile, diagnostics);
   }
   result["stages"] = stage_list(kernel->stages);
   return result;
@@ -169,6 +173,7 @@ int run(const InspectOptions& options) {
                       options.common.backend);
     return report(diagnostics);
   }
+  const auto for_cost = options.cost ? options.common.compiler() : nullptr;
   shader.compile.whole = true;
   if (options.live) shader.parameters = ParameterMode::live;
   for (const std::string& dump : options.dumps) {
@@ -189,7 +194,7 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& material : materials) {
-    add(inspect_material(opened, material, shader, options.cost, diagnostics));
+    add(inspect_material(opened, material, shader, for_cost.get(), diagnostics));
   }
   std::vector<std::string> outputs = options.outputs;
   if (everything) {
@@ -198,7 +203,7 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& output : outputs) {
-    add(inspect_output(opened, output, shader, options.cost, diagnostics));
+    add(inspect_output(opened, output, shader, for_cost.get(), diagnostics));
   }
   if (options.json) {
     // Names come from documents, which may hold bytes that are no UTF-8.

@@ -69,12 +69,13 @@ void print_cost(const std::string& name, const Json& cost) {
 
 }  // namespace
 
-Json kernel_costs(const std::vector<NamedKernel>& kernels, const CompileOptions& options,
-                  Diagnostics& diagnostics) {
+Json kernel_costs(const std::vector<NamedKernel>& kernels, Compiler& compiler,
+                  const CompileOptions& options, Diagnostics& diagnostics) {
   Json costs = Json::object();
   measure::Columns given;
   for (const auto& [name, kernel] : kernels) {
-    const auto cost = measure::measure_cost(*kernel, options, given, seconds_a_kernel, diagnostics);
+    const auto cost =
+        measure::measure_cost(*kernel, compiler, options, given, seconds_a_kernel, diagnostics);
     costs[name] = cost ? as_json(*cost) : Json(nullptr);
     if (cost) given.insert(cost->results.begin(), cost->results.end());
   }

@@ -7,6 +7,7 @@
 
 #include "jit/compile/options.h"
 #include "jit/shading/bound_kernel.h"
+#include "jit/worker/compiler.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::tool {
@@ -16,7 +17,7 @@ using NamedKernel = std::pair<std::string, const BoundKernel*>;
 /// What each of these kernels costs, by its name: nanoseconds of a point, and the parts of
 /// it. They run in this order, and what one stores the later ones read. Null for one that
 /// cannot be measured, after a diagnostic.
-nlohmann::ordered_json kernel_costs(const std::vector<NamedKernel>& kernels,
+nlohmann::ordered_json kernel_costs(const std::vector<NamedKernel>& kernels, Compiler& compiler,
                                     const CompileOptions& options, Diagnostics& diagnostics);
 
 /// As tables.

@@ -134,6 +134,11 @@ void CommonOptions::add_compile(CLI::App& command) {
                    "Compile in this process, which a fault of LLVM's ends; else in others");
 }
 
+std::unique_ptr<Compiler> CommonOptions::compiler() const {
+  const fs::path worker = compile_here ? fs::path() : find_worker();
+  return worker.empty() ? make_compiler_here() : make_compiler_apart(worker);
+}
+
 void CommonOptions::add_waiting(CLI::App& command) {
   begins_at_once = true;
   command.add_flag("--wait-for-code{false}", begins_at_once,

@@ -9,6 +9,7 @@
 #include "jit/document/document.h"
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
+#include "jit/worker/compiler.h"
 
 namespace nacre::tool {
 
@@ -50,6 +51,8 @@ struct CommonOptions {
   Accuracy parsed_accuracy() const;
   Backend parsed_backend() const;
   ShaderOptions shader_options() const;
+  /// What makes code for one who measures it: apart, as kernels are, unless asked otherwise.
+  std::unique_ptr<Compiler> compiler() const;
 
  private:
   void add_limits(CLI::App& command);
