@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "examples/common/atomic_file.h"
 #include "examples/render/builtin_scene.h"
@@ -78,6 +80,12 @@ host::Camera camera(const RenderOptions& options, const host::Scene& scene) {
 struct TwoShaders {
   std::unique_ptr<KernelShader> front;
   std::unique_ptr<KernelShader> back;  ///< Null: as the front.
+
+  /// Those that are there.
+  std::vector<const KernelShader*> all() const {
+    if (back == nullptr) return {front.get()};
+    return {front.get(), back.get()};
+  }
 };
 
 /// By MeshAssignment::key.
@@ -125,8 +133,7 @@ void report_failed(const Opened& opened, const std::vector<MeshAssignment>& assi
   for (const MeshAssignment& assignment : assignments) {
     const auto found = shaders.find(assignment.key());
     if (found == shaders.end() || !said.insert(assignment.material).second) continue;
-    const auto& [front, back] = found->second;
-    if (!front->has_failed() && (back == nullptr || !back->has_failed())) continue;
+    if (std::ranges::none_of(found->second.all(), &KernelShader::has_failed)) continue;
     const Element* material = opened.document->root().child(assignment.material);
     diagnostics.error("too-many-steps",
                       material != nullptr ? location(*material) : SourceLocation{},
@@ -135,27 +142,16 @@ void report_failed(const Opened& opened, const std::vector<MeshAssignment>& assi
   }
 }
 
-int pending_kernels(const Shaders& shaders) {
-  int count = 0;
+/// What a render calls.
+std::vector<const BoundKernel*> kernels_of(const Shaders& shaders, const KernelShader& neutral) {
+  std::vector<const BoundKernel*> kernels = neutral.kernels();
   for (const auto& [key, both] : shaders) {
-    for (const KernelShader* shader : {both.front.get(), both.back.get()}) {
-      if (shader == nullptr) continue;
-      for (const BoundKernel* kernel : shader->kernels()) count += kernel->is_pending() ? 1 : 0;
+    for (const KernelShader* shader : both.all()) {
+      const std::vector<const BoundKernel*> more = shader->kernels();
+      kernels.insert(kernels.end(), more.begin(), more.end());
     }
   }
-  return count;
-}
-
-void report_shaders(const Shaders& shaders, const ShaderOptions& options,
-                    Diagnostics& diagnostics) {
-  for (const auto& [key, both] : shaders) {
-    for (const KernelShader* shader : {both.front.get(), both.back.get()}) {
-      if (shader == nullptr) continue;
-      for (const BoundKernel* kernel : shader->kernels()) {
-        report_code(*kernel, options, diagnostics);
-      }
-    }
-  }
+  return kernels;
 }
 
 /// What shades each mesh, and warnings of what those lack.
@@ -174,8 +170,8 @@ void bind_shaders(const std::vector<MeshAssignment>& assignments, const Shaders&
     input.shaders.push_back(both == nullptr ? &neutral : both->front.get());
     input.back_shaders.push_back(both == nullptr ? nullptr : both->back.get());
     if (both == nullptr) continue;
-    for (const KernelShader* shader : {both->front.get(), both->back.get()}) {
-      if (shader != nullptr) shaded.push_back({&mesh, shader, each.material});
+    for (const KernelShader* shader : both->all()) {
+      shaded.push_back({&mesh, shader, each.material});
     }
   }
   report_missing_attributes(shaded, scene_file, diagnostics);
@@ -227,17 +223,24 @@ int run(RenderOptions& options) {
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
+  const std::vector<const BoundKernel*> kernels = kernels_of(shaders, neutral);
 
   stop.follow(tool::stop().token());
   ProgressLine line("render", options.common.quiet);
+  const auto pending = [&] {
+    return static_cast<int>(
+        std::ranges::count_if(kernels, [](const BoundKernel* each) { return each->is_pending(); }));
+  };
   const host::RenderControl control{.stop = stop.token(),
                                     .progress = [&](double share) { line.update(share); },
-                                    .pending = [&] { return pending_kernels(shaders); }};
+                                    .pending = pending};
   host::RenderStatistics statistics;
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
   report_invalid_results(statistics, diagnostics);
   report_failed(opened, assignments, shaders, diagnostics);
-  report_shaders(shaders, options.common.shader_options(), diagnostics);
+  for (const BoundKernel* kernel : kernels) {
+    report_code(*kernel, options.common.shader_options(), diagnostics);
+  }
   if (film && host::write_image(*film, options.out, options.write, diagnostics)) {
     file_is_written(options.out, options.common.quiet);
   }
