@@ -276,6 +276,18 @@ std::string color_transform_glsl(std::string_view from, std::string_view to,
                      encode_glsl(target->gamma));
 }
 
+std::string color_transform_nodedefs(std::string_view name) {
+  std::string text;
+  for (const int channels : {3, 4}) {
+    text += fmt::format(
+        "<nodedef name=\"ND_{0}_color{1}\" node=\"{0}\" nodegroup=\"colortransform\">"
+        "<input name=\"in\" type=\"color{1}\" value=\"{2}\"/>"
+        "<output name=\"out\" type=\"color{1}\" defaultinput=\"in\"/></nodedef>\n",
+        name, channels, channels == 3 ? "0, 0, 0" : "0, 0, 0, 1");
+  }
+  return text;
+}
+
 std::string color_transform_text(std::string_view from, std::string_view to) {
   const Space* source = find_space(from);
   const Space* target = find_space(to);
@@ -286,13 +298,7 @@ std::string color_transform_text(std::string_view from, std::string_view to) {
   chain.encode(target->gamma);
   const std::string name = fmt::format("{}_to_{}", from, to);
   std::string text = "<?xml version=\"1.0\"?>\n<materialx version=\"1.39\">\n";
-  for (const int channels : {3, 4}) {
-    text += fmt::format(
-        "<nodedef name=\"ND_{0}_color{1}\" node=\"{0}\" nodegroup=\"colortransform\">"
-        "<input name=\"in\" type=\"color{1}\" value=\"{2}\"/>"
-        "<output name=\"out\" type=\"color{1}\" defaultinput=\"in\"/></nodedef>\n",
-        name, channels, channels == 3 ? "0, 0, 0" : "0, 0, 0, 1");
-  }
+  text += color_transform_nodedefs(name);
   text +=
       fmt::format("<nodegraph name=\"NG_{0}_color3\" nodedef=\"ND_{0}_color3\">\n{1}</nodegraph>\n",
                   name, chain.finish());

@@ -19,6 +19,9 @@ using ColorMatrix = std::array<std::array<double, 3>, 3>;
 /// points are adapted by the Bradford method. Nothing if one is not known.
 std::optional<ColorMatrix> color_matrix(std::string_view from, std::string_view to);
 
+/// The nodedefs ND_<name>_color3 and _color4 of a transform, as text.
+std::string color_transform_nodedefs(std::string_view name);
+
 /// A document with nodedefs ND_<from>_to_<to>_color3 and _color4 and the graphs
 /// that implement them by nodes of the standard library, for pairs that the data
 /// library lacks. Decoding and encoding take the negative for zero, as the

@@ -13,19 +13,6 @@ namespace {
 // By the name that the built-in spaces have for it.
 constexpr std::string_view aces_interchange = "lin_ap0";
 
-// Named by a number: names of spaces need be no names of XML.
-std::string transform_nodedefs(const std::string& name) {
-  std::string text = "<materialx version=\"1.39\">\n";
-  for (const int channels : {3, 4}) {
-    text += fmt::format(
-        "<nodedef name=\"ND_{0}_color{1}\" node=\"{0}\" nodegroup=\"colortransform\">"
-        "<input name=\"in\" type=\"color{1}\" value=\"{2}\"/>"
-        "<output name=\"out\" type=\"color{1}\" defaultinput=\"in\"/></nodedef>\n",
-        name, channels, channels == 3 ? "0, 0, 0" : "0, 0, 0, 1");
-  }
-  return text + "</materialx>\n";
-}
-
 }  // namespace
 
 // Nothing where the configuration does not have both spaces.
@@ -78,7 +65,10 @@ const NodeDef* ColorTransforms::find_in_config(const ConfigSpaces& spaces, Type 
     made.name = fmt::format("config_transform_{}", transforms_.size());
     made.where = {fmt::format("{}: '{}' to '{}'", config_->name(), from, to), 1, 0, {}};
     Diagnostics none;
-    made.document = read_document_text(transform_nodedefs(made.name), made.name, {}, none);
+    // Named by a number: names of spaces need be no names of XML.
+    const std::string text =
+        "<materialx version=\"1.39\">\n" + color_transform_nodedefs(made.name) + "</materialx>\n";
+    made.document = read_document_text(text, made.name, {}, none);
     made.definitions = std::make_unique<Definitions>(*made.document, &definitions_, none);
   }
   if (made.color == nullptr) {
