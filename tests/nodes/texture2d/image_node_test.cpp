@@ -12,33 +12,40 @@ namespace {
 /// `image` with literal inputs, texcoord from the point.
 class ImageNodeTest : public testing::Test {
  protected:
+  /// What the node gives; -1 where it has no component.
+  Float4 look_up(Recorder& recorder, TextureProvider& textures, Float2 uv, Type type,
+                 const std::string& path, const std::string& filter = "linear",
+                 const std::string& mode = "periodic") {
+    const auto text = [](Type t, const std::string& value) {
+      Recorded recorded;
+      recorded.type = t;
+      recorded.text = value;
+      return recorded;
+    };
+    Recorded fallback;
+    fallback.type = type;
+    for (int i = 0; i < component_count(type); ++i) fallback.parts.push_back(Float(0.25f).ref());
+    std::vector<NodeCall::Port> inputs{{"file", text(Type::filename, path)},
+                                       {"layer", text(Type::string, "")},
+                                       {"default", fallback},
+                                       {"texcoord", Recorded(Type::vector2, uv)},
+                                       {"uaddressmode", text(Type::string, mode)},
+                                       {"vaddressmode", text(Type::string, mode)},
+                                       {"filtertype", text(Type::string, filter)}};
+    Recorded out;
+    out.type = type;
+    NodeCall call(recorder, "image", "ND_image", std::move(inputs), {{"out", out}},
+                  Accuracy::standard, &textures, diagnostics_, {});
+    body("image").record(call);
+    const auto& parts = call.outputs().front().value.parts;
+    const auto part = [&](std::size_t i) { return i < parts.size() ? Float(parts[i]) : -1.0f; };
+    return Float4{part(0), part(1), part(2), part(3)};
+  }
+
   RecordedLookup record(Type type, const std::string& path, const std::string& filter = "linear",
                         const std::string& mode = "periodic") {
     return RecordedLookup(store_, [&](Recorder& recorder, TextureProvider& textures, Float2 uv) {
-      const auto text = [](Type t, const std::string& value) {
-        Recorded recorded;
-        recorded.type = t;
-        recorded.text = value;
-        return recorded;
-      };
-      Recorded fallback;
-      fallback.type = type;
-      for (int i = 0; i < component_count(type); ++i) fallback.parts.push_back(Float(0.25f).ref());
-      std::vector<NodeCall::Port> inputs{{"file", text(Type::filename, path)},
-                                         {"layer", text(Type::string, "")},
-                                         {"default", fallback},
-                                         {"texcoord", Recorded(Type::vector2, uv)},
-                                         {"uaddressmode", text(Type::string, mode)},
-                                         {"vaddressmode", text(Type::string, mode)},
-                                         {"filtertype", text(Type::string, filter)}};
-      Recorded out;
-      out.type = type;
-      NodeCall call(recorder, "image", "ND_image", std::move(inputs), {{"out", out}},
-                    Accuracy::standard, &textures, diagnostics_, {});
-      body("image").record(call);
-      const auto& parts = call.outputs().front().value.parts;
-      const auto part = [&](std::size_t i) { return i < parts.size() ? Float(parts[i]) : -1.0f; };
-      return Float4{part(0), part(1), part(2), part(3)};
+      return look_up(recorder, textures, uv, type, path, filter, mode);
     });
   }
 
@@ -97,6 +104,31 @@ TEST_F(ImageNodeTest, UnknownModeIsReportedAndPeriodic) {
   const auto odd = record(Type::color3, path, "linear", "wrap").run(random_points(20, 2, 2, 1));
   EXPECT_EQ(diagnostics_.warning_count(), 2u);
   EXPECT_EQ(odd, record(Type::color3, path).run(random_points(20, 2, 2, 1)));
+}
+
+/// The code of a look-up is as large as a small shader.
+TEST_F(ImageNodeTest, ImagesOfOneKindShareTheCodeThatFiltersThem) {
+  const auto functions = [&](const std::vector<std::pair<std::string, std::string>>& images) {
+    const RecordedLookup all(store_, [&](Recorder& recorder, TextureProvider& textures, Float2 uv) {
+      Float4 sum{0.0f, 0.0f, 0.0f, 0.0f};
+      for (const auto& [path, mode] : images) {
+        const Float4 one = look_up(recorder, textures, uv, Type::color4, path, "linear", mode);
+        sum = {sum.x + one.x, sum.y + one.y, sum.z + one.z, sum.w + one.w};
+      }
+      return sum;
+    });
+    return all.program().functions.size() - 1;
+  };
+  std::vector<std::pair<std::string, std::string>> images;
+  for (const char* name : {"a.png", "b.png", "c.png", "d.png", "e.png"}) {
+    images.emplace_back(write(name, 4), "periodic");
+  }
+  EXPECT_EQ(functions(images), 1u);
+  // Other borders, and other channels, are filtered by other code.
+  images.emplace_back(write("f.png", 4), "mirror");
+  EXPECT_EQ(functions(images), 2u);
+  images.emplace_back(write("g.png", 3), "mirror");
+  EXPECT_EQ(functions(images), 3u);
 }
 
 }  // namespace
