@@ -124,8 +124,8 @@ BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettin
           const RunStatus status =
               baker.strip(first + begin, std::min(strip_rows, band.rows - begin),
                           band.texels.data() + static_cast<std::size_t>(begin) * row_texels, ends);
-          assert(status != RunStatus::wrong_arguments);
-          if (status != RunStatus::too_many_steps) continue;
+          if (status == RunStatus::done || status == RunStatus::stopped) continue;
+          assert(status == RunStatus::too_many_steps);  // It has what its Program asks for.
           too_many_steps = true;
           ends = 1;
         }

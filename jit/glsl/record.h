@@ -51,8 +51,8 @@ struct CallResult {
 };
 
 /// Records a call of a function, one argument a parameter (those that are only
-/// out are ignored). What branches do not change is shared; a branch that costs
-/// more than a few operations is skipped where no lane takes it; loops of few
+/// out are ignored). What branches do not change is shared; each branch is a region,
+/// which flatten_regions() keeps where that pays; loops of few
 /// literal iterations are unrolled; large functions are outlined. Throws Failure.
 CallResult record_call(const RecordContext& context, const Function& function,
                        std::vector<Value> arguments);

@@ -51,7 +51,6 @@ class Run {
     const Prepared* prepared;
     std::span<const ValueId> arguments{};  ///< The caller's values.
     const Activation* caller = nullptr;
-    std::size_t results = 0;  ///< Where `give` writes: registers of the caller's call.
   };
   struct LoopState {
     std::size_t start;
