@@ -25,11 +25,13 @@ void Block::load_parameter(Register& to, const Instruction& parameter) const {
 
 void Block::load_input(Register& to, const Instruction& input) const {
   const auto* source = static_cast<const std::uint32_t*>(arguments.inputs[input.imm]) + first;
-  for (int k = 0; k < block_lanes; ++k) {
-    const std::uint32_t bits = source[std::min(k, lanes - 1)];
-    if (input.type == Scalar::f32) to[k] = flush_denormal(bits);
-    if (input.type == Scalar::i32) to[k] = bits;
-    if (input.type == Scalar::b1) to[k] = bits != 0 ? all_ones : 0u;
+  std::copy_n(source, lanes, to.begin());
+  std::fill(to.begin() + lanes, to.end(), source[lanes - 1]);
+  // One loop each, which compilers make vectors of.
+  if (input.type == Scalar::f32) {
+    for (std::uint32_t& bits : to) bits = flush_denormal(bits);
+  } else if (input.type == Scalar::b1) {
+    for (std::uint32_t& bits : to) bits = bits != 0 ? all_ones : 0u;
   }
 }
 

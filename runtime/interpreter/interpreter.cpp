@@ -24,7 +24,7 @@ class Run {
  public:
   Run(const Program& program, const std::vector<Prepared>& functions, const StepLimit& limit,
       const KernelArguments& args)
-      : functions_(functions), limit_(limit), block_{program, args}, ops_(lane_ops()) {}
+      : functions_(functions), limit_(limit), block_{program, args} {}
 
   RunStatus all_blocks() {
     const Prepared& entry = functions_.front();
@@ -32,13 +32,13 @@ class Run {
     Activation frame{.base = 0, .prepared = &entry};
     load_constants(frame);
     steps_left_ = static_cast<double>(limit_.max_steps());
-    execute(frame, true);
+    execute(frame, Turn::once);
     const KernelArguments& args = block_.arguments;
     for (; block_.first < args.count && steps_left_ >= 0; block_.first += block_lanes) {
       block_.lanes =
           static_cast<int>(std::min<std::uint64_t>(block_lanes, args.count - block_.first));
       steps_left_ = static_cast<double>(limit_.max_steps());
-      execute(frame, false);
+      execute(frame, Turn::each);
       if (is_asked_to_stop() && steps_left_ >= 0) return RunStatus::stopped;
     }
     return steps_left_ < 0 ? RunStatus::too_many_steps : RunStatus::done;
@@ -66,9 +66,6 @@ class Run {
   Register& reg(const Activation& frame, ValueId id) {
     return frames_[frame.base + frame.prepared->registers.of[id]];
   }
-  const std::uint32_t* data(const Activation& frame, ValueId id) {
-    return id == no_value ? nullptr : reg(frame, id).data();
-  }
 
   void load_constants(const Activation& frame) {
     const Function& function = *frame.prepared->function;
@@ -78,18 +75,27 @@ class Run {
     }
   }
 
-  /// What is computed once a call, or the rest.
-  void execute(const Activation& frame, bool once) {
+  /// What has its turn.
+  void execute(const Activation& frame, Turn turn) {
     const Function& function = *frame.prepared->function;
+    const std::vector<Step>& steps = frame.prepared->steps;
     std::vector<LoopState> loops;
-    for (std::size_t i = 0; i < function.code.size(); ++i) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const Step& step = steps[i];
+      if (step.turn != turn) continue;
+      if (step.run != nullptr) {
+        Register* registers = frames_.data() + frame.base;
+        const auto at = [&](std::size_t k) { return registers[step.registers[k]].data(); };
+        step.run(at(0), at(1), at(2), at(3));
+        continue;
+      }
       const Instruction& instruction = function.code[i];
       const auto id = static_cast<ValueId>(i);
-      if (instruction.op == Op::constant || frame.prepared->once[i] != once) continue;
       switch (instruction.op) {
         case Op::if_any: i = open_if(frame, i); break;
         case Op::merge:
-          blend(frame, id, mask_of_if(frame, i), instruction.operands[0], instruction.operands[1]);
+          blend(frame, id, reg(frame, frame.prepared->mask[i]), instruction.operands[0],
+                instruction.operands[1]);
           break;
         case Op::loop: i = open_loop(frame, i, loops); break;
         case Op::next:
@@ -103,19 +109,9 @@ class Run {
         case Op::end_loop: i = close_loop(frame, i, loops); break;
         case Op::end_if:
         case Op::carry: break;
-        default: step(frame, id, instruction); break;
+        default: compute(frame, id, instruction); break;
       }
     }
-  }
-
-  /// The mask of the innermost if_any around instruction i.
-  const Register& mask_of_if(const Activation& frame, std::size_t i) {
-    const Function& function = *frame.prepared->function;
-    std::size_t open = i;
-    do {
-      --open;
-    } while (function.code[open].op != Op::if_any || frame.prepared->end[open] < i);
-    return reg(frame, function.code[open].operands[0]);
   }
 
   void blend(const Activation& frame, ValueId to, const Register& mask, ValueId yes, ValueId no) {
@@ -129,17 +125,11 @@ class Run {
   std::size_t open_if(const Activation& frame, std::size_t i) {
     const Function& function = *frame.prepared->function;
     if (any(reg(frame, function.code[i].operands[0]))) return i;
-    const std::size_t end = frame.prepared->end[i];
-    int depth = 0;
-    for (std::size_t k = i + 1; k < end; ++k) {
-      const Instruction& inner = function.code[k];
-      if (opens_region(inner.op)) ++depth;
-      if (closes_region(inner.op)) --depth;
-      if (depth == 0 && inner.op == Op::merge) {
-        reg(frame, static_cast<ValueId>(k)) = reg(frame, inner.operands[1]);
-      }
+    const std::vector<ValueId>& next = frame.prepared->next_merge;
+    for (ValueId merge = next[i]; merge != no_value; merge = next[merge]) {
+      reg(frame, merge) = reg(frame, function.code[merge].operands[1]);
     }
-    return end;
+    return frame.prepared->end[i];
   }
 
   std::size_t open_loop(const Activation& frame, std::size_t i, std::vector<LoopState>& loops) {
@@ -199,12 +189,8 @@ class Run {
     }
   }
 
-  void step(const Activation& frame, ValueId id, const Instruction& instruction) {
-    if (const LaneOp op = ops_[static_cast<std::size_t>(instruction.op)]; op != nullptr) {
-      op(reg(frame, id).data(), data(frame, instruction.operands[0]),
-         data(frame, instruction.operands[1]), data(frame, instruction.operands[2]));
-      return;
-    }
+  /// What is no lane operation.
+  void compute(const Activation& frame, ValueId id, const Instruction& instruction) {
     switch (instruction.op) {
       case Op::parameter: block_.load_parameter(reg(frame, id), instruction); break;
       case Op::input: block_.load_input(reg(frame, id), instruction); break;
@@ -241,7 +227,7 @@ class Run {
                            .arguments = frame.prepared->function->operands(instruction),
                            .caller = &frame};
     load_constants(inner);
-    execute(inner, false);
+    execute(inner, Turn::each);
     std::swap(results_, results_pending_);
   }
 
@@ -256,7 +242,6 @@ class Run {
   const std::vector<Prepared>& functions_;
   const StepLimit& limit_;
   Block block_;
-  const LaneOps& ops_;
   std::vector<Register> frames_;
   std::vector<Register> results_;          ///< Of the last call.
   std::vector<Register> results_pending_;  ///< Of the function being executed.

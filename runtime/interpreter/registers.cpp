@@ -8,6 +8,25 @@ namespace nacre {
 
 namespace {
 
+/// Lists of values, one an instruction, that share their memory; a value is in one at most.
+class ValueLists {
+ public:
+  explicit ValueLists(std::size_t size) : first_(size, no_value), next_(size, no_value) {}
+
+  void add(std::size_t list, ValueId id) {
+    next_[id] = first_[list];
+    first_[list] = id;
+  }
+  /// The latest first.
+  template <class F>
+  void for_each(std::size_t list, F&& f) const {
+    for (ValueId id = first_[list]; id != no_value; id = next_[id]) f(id);
+  }
+
+ private:
+  std::vector<ValueId> first_, next_;
+};
+
 /// For every value, the index of the last instruction that needs it. What a
 /// loop uses from outside, and what it carries, lives until the loop's end.
 std::vector<std::size_t> last_uses(const Function& function) {
@@ -41,14 +60,14 @@ std::vector<std::size_t> last_uses(const Function& function) {
 
 /// For every region's opening instruction, the values defined in it that are
 /// written when it opens: merges (with their outer value) and nexts.
-std::vector<std::vector<ValueId>> written_on_opening(const Function& function) {
-  std::vector<std::vector<ValueId>> written(function.code.size());
+ValueLists written_on_opening(const Function& function) {
+  ValueLists written(function.code.size());
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < function.code.size(); ++i) {
     const Op op = function.code[i].op;
     if (opens_region(op)) open.push_back(i);
     if (op == Op::merge || op == Op::next || op == Op::carry) {
-      written[open.back()].push_back(static_cast<ValueId>(i));
+      written.add(open.back(), static_cast<ValueId>(i));
     }
     if (closes_region(op)) open.pop_back();
   }
@@ -64,7 +83,7 @@ RegisterMap assign_registers(const Function& function, const std::vector<bool>& 
   const auto early = written_on_opening(function);
   RegisterMap map{.of = std::vector<std::uint32_t>(function.code.size(), no_value)};
   std::vector<std::uint32_t> free;
-  std::vector<std::vector<ValueId>> ending(function.code.size());
+  ValueLists ending(function.code.size());
   const auto give = [&](ValueId id) {
     if (map.of[id] != no_value) return;
     const bool stays = once[id] || function.code[id].op == Op::constant;
@@ -74,13 +93,13 @@ RegisterMap assign_registers(const Function& function, const std::vector<bool>& 
       map.of[id] = free.back();
       free.pop_back();
     }
-    if (!stays) ending[last[id]].push_back(id);
+    if (!stays) ending.add(last[id], id);
   };
   for (std::size_t i = 0; i < function.code.size(); ++i) {
-    for (const ValueId id : early[i]) give(id);
+    early.for_each(i, give);
     // The result never shares a register with an operand: release afterwards.
     if (needs_register(function.code[i])) give(static_cast<ValueId>(i));
-    for (const ValueId id : ending[i]) free.push_back(map.of[id]);
+    ending.for_each(i, [&](ValueId id) { free.push_back(map.of[id]); });
   }
   return map;
 }
