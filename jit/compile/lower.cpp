@@ -79,7 +79,7 @@ Program lower_to_engine(Program program, const CompileOptions& options,
   passes.run("expand_math", [&](const Program& p) {
     return expand_math(p, options.accuracy, options.max_instructions);
   });
-  if (!passes.is_over()) mark_varying(passes.program(), options.all_varying);
+  if (options.all_varying && !passes.is_over()) mark_varying(passes.program(), true);
   return std::move(passes.program());
 }
 

@@ -69,7 +69,9 @@ Program expand_math(const Program& program, Accuracy accuracy, std::size_t most)
                           std::span<const Ref> operands) {
     return expander.expand(recorder, instruction, operands);
   };
-  return transform(program, expand, most);
+  Program result = transform(program, expand, most);
+  mark_varying(result);
+  return result;
 }
 
 }  // namespace nacre

@@ -89,7 +89,9 @@ Program flatten_regions(const Program& program, std::size_t most) {
   const auto keep = [](Recorder&, const Instruction&, std::span<const Ref>) {
     return std::optional<Ref>();
   };
-  return transform(program, keep, most, cheap_regions(program));
+  Program result = transform(program, keep, most, cheap_regions(program));
+  mark_varying(result);
+  return result;
 }
 
 }  // namespace nacre

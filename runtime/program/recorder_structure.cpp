@@ -29,7 +29,7 @@ void Recorder::close_region(Op op) {
   assert(open.regions.size() > 1);
   open.regions.pop_back();
   open.masks.pop_back();
-  open.values.close_scope(code());
+  open.values.close_scope();
   append(bare_instruction(op, Scalar::none, 0), false);
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view state_prefix = "state.";
 
-/// Marks live values of one function, to a fixed point: a loop's carry may
-/// need a `next` that stands after it.
+/// Marks live values of one function, from the last to the first; and once more where what
+/// was passed may be needed after all: a carry needs its `next`, a loop what `again` reads.
 class Liveness {
  public:
   explicit Liveness(const Function& function)
@@ -20,10 +20,10 @@ class Liveness {
 
   std::vector<bool> run() {
     do {
-      changed_ = false;
+      again_ = false;
       regions_.clear();
-      for (std::size_t i = function_.code.size(); i-- > 0;) visit(static_cast<ValueId>(i));
-    } while (changed_);
+      for (at_ = static_cast<ValueId>(function_.code.size()); at_-- > 0;) visit(at_);
+    } while (again_);
     return std::move(live_);
   }
 
@@ -36,7 +36,8 @@ class Liveness {
   void mark(ValueId id) {
     if (live_[id]) return;
     live_[id] = true;
-    changed_ = true;
+    const Op op = function_.code[id].op;
+    again_ = again_ || op == Op::carry || (id > at_ && op != Op::end_if);
   }
 
   void mark_with_operands(ValueId id) {
@@ -80,17 +81,18 @@ class Liveness {
   const Function& function_;
   std::vector<bool> live_;
   std::vector<Region> regions_;
-  bool changed_ = false;
+  ValueId at_ = 0;
+  bool again_ = false;
 };
 
 void compact(Function& function) {
   const std::vector<bool> live = Liveness(function).run();
   std::vector<ValueId> renamed(function.code.size(), no_value);
-  std::vector<Instruction> code;
   std::vector<ValueId> pool;
+  std::size_t count = 0;  // Of those that stay, which close up.
   for (std::size_t i = 0; i < function.code.size(); ++i) {
     if (!live[i]) continue;
-    Instruction instruction = function.code[i];
+    Instruction& instruction = function.code[i];
     if (instruction.op == Op::call || instruction.op == Op::texture_call) {
       const auto first = static_cast<ValueId>(pool.size());
       for (const ValueId operand : function.operands(instruction)) pool.push_back(renamed[operand]);
@@ -100,16 +102,18 @@ void compact(Function& function) {
         instruction.operands[k] = renamed[instruction.operands[k]];
       }
     }
-    renamed[i] = static_cast<ValueId>(code.size());
-    code.push_back(instruction);
+    renamed[i] = static_cast<ValueId>(count);
+    if (count != i) function.code[count] = instruction;
+    ++count;
   }
-  function.code = std::move(code);
+  function.code.resize(count);
   function.pool = std::move(pool);
 }
 
 /// Keeps the elements of a list that `op` refers to, and renumbers its imm.
 template <class T>
 void compact_list(Program& program, std::vector<T>& list, Op op) {
+  if (list.empty()) return;
   std::vector<std::uint32_t> renamed(list.size(), no_value);
   std::vector<T> kept;
   for (Function& function : program.functions) {

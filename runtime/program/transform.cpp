@@ -33,7 +33,6 @@ class Transformer {
     if (!body(program_.entry())) return too_large(most_);
     Program result = recorder_.take();
     remove_dead(result, true);
-    mark_varying(result);
     assert(verify(result).empty());
     return result;
   }

@@ -23,10 +23,10 @@ using Flattening = std::function<bool(const Function& function, std::size_t open
 
 /// Records a Program again, instruction by instruction, with some replaced.
 /// Folding, simplification and sharing happen on the way; what becomes unused
-/// is removed and varying marked. Channels, slots and textures stay as they are, so what is
-/// bound to one Program fits the other. This is the frame of most passes. Ends early, with as many
-/// instructions and one that no engine is to run, once there are more than `most`. `flattens` may
-/// be empty.
+/// is removed. What is varying is not marked: see mark_varying(). Channels, slots and textures
+/// stay as they are, so what is bound to one Program fits the other. This is the frame of most
+/// passes. Ends early, with as many instructions and one that no engine is to run, once there are
+/// more than `most`. `flattens` may be empty.
 Program transform(const Program& program, const Replacement& replace,
                   std::size_t most = std::size_t{1} << 31, const Flattening& flattens = {});
 

@@ -7,10 +7,15 @@ namespace {
 /// Which arguments of a function differ from lane to lane, by index.
 using Arguments = std::vector<bool>;
 
-/// One forward sweep; true if something became varying. A loop's carries are
-/// uniform until a varying value, or a varying mask, reaches them.
+/// One forward sweep; true if something before what makes it so became varying: then what
+/// reads it has to be looked at again. A loop's carries are uniform until a varying value, or
+/// a varying mask, reaches them.
 bool sweep(Function& function, const Arguments& arguments, bool all) {
   bool changed = false;
+  const auto mark_before = [&](ValueId id) {
+    changed = changed || !function.code[id].varying;
+    function.code[id].varying = true;
+  };
   std::vector<std::size_t> opened;  // The opening instructions of the regions around.
   for (std::size_t i = 0; i < function.code.size(); ++i) {
     Instruction& instruction = function.code[i];
@@ -32,10 +37,9 @@ bool sweep(Function& function, const Arguments& arguments, bool all) {
     if (instruction.op == Op::constant && !all) varying = false;
     if (varying == instruction.varying) continue;
     instruction.varying = varying;
-    changed = true;
     // The region's own mark carries what its mask and `again` are.
-    if (instruction.op == Op::again) function.code[opened.back()].varying = true;
-    if (instruction.op == Op::next) function.code[instruction.operands[0]].varying = true;
+    if (instruction.op == Op::again) mark_before(static_cast<ValueId>(opened.back()));
+    if (instruction.op == Op::next) mark_before(instruction.operands[0]);
   }
   return changed;
 }

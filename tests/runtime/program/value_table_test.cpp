@@ -39,7 +39,7 @@ TEST(ValueTable, FindsWhatIsInScope) {
           break;
         case 1:
           if (scopes.size() == 1) break;
-          table.close_scope(function);
+          table.close_scope();
           scopes.pop_back();
           break;
         default:
