@@ -65,7 +65,8 @@ std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
 
 bool all_zero(const std::vector<SliceOutput>& channels) {
   return std::all_of(channels.begin(), channels.end(), [](const SliceOutput& channel) {
-    return channel.name == "anisotropy" || Float(channel.value).is_constant(0.0f);
+    const bool counts = channel.name != "anisotropy" && !channel.name.starts_with("direction");
+    return !counts || Float(channel.value).is_constant(0.0f);
   });
 }
 

@@ -19,8 +19,8 @@ namespace nacre {
 std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
                                          const Recorded& value);
 
-/// True if a displacement or medium with these channels does nothing: all of them, whatever
-/// the anisotropy of scattering is, are a literal 0.
+/// True if a displacement, medium or light with these channels does nothing: all of them,
+/// whatever the anisotropy of scattering and the direction of light are, are a literal 0.
 bool all_zero(const std::vector<SliceOutput>& channels);
 
 }  // namespace nacre

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -87,7 +88,8 @@ Json inspect_material(const Opened& opened, const std::string& material,
       {"begin", &kernels->begin},       {"sample", &kernels->sample},
       {"evaluate", &kernels->evaluate}, {"albedo", &kernels->albedo},
       {"emission", &kernels->emission}, {"opacity", &kernels->opacity},
-      {"volume", &kernels->volume},     {"displacement", &kernels->displacement}};
+      {"volume", &kernels->volume},     {"displacement", &kernels->displacement},
+      {"light", &kernels->light}};
   std::vector<NamedKernel> present;
   for (const auto& [name, kernel] : all) {
     if (!kernel->has_value()) continue;

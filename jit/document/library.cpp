@@ -63,7 +63,8 @@ std::shared_ptr<const Library> load_library(const std::vector<fs::path>& paths,
     files.insert(files.end(), found.begin(), found.end());
   }
   const std::size_t errors = diagnostics.error_count();
-  std::unique_ptr<Document> document = read_documents(files, options.read, diagnostics);
+  std::unique_ptr<Document> document =
+      read_documents(files, options.more, options.read, diagnostics);
   if (document == nullptr) return nullptr;
   auto library = std::make_shared<const Library>(std::move(document), diagnostics);
   return diagnostics.error_count() == errors ? library : nullptr;

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "jit/document/definitions.h"
@@ -36,6 +38,8 @@ struct LibraryOptions {
   /// "stdlib"), for those who want them run: nothing else needs them, and they
   /// are a quarter of what there is to read.
   bool standard_texts = false;
+  /// Name and text of what is read after all files, of two of one name the first stays.
+  std::vector<std::pair<std::string_view, std::string_view>> more = {};
 };
 
 /// Loads files and folders, in the order given; of a folder all .mtlx files

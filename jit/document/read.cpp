@@ -275,8 +275,10 @@ std::unique_ptr<Document> read_document_text(std::string_view text, const std::s
   return finish(std::move(document), reader.parse(text, name, folder));
 }
 
-std::unique_ptr<Document> read_documents(const std::vector<fs::path>& files,
-                                         const ReadOptions& options, Diagnostics& diagnostics) {
+std::unique_ptr<Document> read_documents(
+    const std::vector<fs::path>& files,
+    const std::vector<std::pair<std::string_view, std::string_view>>& texts,
+    const ReadOptions& options, Diagnostics& diagnostics) {
   const ScopedDefaultFloatEnvironment environment;
   auto document = empty_document(options);
   FileReader reader(*document, options, diagnostics);
@@ -287,6 +289,9 @@ std::unique_ptr<Document> read_documents(const std::vector<fs::path>& files,
   for (const fs::path& file : files) {
     reader.add_folder(file.parent_path());
     if (Element* one = reader.read(file, {})) reader.import(root, *one, names);
+  }
+  for (const auto& [name, text] : texts) {
+    if (Element* one = reader.parse(text, std::string(name), {})) reader.import(root, *one, names);
   }
   return finish(std::move(document), diagnostics.error_count() == errors ? &root : nullptr);
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "jit/document/document.h"
@@ -52,9 +53,11 @@ std::unique_ptr<Document> read_document(const std::filesystem::path& file,
 std::unique_ptr<Document> read_document_text(std::string_view text, const std::string& name,
                                              const ReadOptions& options, Diagnostics& diagnostics);
 
-/// Several files as one document, in order; of two root elements of one name
-/// the first stays. For data libraries.
-std::unique_ptr<Document> read_documents(const std::vector<std::filesystem::path>& files,
-                                         const ReadOptions& options, Diagnostics& diagnostics);
+/// Several files as one document, in order, and then texts, by name and content; of two root
+/// elements of one name the first stays. For data libraries.
+std::unique_ptr<Document> read_documents(
+    const std::vector<std::filesystem::path>& files,
+    const std::vector<std::pair<std::string_view, std::string_view>>& texts,
+    const ReadOptions& options, Diagnostics& diagnostics);
 
 }  // namespace nacre

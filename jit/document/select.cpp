@@ -279,6 +279,11 @@ bool is_node_category(std::string_view category) {
   return std::find(structural.begin(), structural.end(), category) == structural.end();
 }
 
+bool is_material_category(std::string_view category) {
+  return category == "surfacematerial" || category == "volumematerial" ||
+         category == "lightmaterial";
+}
+
 bool is_node(const Element& element) {
   if (!is_node_category(element.category())) return false;
   return element.parent() != nullptr &&

@@ -25,6 +25,9 @@ const NodeDef* find_nodedef(const Element& instance, const Definitions& definiti
 /// False for the structural elements of the format: "nodegraph", "input", "look", ...
 bool is_node_category(std::string_view category);
 
+/// True for the nodes that a material begins at: their inputs are its shaders.
+bool is_material_category(std::string_view category);
+
 /// True for elements that are instances of nodes: children of a document or
 /// node graph that are none of the structural elements of the format.
 bool is_node(const Element& element);

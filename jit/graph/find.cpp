@@ -95,6 +95,7 @@ std::vector<FoundMaterial> find_materials(const Document& document) {
     material.backsurfaceshader = source_of(child, "backsurfaceshader");
     material.displacementshader = source_of(child, "displacementshader");
     material.volumeshader = source_of(child, "volumeshader");
+    material.lightshader = source_of(child, "lightshader");
     material.where = location(child);
   }
   return materials;

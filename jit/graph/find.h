@@ -34,6 +34,7 @@ struct FoundMaterial {
   std::string backsurfaceshader;
   std::string displacementshader;
   std::string volumeshader;
+  std::string lightshader;
   /// @}
   /// Of the node.
   SourceLocation where;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -56,6 +57,17 @@ SurfaceSides sides_of(const Graph& graph, const std::vector<Recorded>& values,
   }
   return sides;
 }
+
+/// The kernels of a material that are no surface's.
+struct OtherKernel {
+  Type type;
+  const char* name;
+  std::optional<BoundKernel> MaterialKernels::* place;
+};
+constexpr OtherKernel other_kernels[] = {
+    {Type::displacementshader, "displacement", &MaterialKernels::displacement},
+    {Type::lightshader, "light", &MaterialKernels::light},
+    {Type::volumeshader, "volume", &MaterialKernels::volume}};
 
 }  // namespace
 
@@ -219,9 +231,10 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
     return std::ranges::any_of(graph.outputs,
                                [&](const GraphOutput& output) { return output.type == type; });
   };
-  if (!has(Type::surfaceshader) && !has(Type::volumeshader) && !has(Type::displacementshader)) {
+  if (!has(Type::surfaceshader) && !has(Type::volumeshader) && !has(Type::displacementshader) &&
+      !has(Type::lightshader)) {
     diagnostics_.error("no-surface", where, "the material has no shader",
-                       "a surface, volume or displacement shader");
+                       "a surface, volume, displacement or light shader");
     return std::nullopt;
   }
   const auto values = record(graph);
@@ -269,16 +282,14 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   add_entry(&MaterialKernels::emission, "emission", surface_kernels.emission, Keeps::pass);
   add_entry(&MaterialKernels::opacity, "opacity", surface_kernels.opacity, Keeps::pass);
   for (const Recorded& value : *values) {
-    const bool is_displacement = value.type == Type::displacementshader;
-    if (!is_displacement && value.type != Type::volumeshader) continue;
-    const char* name = is_displacement ? "displacement" : "volume";
+    const auto found = std::ranges::find(other_kernels, value.type, &OtherKernel::type);
+    if (found == std::end(other_kernels)) continue;
     const auto list = shader_channels(recorder_, options_.compile.accuracy, value);
     if (all_zero(list)) {
-      kernels.manifest.push_back(std::string(name) + ": always nothing");
+      kernels.manifest.push_back(std::string(found->name) + ": always nothing");
       continue;
     }
-    add_entry(is_displacement ? &MaterialKernels::displacement : &MaterialKernels::volume, name,
-              list, Keeps::pass);
+    add_entry(found->place, found->name, list, Keeps::pass);
   }
   add_entry(&MaterialKernels::begin, "begin", state_outputs(recorder_, kernels.state), Keeps::pass);
   return recorded;

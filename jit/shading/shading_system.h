@@ -106,7 +106,8 @@ bool has_kernel(Type type);
 
 /// The kernels of one material; see SurfaceKernels for the channels of its surface and
 /// OutputKernel for the others. A kernel that has nothing to compute is absent; a
-/// volumematerial has `volume` alone, a material without a surface shader `displacement`.
+/// volumematerial has `volume` alone, a lightmaterial `light`, a surfacematerial without a
+/// surface shader `displacement`.
 struct MaterialKernels {
   bool has_surface = true;  ///< The material has a surface shader.
   /// The back shows another shader: to be compiled with ShaderOptions::side and used
@@ -123,9 +124,9 @@ struct MaterialKernels {
   /// wi.*; every other channel of evaluate, state and geometry, is a slot of the
   /// parameter block under the channel's name, for the host to fill from the point.
   std::optional<BoundKernel> evaluate_at;
-  /// Channels as of the types displacementshader and volumeshader in OutputKernel.
+  /// Channels as of the types displacementshader, volumeshader and lightshader in OutputKernel.
   /// @{
-  std::optional<BoundKernel> displacement, volume;
+  std::optional<BoundKernel> displacement, volume, light;
   /// @}
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "jit/ocio/ocio_config.h"
+#include "pbs/library.h"
 
 namespace nacre {
 
@@ -26,8 +27,9 @@ std::vector<fs::path> text_roots(const std::vector<fs::path>& libraries) {
 std::unique_ptr<SystemParts> SystemParts::create(const SystemOptions& options,
                                                  Diagnostics& diagnostics) {
   auto parts = std::make_unique<SystemParts>();
-  parts->library = load_library(options.libraries, diagnostics,
-                                {.read = {}, .standard_texts = options.standard_texts});
+  parts->library =
+      load_library(options.libraries, diagnostics,
+                   {.read = {}, .standard_texts = options.standard_texts, .more = own_library()});
   if (parts->library == nullptr) return nullptr;
   const Definitions& definitions = parts->library->definitions();
   parts->bodies = std::make_unique<Bodies>(definitions);

@@ -33,6 +33,7 @@ const std::set<std::string>& without_kernels() {
       "ND_geompropvalueuniform_filename",
       "ND_geompropvalueuniform_string",
       "ND_lama_surface",
+      "ND_lightmaterial",
       "ND_surfacematerial",
       "ND_volumematerial",
       "ND_chiang_hair_bsdf",

@@ -170,9 +170,10 @@ class GraphBuild {
     const std::string_view category = source.kind == Source::Kind::link
                                           ? std::string_view(graph.nodes[source.node].category)
                                           : std::string_view{};
-    if (category != "surfacematerial" && category != "volumematerial") {
+    if (!is_material_category(category)) {
       diagnostics_.error("not-a-material", location(element),
-                         "the material does not lead to a <surfacematerial> or <volumematerial>");
+                         "the material leads to no <surfacematerial>, <volumematerial> or "
+                         "<lightmaterial>");
       return;
     }
     const std::vector<GraphInput> inputs = graph.nodes[source.node].inputs;

@@ -11,7 +11,7 @@ namespace nacre {
 
 bool Implementations::is_native(const NodeDef& def) const {
   // What a material consists of is asked of the node itself, never of a graph.
-  if (def.category == "surfacematerial" || def.category == "volumematerial") return true;
+  if (is_material_category(def.category)) return true;
   return has_body(def) || runs_text(def);
 }
 

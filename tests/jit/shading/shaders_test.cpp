@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -187,6 +188,47 @@ TEST_P(Shaders, PointLightsFallOff) {
   const Numbers inside = evaluate(light, {{"P.x", 0}, {"P.y", 3}, {"P.z", 4}});
   expect_vector(inside, "intensity", 72, 36, 0);
   expect_vector(inside, "direction", 0, 0, 0);
+}
+
+// "Material Nodes" of the specification has it, the data library has not: pbs/library.
+TEST_P(Shaders, LightMaterialsAreTheirLight) {
+  const auto document_of = [](const std::string& color) {
+    return R"(<materialx version="1.39"><point_light name="n" type="lightshader">
+      <input name="position" type="vector3" value="0, 3, 4"/>
+      <input name="color" type="color3" value=")" +
+           color + R"("/><input name="intensity" type="float" value="72"/></point_light>
+      <lightmaterial name="L" type="material">
+        <input name="lightshader" type="lightshader" nodename="n"/></lightmaterial></materialx>)";
+  };
+  Diagnostics diagnostics;
+  const auto system =
+      ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics);
+  ShaderOptions options;
+  options.compile.backend = GetParam();
+  const auto kernels_of = [&](const std::string& color) {
+    const auto document = read_document_text(document_of(color), "test.mtlx", {}, diagnostics);
+    return system->compile_material(*document, "L", options, diagnostics);
+  };
+  const auto lit = kernels_of("1, 0.5, 0");
+  ASSERT_NE(lit, nullptr) << diagnostics.to_string();
+  EXPECT_EQ(diagnostics.to_string(), "");
+  EXPECT_FALSE(lit->has_surface || lit->sample || lit->volume);
+  ASSERT_TRUE(lit->light);
+  const float zero = 0;
+  std::array<float, 6> found{};
+  std::vector<const void*> in(lit->light->program().inputs.size(), &zero);
+  std::vector<void*> out;
+  for (float& one : found) out.push_back(&one);
+  ASSERT_EQ(out.size(), lit->light->program().outputs.size());
+  EXPECT_EQ(lit->light->run(in, out, 1), RunStatus::done);
+  // 72 / (5 + 1)^2 of the colour, from (0, 3, 4) / 5.
+  const std::array<float, 6> expected{2, 1, 0, 0, 0.6f, 0.8f};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found[i], expected[i], 1e-6f) << i;
+  const auto dark = kernels_of("0, 0, 0");
+  ASSERT_NE(dark, nullptr);
+  EXPECT_FALSE(dark->light);
+  ASSERT_EQ(dark->manifest.size(), 1u);
+  EXPECT_EQ(dark->manifest.front(), "light: always nothing");
 }
 
 TEST_P(Shaders, DirectionalLightsComeFromWhereTheyGo) {
