@@ -1,10 +1,12 @@
 #include "examples/tool/assignment.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "jit/document/select.h"
 #include "jit/graph/find.h"
 #include "jit/graph/look/geometry_names.h"
 
@@ -23,8 +25,7 @@ constexpr std::string_view target = "nacre";
 
 bool lacks_surface(const Document& document, const FoundMaterial& material) {
   if (!material.surfaceshader.empty() || !material.backsurfaceshader.empty()) return false;
-  const std::string_view category = document.root().child(material.name)->category();
-  return category == "surfacematerial" || category == "volumematerial";
+  return is_material_category(document.root().child(material.name)->category());
 }
 
 class Assigner {

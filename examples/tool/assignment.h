@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
 #include <string>
@@ -10,6 +9,10 @@
 #include "jit/document/document.h"
 #include "jit/graph/look/look.h"
 #include "runtime/diagnostic.h"
+
+namespace CLI {
+class App;
+}
 
 namespace nacre::tool {
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
 #include "jit/graph/build/build.h"

@@ -1,3 +1,5 @@
+#include <CLI/CLI.hpp>
+
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
 #include "examples/tool/stop.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +9,10 @@
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
 #include "jit/worker/compiler.h"
+
+namespace CLI {
+class App;
+}
 
 namespace nacre::tool {
 

@@ -1,5 +1,6 @@
 #include "examples/tool/texture_request.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 
 #include "examples/tool/size.h"

@@ -1,11 +1,14 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "examples/bake/write_texture.h"
 #include "jit/document/document.h"
 #include "runtime/diagnostic.h"
+
+namespace CLI {
+class App;
+}
 
 namespace nacre::tool {
 
