@@ -149,14 +149,50 @@ def latency(run: results.Run) -> str:
             + table(["what", "all"] + stages, rows))
 
 
+def nodes(run: results.Run) -> str:
+    columns = [("W = 1", "jit_w1/standard"), ("W = 16", "jit_w16/standard")] + SLOW
+    rows = []
+    for name in run.below("nodes"):
+        figures = [run.get(f"nodes/{name}/{variant}") for _, variant in columns]
+        counters = figures[1].counters if figures[1] else {}
+        rows.append([name] + [cell(figure) for figure in figures] +
+                    [number(counters.get(key)) for key in ("ulps_99", "ulps_most")])
+    return ("Time, and how far the results at W = 16 are from double precision, in units of the "
+            "last place: 99 % of them, and the worst (where a difference cancels, or at an edge of "
+            "a step, that may be far).\n\n"
+            + table(["node"] + [title for title, _ in columns] +
+                    ["ulp, 99 %", "ulp, worst"], rows))
+
+
+def growth(run: results.Run) -> str:
+    rows = []
+    sizes = sorted({int(name.split("/")[1]) for name in run.figures if name.startswith("growth/")})
+    for size in sizes:
+        slow = run.get(f"growth/{size}/interpreter")
+        fast = run.get(f"growth/{size}/jit")
+        if slow is None or fast is None:
+            continue
+        operations = fast.counters["operations"]
+        rows.append([str(size), f"{operations:.0f}", number(slow.counters["read_ms"]),
+                     number(slow.counters["graph_ms"]), number(slow.counters["kernel_ms"]),
+                     number(slow.counters["run_ms"]), number(slow.median / 1e6),
+                     number(fast.median / 1e6), number(1e-3 * fast.median / operations),
+                     number(slow.counters["memory_mb"]), number(fast.counters["memory_mb"])])
+    return ("A graph of sines, powers, noises and arithmetic, from its text to the results of the "
+            "first 4096 points: milliseconds by stage of the interpreter, of the whole with each "
+            "engine, microseconds an operation with machine code, and megabytes.\n\n"
+            + table(["nodes", "operations", "read", "graph", "kernel", "run", "interpreter", "JIT",
+                     "JIT, µs an operation", "interpreter, MB", "JIT, MB"], rows))
+
+
 PAGES = {
     "acceptance": ("The figures the project promises", acceptance),
     "closures": ("Lobes", lambda run: variants(run, "closures", WIDE + MODES + SLOW)),
     "functions": ("Transcendental functions", functions),
+    "growth": ("Growth", growth),
     "latency": ("Latency", latency),
     "materials": ("Shading models", materials),
-    "nodes": ("Nodes", lambda run: variants(
-        run, "nodes", [("W = 1", "jit_w1/standard"), ("W = 16", "jit_w16/standard")] + SLOW)),
+    "nodes": ("Nodes", nodes),
     "peers": ("Kernels against the same formula by hand",
               lambda run: variants(run, "peers", WIDE + MODES + SLOW + [("xsimd", "xsimd")])),
     "textures": ("Texture look-ups, RGBA8, 2048²",

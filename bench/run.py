@@ -19,6 +19,7 @@ COMPARED = ("--benchmark_repetitions=9", "--benchmark_enable_random_interleaving
             "--benchmark_min_time=0.05")
 SURVEYED = ("--benchmark_repetitions=3", "--benchmark_min_time=0.01")
 FLAGS = {
+    "bench_growth": ("--benchmark_repetitions=3", "--benchmark_min_time=0.01"),
     "bench_latency": ("--benchmark_repetitions=5", "--benchmark_min_time=0.2"),
     "bench_peers": COMPARED,
     "bench_textures": COMPARED,

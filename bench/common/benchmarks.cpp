@@ -3,13 +3,48 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace nacre::bench {
 
 namespace {
+
+/// Floats from one to the other; denormal ones count as zero, NaN as equal to NaN only.
+double ulps_between(float x, float y) {
+  if (std::isnan(x) || std::isnan(y)) return std::isnan(x) == std::isnan(y) ? 0 : 0x1p32;
+  const auto place = [](float value) {
+    const auto bits = static_cast<std::int64_t>(std::bit_cast<std::uint32_t>(std::fabs(value)));
+    const std::int64_t normal = std::max<std::int64_t>(bits - 0x7fffff, 0);
+    return std::signbit(value) ? -normal : normal;
+  };
+  return static_cast<double>(std::abs(place(x) - place(y)));
+}
+
+/// How far all results are from the expected ones: what 99 % keep, and the largest.
+struct Errors {
+  double most_of_them = 0;
+  double largest = 0;
+};
+
+Errors errors(const Columns& found, const Columns& expected) {
+  std::vector<double> all;
+  for (const auto& [name, wanted] : expected) {
+    const std::vector<float>& column = found.at(name);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      all.push_back(ulps_between(column[i], wanted[i]));
+    }
+  }
+  if (all.empty()) return {};
+  std::ranges::sort(all);
+  return {all[(all.size() - 1) * 99 / 100], all.back()};
+}
 
 /// What the variants of one kernel share.
 struct Subject {
@@ -43,8 +78,13 @@ struct Timed {
     auto made = subject->make(variant.options(), error);
     if (made == nullptr) return error;
     (*made)();
-    error = difference(made->results(), *expected, subject->tolerance);
-    if (error.empty()) run = std::move(made);
+    const Columns results = made->results();
+    error = difference(results, *expected, subject->tolerance);
+    if (!error.empty()) return error;
+    const auto [most_of_them, largest] = errors(results, *expected);
+    made->counters["ulps_99"] = most_of_them;
+    made->counters["ulps_most"] = largest;
+    run = std::move(made);
     return error;
   }
 
