@@ -66,7 +66,7 @@ endif
 
 test-sanitized: ## Tests, fuzzers and mutants under ASan and UBSan, what is concurrent under TSan
 	$(MAKE) test PRESET=asan
-	ctest --test-dir build-asan --output-on-failure --no-tests=error -L '^full$$' -R '^fuzz/'
+	ctest --test-dir build-asan --output-on-failure --no-tests=error -j $(JOBS) -L '^full$$' -R '^fuzz/'
 	$(MAKE) configure PRESET=tsan
 	cmake --build build-tsan --parallel $(JOBS) --target concurrent_tests
 	ctest --test-dir build-tsan --output-on-failure --no-tests=error -j $(JOBS) -L '^concurrent$$'

@@ -76,7 +76,7 @@ constexpr int shards = 16;
 TEST_P(RandomPrograms, CompileForEveryTarget) {
   // One in a number that shares no factor with that of targets times widths.
   Compilations compilations(17);
-  const std::uint64_t count = (full_run() ? 2000 : 240) / shards;
+  const std::uint64_t count = (full_run() ? 1000 : 240) / shards;
   const std::uint64_t first = 20240611 + count * static_cast<std::uint64_t>(GetParam());
   for (std::uint64_t k = 0; k < count; ++k) compilations.compile(random_program(first + k));
 }

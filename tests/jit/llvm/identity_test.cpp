@@ -116,7 +116,7 @@ constexpr int shards = 8;
 class Identity : public testing::TestWithParam<int> {};
 
 TEST_P(Identity, OfRandomProgramsAtEveryWidth) {
-  const std::uint64_t count = (full_run() ? 20000 : 2000) / shards;
+  const std::uint64_t count = (full_run() ? 10000 : 2000) / shards;
   const std::uint64_t first = first_seed() + count * static_cast<std::uint64_t>(GetParam());
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const Program program = random_program(seed);

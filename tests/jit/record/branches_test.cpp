@@ -90,11 +90,7 @@ TEST_F(Branches, ASideThatAConstantExcludesIsGone) {
   for (const char* type : {"0", "1", "2", "3"}) {
     std::string one = text;
     one.replace(one.find("TYPE"), 4, type);
-    std::size_t size = 0;
-    for (const Function& function : compile(one)->kernel.program().functions) {
-      size += function.code.size();
-    }
-    sizes.insert(size);
+    sizes.insert(instruction_count(compile(one)->kernel.program()));
   }
   EXPECT_EQ(sizes.size(), 4u);  // each is its own noise and no other
 
