@@ -114,7 +114,7 @@ TEST_F(Stopped, KilledBakesLeaveNothingWrong) {
   const auto begin = Clock::now();
   const Process whole(bake("512"), file("stderr"));
   ASSERT_EQ(whole.wait(), 0) << text_of(file("stderr"));
-  const double duration = seconds_since(begin);
+  double duration = seconds_since(begin);
   std::map<std::string, std::vector<float>> right;
   for (const std::string& name : names_in(file("out"))) {
     right[name] = texels_of(file("out/" + name));
@@ -123,7 +123,7 @@ TEST_F(Stopped, KilledBakesLeaveNothingWrong) {
 
   const int kills = std::getenv("NACRE_TEST_FULL") != nullptr ? 200 : 20;
   std::mt19937 random(5489);
-  std::uniform_real_distribution<double> when(0.0, 1.1 * duration);
+  std::uniform_real_distribution<double> share(0.0, 1.1);
   int stopped = 0;
   for (int i = 0; i < kills; ++i) {
     // Kernels are sometimes compiled and sometimes found, over what the last run has left.
@@ -133,7 +133,7 @@ TEST_F(Stopped, KilledBakesLeaveNothingWrong) {
     for (const auto& [name, texels] : right) std::filesystem::remove(file("out/" + name));
     const std::set<std::string> before = names_in(file("out"));
     int status = 0;
-    stopped_after(bake("512"), when(random), signal, status);
+    stopped_after(bake("512"), share(random) * duration, signal, status);
     std::size_t there = 0;
     for (const auto& [name, texels] : right) {
       if (!std::filesystem::exists(file("out/" + name))) continue;
@@ -142,6 +142,7 @@ TEST_F(Stopped, KilledBakesLeaveNothingWrong) {
     }
     if (status == 0) {
       EXPECT_EQ(there, right.size()) << errors_;
+      duration *= 0.9;  // The machine may have been busier when it was measured.
       continue;
     }
     ++stopped;
