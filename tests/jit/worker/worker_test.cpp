@@ -179,7 +179,7 @@ TEST(Worker, AProgramThatIsNoneLeavesTheInterpreter) {
 }
 
 TEST(Worker, AskedAsynchronouslyAKernelStaysInterpreted) {
-  const auto one = service(FAULTY_WORKER, {.seconds = 2, .megabytes = 1024});
+  const auto one = service(FAULTY_WORKER, {.seconds = 120, .megabytes = 1024});
   const auto kernel = one->request_async(named_program("crash"), quick());
   ASSERT_NE(kernel, nullptr);
   EXPECT_EQ(run_small(*kernel, 2.0f), 5.0f);
