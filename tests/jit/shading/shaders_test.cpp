@@ -192,12 +192,8 @@ TEST_P(Shaders, PointLightsFallOff) {
 
 // "Material Nodes" of the specification has it, the data library has not: pbs/library.
 TEST_P(Shaders, LightMaterialsAreTheirLight) {
-  const auto document_of = [](const std::string& color) {
-    return R"(<materialx version="1.39"><point_light name="n" type="lightshader">
-      <input name="position" type="vector3" value="0, 3, 4"/>
-      <input name="color" type="color3" value=")" +
-           color + R"("/><input name="intensity" type="float" value="72"/></point_light>
-      <lightmaterial name="L" type="material">
+  const auto document_of = [](const std::string& light) {
+    return R"(<materialx version="1.39">)" + light + R"(<lightmaterial name="L" type="material">
         <input name="lightshader" type="lightshader" nodename="n"/></lightmaterial></materialx>)";
   };
   Diagnostics diagnostics;
@@ -205,11 +201,14 @@ TEST_P(Shaders, LightMaterialsAreTheirLight) {
       ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics);
   ShaderOptions options;
   options.compile.backend = GetParam();
-  const auto kernels_of = [&](const std::string& color) {
-    const auto document = read_document_text(document_of(color), "test.mtlx", {}, diagnostics);
+  const auto kernels_of = [&](const std::string& light) {
+    const auto document = read_document_text(document_of(light), "test.mtlx", {}, diagnostics);
     return system->compile_material(*document, "L", options, diagnostics);
   };
-  const auto lit = kernels_of("1, 0.5, 0");
+  const auto lit = kernels_of(R"(<point_light name="n" type="lightshader">
+      <input name="position" type="vector3" value="0, 3, 4"/>
+      <input name="color" type="color3" value="1, 0.5, 0"/>
+      <input name="intensity" type="float" value="72"/></point_light>)");
   ASSERT_NE(lit, nullptr) << diagnostics.to_string();
   EXPECT_EQ(diagnostics.to_string(), "");
   EXPECT_FALSE(lit->has_surface || lit->sample || lit->volume);
@@ -224,7 +223,8 @@ TEST_P(Shaders, LightMaterialsAreTheirLight) {
   // 72 / (5 + 1)^2 of the colour, from (0, 3, 4) / 5.
   const std::array<float, 6> expected{2, 1, 0, 0, 0.6f, 0.8f};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found[i], expected[i], 1e-6f) << i;
-  const auto dark = kernels_of("0, 0, 0");
+  const auto dark = kernels_of(R"(<directional_light name="n" type="lightshader">
+      <input name="color" type="color3" value="0, 0, 0"/></directional_light>)");
   ASSERT_NE(dark, nullptr);
   EXPECT_FALSE(dark->light);
   ASSERT_EQ(dark->manifest.size(), 1u);
