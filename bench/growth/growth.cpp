@@ -2,6 +2,7 @@
 // and to machine code.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <chrono>
 #include <cstdint>
@@ -105,6 +106,7 @@ void grow(benchmark::State& state, int nodes, Backend backend) {
   options.compile.max_seconds = 600;
   double operations = 0, read = 0, graph = 0, kernel = 0, run = 0, memory = 0;
   for (auto _ : state) {
+    malloc_trim(0);  // What the last run has left would be used again, unseen.
     forget_peak();
     const double before = megabytes("VmRSS");
     Diagnostics diagnostics;
