@@ -36,7 +36,11 @@ void KernelRun::Free::operator()(float* block) const { std::free(block); }
 KernelRun::KernelRun(BoundKernel kernel, const Columns& given, std::shared_ptr<const void> kept)
     : kept_(std::move(kept)),
       kernel_(std::move(kernel)),
-      block_(allocate(program().inputs.size() + program().outputs.size())) {
+      block_(allocate(program().inputs.size() + program().outputs.size())),
+      parameters_(kernel_.parameters()) {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    if (program().parameters[i].name.starts_with("geomprop.")) parameters_[i] = 1;
+  }
   float* next = block_.get();
   for (const Channel& channel : program().inputs) {
     const auto found = given.find(channel.name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,12 +21,13 @@ using Columns = std::map<std::string, std::vector<float>>;
 /// puts them makes up to 8 % of a fast kernel's time.
 class KernelRun {
  public:
-  /// Channels that are not `given` hold shading points (points.h). `kept` lives as long.
+  /// Channels that are not `given` hold shading points (points.h), which have every geometric
+  /// property that the kernel asks for. `kept` lives as long.
   explicit KernelRun(BoundKernel kernel, const Columns& given = {},
                      std::shared_ptr<const void> kept = {});
 
   /// Computes the batch.
-  void operator()() { (void)kernel_.run(inputs_, outputs_, batch_points); }
+  void operator()() { (void)kernel_.run(inputs_, outputs_, batch_points, parameters_); }
 
   const Kernel& kernel() const { return kernel_.kernel(); }
   const Program& program() const { return kernel_.program(); }
@@ -50,6 +52,7 @@ class KernelRun {
   std::unique_ptr<float[], Free> block_;
   std::vector<const void*> inputs_;
   std::vector<void*> outputs_;
+  std::vector<std::uint32_t> parameters_;
 };
 
 }  // namespace nacre::measure
