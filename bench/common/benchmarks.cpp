@@ -4,30 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <map>
 #include <utility>
 #include <vector>
+
+#include "bench/accuracy/error.h"
 
 namespace nacre::bench {
 
 namespace {
 
-/// Floats from one to the other; denormal ones count as zero, NaN as equal to NaN only.
-double ulps_between(float x, float y) {
-  if (std::isnan(x) || std::isnan(y)) return std::isnan(x) == std::isnan(y) ? 0 : 0x1p32;
-  const auto place = [](float value) {
-    const auto bits = static_cast<std::int64_t>(std::bit_cast<std::uint32_t>(std::fabs(value)));
-    const std::int64_t normal = std::max<std::int64_t>(bits - 0x7fffff, 0);
-    return std::signbit(value) ? -normal : normal;
-  };
-  return static_cast<double>(std::abs(place(x) - place(y)));
-}
-
-/// How far all results are from the expected ones: what 99 % keep, and the largest.
+/// How far all results are from the expected ones, in units of the last place: what 99 % keep,
+/// and the largest. One that is NaN alone is as wrong as can be.
 struct Errors {
   double most_of_them = 0;
   double largest = 0;
@@ -38,7 +28,9 @@ Errors errors(const Columns& found, const Columns& expected) {
   for (const auto& [name, wanted] : expected) {
     const std::vector<float>& column = found.at(name);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-      all.push_back(ulps_between(column[i], wanted[i]));
+      const int nans = int{std::isnan(column[i])} + int{std::isnan(wanted[i])};
+      if (nans == 2) continue;
+      all.push_back(nans == 1 ? 0x1p32 : ulp_error(column[i], wanted[i]));
     }
   }
   if (all.empty()) return {};

@@ -4,31 +4,22 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "bench/common/benchmarks.h"
+#include "bench/common/clock.h"
 #include "bench/common/system.h"
 #include "jit/document/read.h"
-#include "jit/service/compile_service.h"
 
 namespace nacre::bench {
 
 namespace {
 
 constexpr int sizes[] = {100, 300, 1000, 3000, 10'000, 20'000};
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// The same numbers on every machine.
 class Numbers {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "bench/common/benchmarks.h"
+#include "bench/common/clock.h"
 #include "bench/common/material.h"
 #include "bench/common/system.h"
 #include "jit/document/read.h"
@@ -29,12 +29,6 @@ struct Case {
 };
 constexpr Case cases[] = {{"folded", ParameterMode::frozen}, {"live", ParameterMode::live}};
 constexpr Entry entries[] = {Entry::begin, Entry::sample, Entry::evaluate};
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// Milliseconds by stage, added up over iterations.
 class Stages {
