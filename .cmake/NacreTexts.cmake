@@ -13,21 +13,5 @@ function(nacre_texts target folder function)
     get_filename_component(name ${file} NAME)
     string(APPEND rows "      {\"${name}\", R\"mtlx(${text})mtlx\"},\n")
   endforeach()
-  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp CONTENT
-"// Written by CMake from the files of @folder@.
-#include <string_view>
-#include <utility>
-#include <vector>
-
-namespace nacre {
-
-const std::vector<std::pair<std::string_view, std::string_view>>& @function@() {
-  static const std::vector<std::pair<std::string_view, std::string_view>> texts{
-@rows@  };
-  return texts;
-}
-
-}  // namespace nacre
-" @ONLY)
-  target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
+  nacre_table(${target} ${function} "std::pair<std::string_view, std::string_view>" "" "${rows}")
 endfunction()

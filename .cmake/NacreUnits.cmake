@@ -30,22 +30,5 @@ function(nacre_units target list function prefix)
     string(APPEND declarations "void ${prefix}_${category}(NodeCall& call);\n")
     string(APPEND rows "      {\"${category}\", ${prefix}_${category}, ${replaces}},\n")
   endforeach()
-  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp CONTENT
-"// Written by CMake from @list@.
-#include <vector>
-
-#include \"runtime/node/node_call.h\"
-
-namespace nacre {
-
-@declarations@
-const std::vector<NodeBody>& @function@() {
-  static const std::vector<NodeBody> bodies{
-@rows@  };
-  return bodies;
-}
-
-}  // namespace nacre
-" @ONLY)
-  target_sources(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
+  nacre_table(${target} ${function} NodeBody "${declarations}" "${rows}")
 endfunction()
