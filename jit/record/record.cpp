@@ -1,11 +1,12 @@
 #include "jit/record/record.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <unordered_map>
 #include <utility>
 
 #include "jit/record/branches.h"
+#include "jit/record/leaves.h"
 #include "jit/record/text_bodies.h"
 #include "runtime/program/origin.h"
 #include "runtime/report_stop.h"
@@ -13,20 +14,6 @@
 namespace nacre {
 
 namespace {
-
-/// The bits of component i of a literal.
-std::uint32_t component_bits(const Value& value, std::size_t i) {
-  if (value.type == Type::integer || value.type == Type::boolean) {
-    return i < value.ints.size() ? static_cast<std::uint32_t>(value.ints[i]) : 0u;
-  }
-  return i < value.floats.size() ? std::bit_cast<std::uint32_t>(value.floats[i]) : 0u;
-}
-
-Scalar scalar_of(Type type) {
-  if (type == Type::integer) return Scalar::i32;
-  if (type == Type::boolean) return Scalar::b1;
-  return Scalar::f32;
-}
 
 BranchPlan all_at_once(const Graph& graph) {
   BranchPlan plan;
@@ -170,12 +157,14 @@ class GraphRecorder {
       const Scalar scalar = scalar_of(type);
       const bool fits =
           output.value.parts.size() == static_cast<std::size_t>(component_count(type)) &&
-          std::all_of(output.value.parts.begin(), output.value.parts.end(),
-                      [&](Ref part) { return part.type == scalar; });
+          std::all_of(output.value.parts.begin(), output.value.parts.end(), [&](Ref part) {
+            const bool is_ours = part.is_constant() || part.recorder == &recorder_;
+            return is_ours && part.type == scalar;
+          });
       if (fits) continue;
       diagnostics_.error("port-mismatch", node.where,
                          "the body of '" + node.nodedef + "' does not set output '" + output.name +
-                             "' to a value of its type",
+                             "' to a value of its type, recorded in this call",
                          std::string(type_name(type)));
       return false;
     }
@@ -204,40 +193,64 @@ class GraphRecorder {
       out = side(node, taken ? "in1" : "in2");
       return true;
     }
-    const auto taken = record_where(holds, first, node, "in1", zero_of(out.type));
-    const auto other = taken ? record_where(!holds, second, node, "in2", *taken) : std::nullopt;
-    if (other) out = *other;
-    return other.has_value();
+    std::array<Side, 2> sides{{{holds, first, "in1"}, {!holds, second, "in2"}}};
+    // A side without nodes of its own goes first: the region of the other can give its value.
+    if (plan_.branches[second].nodes.empty()) std::swap(sides[0], sides[1]);
+    const ValueId start = recorder_.next_value();
+    const auto taken = record_first(node, sides[0]);
+    const auto chosen = taken ? record_second(node, sides[1], *taken, start) : std::nullopt;
+    if (chosen) out = *chosen;
+    return chosen.has_value();
   }
 
-  /// The branch's side of a choice in the lanes where `mask` holds, `otherwise` in others.
-  std::optional<Recorded> record_where(Bool mask, std::uint32_t branch, const GraphNode& node,
-                                       std::string_view input, const Recorded& otherwise) {
-    recorder_.begin_if(mask.ref());
-    const bool done = record_branch(branch);
-    Recorded result;
-    result.type = otherwise.type;
-    if (done) {
-      const Recorded inside = side(node, input);
-      for (std::size_t i = 0; i < inside.parts.size(); ++i) {
-        result.parts.push_back(recorder_.merge(inside.parts[i], otherwise.parts[i]));
+  /// A side of a choice: its lanes, its nodes, the input that it feeds.
+  struct Side {
+    Bool mask;
+    std::uint32_t branch;
+    std::string_view input;
+  };
+
+  /// The value of the first side in its lanes; what it is in others nobody asks.
+  std::optional<Recorded> record_first(const GraphNode& node, const Side& first) {
+    if (plan_.branches[first.branch].nodes.empty()) return side(node, first.input);
+    return record_where(node, first, [&](Ref inside, std::size_t) {
+      return recorder_.outlives_region(inside) ? inside
+                                               : recorder_.merge(inside, {nullptr, 0, inside.type});
+    });
+  }
+
+  /// The value of the second in its lanes, in others `taken`. Where that was merged, which is
+  /// from `start` on, and this value was there before, the merge gives it to all lanes.
+  std::optional<Recorded> record_second(const GraphNode& node, const Side& second,
+                                        const Recorded& taken, ValueId start) {
+    return record_where(node, second, [&](Ref inside, std::size_t i) {
+      const Ref merged = taken.parts[i];
+      const bool is_merge = !merged.is_constant() && merged.id >= start;
+      const bool was_there = !inside.is_constant() && inside.id < start;
+      if (!is_merge || !was_there) return recorder_.merge(inside, merged);
+      recorder_.set_outer(merged, inside);
+      return merged;
+    });
+  }
+
+  /// Records a side as a region; `leave` gives each part of its value to what comes behind.
+  template <class Leave>
+  std::optional<Recorded> record_where(const GraphNode& node, const Side& taken, Leave&& leave) {
+    recorder_.begin_if(taken.mask.ref());
+    std::optional<Recorded> result;
+    if (record_branch(taken.branch)) {
+      result = side(node, taken.input);
+      for (std::size_t i = 0; i < result->parts.size(); ++i) {
+        result->parts[i] = leave(result->parts[i], i);
       }
     }
     recorder_.end_if();
-    return done ? std::optional(result) : std::nullopt;
+    return result;
   }
 
   Recorded side(const GraphNode& node, std::string_view name) {
     const GraphInput& input = *node.input(name);
     return value_of(input.source, input.type);
-  }
-
-  static Recorded zero_of(Type type) {
-    Recorded zero;
-    zero.type = type;
-    zero.parts.assign(static_cast<std::size_t>(component_count(type)),
-                      Ref{nullptr, 0, scalar_of(type)});
-    return zero;
   }
 
   static NodeCall::Port unset(const std::string& name, Type type) {
@@ -263,52 +276,16 @@ class GraphRecorder {
   }
 
   Recorded value_of(const Source& source, Type type) {
-    Recorded value;
-    value.type = type;
     switch (source.kind) {
       case Source::Kind::unconnected: break;
-      case Source::Kind::link: value = outputs_[source.node][source.output].value; break;
-      case Source::Kind::literal: return literal(source, type);
-      case Source::Kind::parameter: return parameter(graph_.parameters[source.parameter]);
+      case Source::Kind::link: return outputs_[source.node][source.output].value;
+      case Source::Kind::literal: return literal(source, type, options_);
+      case Source::Kind::parameter:
+        return parameter(graph_.parameters[source.parameter], options_, recorder_);
     }
-    return value;
-  }
-
-  Recorded literal(const Source& source, Type type) const {
-    Recorded value;
-    value.type = type;
-    if (is_text(type)) {
-      if (!source.value.texts.empty()) value.text = source.value.texts.front();
-      if (type == Type::filename && !value.text.empty() && options_.resolve_file) {
-        value.text = options_.resolve_file(value.text, source.document);
-      }
-      return value;
-    }
-    const Scalar scalar = scalar_of(type);
-    for (int i = 0; i < component_count(type); ++i) {
-      std::uint32_t bits = component_bits(source.value, static_cast<std::size_t>(i));
-      if (scalar == Scalar::b1) bits = bits != 0;
-      value.parts.push_back({nullptr, bits, scalar});
-    }
-    return value;
-  }
-
-  Recorded parameter(const Parameter& parameter) {
-    Source frozen;
-    frozen.kind = Source::Kind::literal;
-    frozen.value = parameter.value;
-    if (options_.parameters == ParameterMode::frozen || is_text(parameter.type)) {
-      return literal(frozen, parameter.type);
-    }
-    Recorded value;
-    value.type = parameter.type;
-    const int count = component_count(parameter.type);
-    for (int i = 0; i < count; ++i) {
-      value.parts.push_back(
-          recorder_.parameter(slot_name(parameter.path, i, count), scalar_of(parameter.type),
-                              component_bits(parameter.value, static_cast<std::size_t>(i))));
-    }
-    return value;
+    Recorded nothing;
+    nothing.type = type;
+    return nothing;
   }
 
   const Graph& graph_;
@@ -331,12 +308,6 @@ std::optional<std::vector<Recorded>> record_graph(const Graph& graph, const Bodi
                                                   const RecordOptions& options, Recorder& recorder,
                                                   Diagnostics& diagnostics) {
   return GraphRecorder(graph, bodies, options, recorder, diagnostics).run();
-}
-
-std::string slot_name(const std::string& parameter, int i, int count) {
-  if (count == 1) return parameter;
-  if (count <= 4) return parameter + '.' + "xyzw"[i];
-  return parameter + '.' + std::to_string(i);
 }
 
 }  // namespace nacre

@@ -56,7 +56,4 @@ std::optional<std::vector<Recorded>> record_graph(const Graph& graph, const Bodi
                                                   const RecordOptions& options, Recorder& recorder,
                                                   Diagnostics& diagnostics);
 
-/// Slot name of component `i` of a parameter of `count` components.
-std::string slot_name(const std::string& parameter, int i, int count);
-
 }  // namespace nacre

@@ -10,6 +10,7 @@
 #include "jit/compile/compile.h"
 #include "jit/compile/lower.h"
 #include "jit/compile/stages.h"
+#include "jit/record/leaves.h"
 #include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
 #include "pbs/shader_channels.h"

@@ -6,18 +6,6 @@
 
 namespace nacre {
 
-namespace {
-
-Scalar scalar_of(Type type) {
-  switch (type) {
-    case Type::boolean: return Scalar::b1;
-    case Type::integer: return Scalar::i32;
-    default: return Scalar::f32;
-  }
-}
-
-}  // namespace
-
 /// The varying geometric property of that name, or `default` where the geometry
 /// has none. MaterialX 1.39 Standard Nodes, "geompropvalue". The uniform slot
 /// "geomprop.NAME" says whether it has (runtime/node/geometry.h); a host freezes

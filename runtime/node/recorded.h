@@ -18,6 +18,12 @@ class Closure {
 };
 using ClosurePtr = std::shared_ptr<const Closure>;  ///< Null: unconnected.
 
+/// Of the parts of a numeric type.
+constexpr Scalar scalar_of(Type type) {
+  if (type == Type::integer) return Scalar::i32;
+  return type == Type::boolean ? Scalar::b1 : Scalar::f32;
+}
+
 /// A recorded value of any MaterialX type: what flows along a connection.
 struct Recorded {
   Type type = Type::none;  ///< Says which of the others holds it.

@@ -64,6 +64,9 @@ class Recorder {
   /// True where x, a value of the current function, may be used now: no region
   /// that it was recorded in has ended.
   bool visible(Ref x) const { return in_scope(x.id); }
+  /// The id of what the current function records next; values of it that were there before
+  /// have smaller ones.
+  ValueId next_value() const { return static_cast<ValueId>(open_.back().home.size()); }
   /// True for what differs from lane to lane: depends on an input.
   bool is_varying(Ref x) const;
   /// Instructions recorded so far, of all functions, those under construction included.
@@ -79,6 +82,10 @@ class Recorder {
   /// In the open if_any region: `inner` in its lanes, `outer` elsewhere, to be used behind it.
   /// After everything else in the region.
   Ref merge(Ref inner, Ref outer);
+  /// Another `outer` for a merge that nothing uses yet: a value recorded before its region.
+  void set_outer(Ref merge, Ref outer);
+  /// Whether x may be used behind the innermost open region, without a merge.
+  bool outlives_region(Ref x) const;
   /// Closes the region that begin_if opened last.
   void end_if();
   /// `imm` as of Op::loop: a bound, or one with loop_must_end.

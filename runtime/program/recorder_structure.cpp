@@ -48,6 +48,17 @@ Ref Recorder::merge(Ref inner, Ref outer) {
   return result;
 }
 
+void Recorder::set_outer(Ref merge, Ref outer) {
+  Instruction& instruction = code().code[merge.id];
+  assert(instruction.op == Op::merge && outer.id < instruction.operands[0]);
+  instruction.operands[1] = outer.id;
+}
+
+bool Recorder::outlives_region(Ref x) const {
+  const Open& open = open_.back();
+  return x.is_constant() || open.home[x.id] != open.regions.back();
+}
+
 void Recorder::end_if() { close_region(Op::end_if); }
 
 Ref Recorder::needed_lanes() {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "jit/document/read.h"
@@ -10,8 +11,8 @@
 namespace nacre {
 namespace {
 
-/// A choice between fractal3d and a sum by `value1` > 0.5.
-std::string choice(const std::string& value1) {
+/// A choice between fractal3d and `other`, the sum s or a number, by `value1` > 0.5.
+std::string choice(const std::string& value1, const std::string& other = R"(nodename="s")") {
   return R"(<materialx version="1.39">
     <texcoord name="uv" type="vector2"/>
     <separate2 name="p" type="multioutput"><input name="in" type="vector2" nodename="uv"/></separate2>
@@ -25,7 +26,8 @@ std::string choice(const std::string& value1) {
          value1 + R"(/>
       <input name="value2" type="float" value="0.5" uniform="true"/>
       <input name="in1" type="float" nodename="f"/>
-      <input name="in2" type="float" nodename="s"/>
+      <input name="in2" type="float" )" +
+         other + R"(/>
     </ifgreater>
     <output name="out" type="float" nodename="c"/></materialx>)";
 }
@@ -60,6 +62,12 @@ class Branches : public ::testing::Test {
     return count;
   }
 
+  static int count(const OutputKernel& kernel, Op op) {
+    const std::vector<Instruction>& code = kernel.kernel.program().entry().code;
+    return static_cast<int>(std::count_if(code.begin(), code.end(),
+                                          [op](const Instruction& one) { return one.op == op; }));
+  }
+
   Diagnostics diagnostics_;
   std::unique_ptr<ShadingSystem> system_;
 };
@@ -71,6 +79,16 @@ TEST_F(Branches, AnExpensiveSideRunsOnlyWhereItIsTaken) {
   std::cout << lazy << " operations for every point, " << eager << " with both sides\n";
   EXPECT_LT(lazy, 20);
   EXPECT_GT(eager, 2 * lazy);
+}
+
+/// A side that is known already costs nothing: the region of the other gives it. The sum costs
+/// an addition and, with its own region flattened, a select.
+TEST_F(Branches, AKnownSideNeedsNoSelect) {
+  const std::string condition = R"(nodename="p" output="outx")";
+  const auto known = compile(choice(condition, R"(nodename="p" output="outy")"));
+  const auto both = compile(choice(condition));
+  EXPECT_EQ(count(*known, Op::merge), 1);
+  EXPECT_EQ(unconditional(*known) + 2, unconditional(*both));
 }
 
 TEST_F(Branches, AUniformConditionIsABranchToo) {
