@@ -34,6 +34,11 @@ std::unique_ptr<SystemParts> SystemParts::create(const SystemOptions& options,
   const Definitions& definitions = parts->library->definitions();
   parts->bodies = std::make_unique<Bodies>(definitions);
   for (const HostBody& body : options.bodies) {
+    if (!body.record) {
+      diagnostics.error("empty-body", {}, "the host's body for '" + body.nodedef + "' is empty",
+                        "a function that records the node", "none");
+      return nullptr;
+    }
     if (parts->bodies->add(body.nodedef, body.record, definitions)) continue;
     diagnostics.error("unknown-nodedef", {},
                       "the host has a body for a nodedef that no library declares",
