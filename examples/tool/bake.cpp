@@ -43,8 +43,16 @@ struct BakeOptions {
 /// Every numeric output of the document, or what the command line names.
 std::vector<std::string> wanted(const BakeOptions& options, const Opened& opened,
                                 Diagnostics& diagnostics) {
+  const SourceLocation file{options.common.file, 0, 0, {}};
   if (!options.material.empty()) {
-    return material_inputs(opened, options.material, !options.common.strict, diagnostics);
+    std::vector<std::string> inputs =
+        material_inputs(opened, options.material, !options.common.strict, diagnostics);
+    if (inputs.empty() && !diagnostics.has_errors()) {
+      diagnostics.error("nothing-to-bake", file,
+                        fmt::format("no graph feeds the surface shader of '{}'", options.material),
+                        "an input that the output of a graph feeds");
+    }
+    return inputs;
   }
   std::vector<std::string> names;
   for (const std::string& name : options.outputs) {
@@ -55,8 +63,7 @@ std::vector<std::string> wanted(const BakeOptions& options, const Opened& opened
     if (is_numeric(output.type)) names.push_back(output.name);
   }
   if (names.empty()) {
-    diagnostics.error("nothing-to-bake", {options.common.file, 0, 0, {}},
-                      "the document has no numeric output");
+    diagnostics.error("nothing-to-bake", file, "the document has no numeric output");
   }
   return names;
 }

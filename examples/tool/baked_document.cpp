@@ -51,11 +51,29 @@ BakedDocument::BakedDocument(Document& source, const Definitions& definitions, b
 bool BakedDocument::add_material(const std::string& name) {
   const std::size_t errors = complaints_.diagnostics().error_count();
   const Element* material = source_.root().child(name);
-  if (material != nullptr) copy_node(*material);
+  if (material != nullptr) copy_tree(*material);
   return complaints_.diagnostics().error_count() == errors;
 }
 
-Element* BakedDocument::copy_node(const Element& node) {
+/// Depth first, with a stack of its own: chains of closures are as long as documents.
+void BakedDocument::copy_tree(const Element& material) {
+  copy_of(material);
+  while (!open_.empty()) {
+    Open& open = open_.back();
+    if (open.next < open.inputs.size()) {
+      const Element& input = *open.inputs[open.next++];
+      copy_input(input, *open.def, *open.copy);  // May open another.
+      continue;
+    }
+    for (const Element& child : open.node->children()) {
+      if (child.category() != "input") document_.append(*open.copy, document_.copy_of(child));
+    }
+    nodes_.push_back(open.copy);
+    open_.pop_back();
+  }
+}
+
+Element* BakedDocument::copy_of(const Element& node) {
   const auto known = copies_.find(&node);
   if (known != copies_.end()) return known->second;
   const NodeDef* def = find_nodedef(node, definitions_, complaints_.diagnostics(),
@@ -69,13 +87,7 @@ Element* BakedDocument::copy_node(const Element& node) {
     const bool is_here = attribute.name == "name" || attribute.name == "inherit";
     if (!is_here) document_.set(copy, attribute.name, attribute.value);
   }
-  for (const Element* input : find_inputs(node, complaints_.diagnostics())) {
-    copy_input(*input, *def, copy);
-  }
-  for (const Element& child : node.children()) {
-    if (child.category() != "input") document_.append(copy, document_.copy_of(child));
-  }
-  nodes_.push_back(&copy);
+  open_.push_back({&node, def, &copy, find_inputs(node, complaints_.diagnostics())});
   return &copy;
 }
 
@@ -131,7 +143,7 @@ void BakedDocument::copy_closure(const Element& input, Element& copy) {
     return;
   }
   const Element& source = *feed.connection.target;
-  const Element* below = copy_node(source);
+  const Element* below = copy_of(source);
   if (below == nullptr) return;
   Element& connection = document_.add_input(copy, input.name(), input.attribute("type"));
   document_.set(connection, "nodename", below->name());

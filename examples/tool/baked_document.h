@@ -58,7 +58,18 @@ class BakedDocument {
   std::string text();
 
  private:
-  Element* copy_node(const Element& node);
+  /// A node whose copy has begun: `inputs` from `next` on are still to be copied.
+  struct Open {
+    const Element* node;
+    const NodeDef* def;
+    Element* copy;
+    std::vector<const Element*> inputs;
+    std::size_t next = 0;
+  };
+
+  void copy_tree(const Element& material);
+  /// The copy of a node, begun here if it is the first time; null after an error.
+  Element* copy_of(const Element& node);
   void copy_input(const Element& input, const NodeDef& def, Element& copy);
   void copy_value(const Element& input, const Element& port, Element& copy);
   void copy_closure(const Element& input, Element& copy);
@@ -74,6 +85,7 @@ class BakedDocument {
   NewDocument document_;
   BakedInputs inputs_;
   std::vector<Job> jobs_;
+  std::vector<Open> open_;       ///< Each read by the one before it.
   std::vector<Element*> nodes_;  ///< Copies, sources before readers.
   std::unordered_map<const Element*, Element*> copies_;
   bool uses_own_definitions_ = false;

@@ -266,6 +266,36 @@ TEST_F(BakeDocument, ValuesThatAFileCannotHoldAreAnError) {
   EXPECT_FALSE(fs::exists(file("baked.mtlx")));
 }
 
+/// A document says how long a chain of closures is; the stack does not.
+TEST_F(BakeDocument, ChainsOfClosuresOfAnyLength) {
+  std::string text = R"(<materialx version="1.39"><nodegraph name="G">
+    <noise2d name="n" type="color3"/><output name="o" type="color3" nodename="n"/></nodegraph>
+    <oren_nayar_diffuse_bsdf name="b0" type="BSDF">
+      <input name="color" type="color3" nodegraph="G" output="o"/></oren_nayar_diffuse_bsdf>)";
+  constexpr int length = 50'000;
+  for (int i = 1; i <= length; ++i) {
+    text += fmt::format(R"(<multiply name="b{}" type="BSDF">
+      <input name="in1" type="BSDF" nodename="b{}"/>
+      <input name="in2" type="float" value="1"/></multiply>)",
+                        i, i - 1);
+  }
+  text += fmt::format(R"(<surface name="S" type="surfaceshader">
+    <input name="bsdf" type="BSDF" nodename="b{}"/></surface>
+    <surfacematerial name="M" type="material">
+      <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+    </materialx>)",
+                      length);
+  write("from.mtlx", text);
+  EXPECT_EQ(
+      run("bake " + file("from.mtlx") + " --no-cache --size 4 --document " + file("baked.mtlx")), 0)
+      << errors_;
+  const auto baked = read(file("baked.mtlx"));
+  ASSERT_NE(baked, nullptr);
+  const Element* last = baked->root().child(fmt::format("b{}", length));
+  ASSERT_NE(last, nullptr);
+  EXPECT_EQ(last->child("in1")->attribute("nodename"), fmt::format("b{}", length - 1));
+}
+
 class BakeOutput : public Tool {
  protected:
   int bake(const std::string& attributes, const std::string& options) {

@@ -97,6 +97,18 @@ TEST_F(Outputs, OneOutputIsWrittenOnceWhateverItFeeds) {
             values(*baked, "NG_baked_S/specular_color_output", 4));
 }
 
+/// A material of values alone has no textures: exit status 0 would say that they are there.
+TEST_F(Outputs, AMaterialThatNoGraphFeedsIsAnError) {
+  std::string plain = material;
+  const std::string link = "nodegraph=\"G\" output=\"o\"";
+  for (std::size_t at; (at = plain.find(link)) != std::string::npos;) {
+    plain.replace(at, link.size(), "value=\"1, 0, 0\"");
+  }
+  EXPECT_EQ(bake(plain, "--material M --out " + file("out")), 1);
+  EXPECT_TRUE(says("[nothing-to-bake]") && says("'M'")) << errors_;
+  EXPECT_FALSE(fs::exists(file("out")));
+}
+
 TEST_F(Outputs, NoDocumentChoosesWhereFilesLand) {
   const std::string out = "--out " + file("deep/out");
   for (const std::string name : {"../../x", "a&#10;b", ".hidden", "/tmp/x"}) {
