@@ -30,7 +30,8 @@ TEST_F(HostileImage, OnlyTheFormatsOfTexturesAreRead) {
 TEST_F(HostileImage, PipesAndFoldersAreNotWaitedFor) {
   ASSERT_EQ(::mkfifo(file("pipe.png").c_str(), 0600), 0);
   ImageReader reader;
-  for (const std::string& path : {file("pipe.png"), folder_.path(), std::string("/dev/zero")}) {
+  for (const std::string& path :
+       {file("pipe.png"), folder_.path().string(), std::string("/dev/zero")}) {
     const auto problem = reader.open(path, "", {});
     ASSERT_TRUE(problem.has_value());
     EXPECT_EQ(problem->code, "unreadable-image");

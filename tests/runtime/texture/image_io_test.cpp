@@ -206,7 +206,7 @@ TEST_F(ImageIo, OtherFormatsAreRefusedByName) {
   }
   write_file(file("d.png"), "");
   EXPECT_EQ(code_of(file("d.png")), "unreadable-image");
-  EXPECT_EQ(code_of(folder_.path()), "unreadable-image");
+  EXPECT_EQ(code_of(folder_.path().string()), "unreadable-image");
   EXPECT_EQ(code_of("/dev/zero"), "unreadable-image");
   EXPECT_EQ(code_of(file("nowhere.png")), "missing-image");
 }

@@ -31,18 +31,6 @@ std::size_t index(const TestImage& image, int x, int y, int c) {
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  std::random_device random;
-  do {
-    path_ = std::filesystem::temp_directory_path() / ("nacre-texture-" + std::to_string(random()));
-  } while (!std::filesystem::create_directory(path_));
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code code;
-  std::filesystem::remove_all(path_, code);
-}
-
 float& TestImage::at(int x, int y, int c) { return samples[index(*this, x, y, c)]; }
 float TestImage::at(int x, int y, int c) const { return samples[index(*this, x, y, c)]; }
 
