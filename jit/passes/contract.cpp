@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "jit/passes/flatten.h"
+#include "jit/passes/structure.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/transform.h"
 
@@ -33,20 +34,27 @@ struct Fusion {
 };
 using Fusions = std::unordered_map<const Instruction*, Fusion>;
 
-/// Chooses the fusions of one function.
+/// Chooses the fusions of one function: the same ones in whatever order it was recorded.
 class Chooser {
  public:
-  explicit Chooser(const Function& function)
+  Chooser(const Function& function, const Structure& structure)
       : function_(function),
+        structure_(structure),
         uses_(function.code.size(), 0),
         sums_(function.code.size(), 0),
         stays_(function.code.size(), false) {}
 
   void run(Fusions& fusions) {
     count();
-    std::vector<std::pair<ValueId, Term>> chosen;
+    std::vector<ValueId> all;
     for (std::size_t i = 0; i < function_.code.size(); ++i) {
-      const auto sum = static_cast<ValueId>(i);
+      if (is_sum(static_cast<ValueId>(i))) all.push_back(static_cast<ValueId>(i));
+    }
+    std::ranges::sort(all, {}, [&](ValueId id) {
+      return std::tuple(structure_.depth[id], structure_.digest[id], id);
+    });
+    std::vector<std::pair<ValueId, Term>> chosen;
+    for (const ValueId sum : all) {
       if (const std::optional<Term> term = choose(sum)) chosen.emplace_back(sum, *term);
     }
     for (const auto& [sum, term] : chosen) {
@@ -96,7 +104,6 @@ class Chooser {
   }
 
   std::optional<Term> choose(ValueId id) {
-    if (!is_sum(id)) return std::nullopt;
     auto [best, other] = terms(id);
     const auto possible = [&](const Term& t) {
       return t.product != no_value && vanishes(t.product);
@@ -104,7 +111,10 @@ class Chooser {
     if (!possible(best)) std::swap(best, other);
     if (!possible(best)) return std::nullopt;
     if (!possible(other)) return best;
-    const auto key = [&](const Term& t) { return std::pair(uses_[t.product], ~t.product); };
+    const auto key = [&](const Term& t) {
+      return std::tuple(uses_[t.product], ~structure_.depth[t.product],
+                        structure_.digest[t.product], t.product);
+    };
     if (key(other) < key(best)) std::swap(best, other);
     stays_[other.product] = true;
     return best;
@@ -119,6 +129,7 @@ class Chooser {
   }
 
   const Function& function_;
+  const Structure& structure_;
   std::vector<std::uint32_t> uses_;
   std::vector<std::uint32_t> sums_;  ///< Of the uses, those that could fuse the product.
   std::vector<bool> stays_;          ///< Products that lost.
@@ -191,7 +202,10 @@ namespace {
 
 Fusions choose(const Program& marked) {
   Fusions fusions;
-  for (const Function& function : marked.functions) Chooser(function).run(fusions);
+  const std::vector<Structure> structures = structures_of(marked);
+  for (std::size_t i = 0; i < marked.functions.size(); ++i) {
+    Chooser(marked.functions[i], structures[i]).run(fusions);
+  }
   return fusions;
 }
 

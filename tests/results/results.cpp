@@ -2,12 +2,14 @@
 //
 //   results LIBRARIES DOCUMENTS EXPECTED [RANDOM_PROGRAMS]
 //
-// Runs random Programs and outputs of documents by the interpreter and by compiled code of
-// every width. Exit status 0 if every digest is the one that EXPECTED holds.
+// Runs random Programs, outputs of documents and a surface by the interpreter and by compiled code
+// of every width. Exit status 0 if every digest is the one that EXPECTED holds.
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -47,43 +49,80 @@ void append(std::string& bytes, const Outputs& outputs) {
   }
 }
 
-/// Every channel has its own numbers between -2 and 2.
-Outputs run(const Kernel& kernel) {
-  const Program& program = kernel.program();
-  Random random(20240611);
-  std::vector<std::vector<float>> inputs(program.inputs.size(), std::vector<float>(points));
-  std::vector<const void*> in;
-  for (auto& channel : inputs) {
-    for (float& x : channel) x = static_cast<float>(random.below(4096)) / 1024.0f - 2.0f;
-    in.push_back(channel.data());
+/// Numbers between -2 and 2 that hang on the name of a channel, not on its place in a list:
+/// that is as the compiler of this program evaluates operands.
+std::vector<std::uint32_t> values_of(const Channel& channel) {
+  std::uint64_t seed = 20240611;
+  for (const char c : channel.name) seed = 31 * seed + static_cast<unsigned char>(c);
+  Random random(seed);
+  std::vector<std::uint32_t> values(points);
+  for (std::uint32_t& value : values) {
+    value = std::bit_cast<std::uint32_t>(static_cast<float>(random.below(4096)) / 1024.0f - 2.0f);
   }
-  Outputs outputs(program.outputs.size(), std::vector<std::uint32_t>(points));
-  std::vector<void*> out;
-  for (auto& channel : outputs) out.push_back(channel.data());
-  std::vector<std::uint32_t> parameters;
-  for (const ParameterSlot& slot : program.parameters) parameters.push_back(slot.value);
-  kernel.run({.inputs = in.data(),
-              .outputs = out.data(),
-              .parameters = parameters.data(),
-              .textures = nullptr,
-              .texture_callback = nullptr,
-              .texture_user = nullptr,
-              .count = points});
-  return outputs;
+  return values;
 }
 
-/// The results of all Programs by the kernels that `make` makes; "" with a diagnostic if it
-/// can't make one.
-std::string results(const std::vector<Program>& programs, std::size_t random_programs,
-                    const std::function<std::shared_ptr<const Kernel>(const Program&)>& make) {
+/// Programs of which each may read what those before it store.
+using Chain = std::vector<Program>;
+/// The kernel for a Program; null, with a diagnostic, if there is none.
+using Make = std::function<std::shared_ptr<const Kernel>(const Program&)>;
+
+/// All outputs but a material's state, whose numbers are no promise, by name. None if `make`
+/// can't make a kernel.
+Outputs run(const Chain& chain, const Make& make) {
+  std::map<std::string, std::vector<std::uint32_t>> channels;
+  std::map<std::string, std::vector<std::uint32_t>> results;
+  for (const Program& program : chain) {
+    const auto kernel = make(program);
+    if (kernel == nullptr) return {};
+    std::vector<const void*> in;
+    for (const Channel& channel : program.inputs) {
+      in.push_back(channels.try_emplace(channel.name, values_of(channel)).first->second.data());
+    }
+    std::vector<std::vector<std::uint32_t>> outputs(program.outputs.size(),
+                                                    std::vector<std::uint32_t>(points));
+    std::vector<void*> out;
+    for (auto& output : outputs) out.push_back(output.data());
+    std::vector<std::uint32_t> parameters;
+    for (const ParameterSlot& slot : program.parameters) parameters.push_back(slot.value);
+    kernel->run({.inputs = in.data(),
+                 .outputs = out.data(),
+                 .parameters = parameters.data(),
+                 .textures = nullptr,
+                 .texture_callback = nullptr,
+                 .texture_user = nullptr,
+                 .count = points});
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      const std::string& name = program.outputs[i].name;
+      const bool is_state = name.starts_with("state.");
+      if (is_state) {
+        channels[name] = std::move(outputs[i]);
+      } else {
+        results[program.name + '/' + name] = std::move(outputs[i]);
+      }
+    }
+  }
+  Outputs all;
+  for (const auto& [name, values] : results) all.push_back(values);
+  return all;
+}
+
+/// The results of all Programs and chains by the kernels that `make` makes; "" with a
+/// diagnostic if it can't make one.
+std::string results(const std::vector<Program>& random_programs, const std::vector<Chain>& chains,
+                    const Make& make) {
   std::vector<std::uint32_t> order(points);
   std::iota(order.begin(), order.end(), 0u);
   std::string bytes;
-  for (std::size_t i = 0; i < programs.size(); ++i) {
-    const auto kernel = make(programs[i]);
+  for (std::size_t i = 0; i < random_programs.size(); ++i) {
+    const auto kernel = make(random_programs[i]);
     if (kernel == nullptr) return {};
-    append(bytes, i < random_programs ? RandomBatch(programs[i], i, order).run(*kernel, 0, points)
-                                      : run(*kernel));
+    append(bytes, RandomBatch(random_programs[i], i, order).run(*kernel, 0, points));
+  }
+  for (const Chain& chain : chains) {
+    const Outputs outputs = run(chain, make);
+    if (outputs.empty()) return {};
+    append(bytes, outputs);
   }
   return to_hex(sha256(bytes));
 }
@@ -103,6 +142,7 @@ int main(int argc, char** argv) {
     return 1;
   };
   std::vector<Program> programs;
+  std::vector<Chain> chains;
   for (std::uint64_t seed = 0; programs.size() < count; ++seed) {
     if (seed != beyond_qemu) programs.push_back(random_program(seed));
   }
@@ -115,7 +155,17 @@ int main(int argc, char** argv) {
     if (document == nullptr) return fail();
     const auto made = system->compile_outputs(*document, {subject.output}, options, diagnostics);
     if (made == nullptr) return fail();
-    programs.push_back(made->kernel.program());
+    chains.push_back({made->kernel.program()});
+  }
+  const auto surface =
+      read_document(source + "/bench/documents/standard_surface.mtlx", {}, diagnostics);
+  if (surface == nullptr) return fail();
+  options.parameters = ParameterMode::live;
+  const auto made = system->compile_material(*surface, "standard_surface", options, diagnostics);
+  if (made == nullptr) return fail();
+  Chain& chain = chains.emplace_back();
+  for (const auto* kernel : {&made->begin, &made->sample, &made->evaluate, &made->albedo}) {
+    chain.push_back((*kernel)->program());
   }
 
   const auto session = JitSession::create({}, diagnostics);
@@ -125,7 +175,7 @@ int main(int argc, char** argv) {
     std::printf("%s %s\n", engine.c_str(), found.c_str());
     same = same && found == expected;
   };
-  report("interpreter", results(programs, count, [](const Program& program) {
+  report("interpreter", results(programs, chains, [](const Program& program) {
            return std::shared_ptr<const Kernel>(make_interpreter(program));
          }));
   for (const int lanes : {1, 4, 8, 16}) {
@@ -136,7 +186,7 @@ int main(int argc, char** argv) {
       const auto loaded = object ? session->load(*object, diagnostics) : nullptr;
       return loaded == nullptr ? nullptr : make_jit_kernel(program, loaded, lanes);
     };
-    report("W=" + std::to_string(lanes), results(programs, count, make));
+    report("W=" + std::to_string(lanes), results(programs, chains, make));
   }
   std::printf("%s: expected %s\n", Target::host().cpu.c_str(), expected.c_str());
   return same && !diagnostics.has_errors() ? 0 : fail();

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "runtime/interpreter/interpreter.h"
@@ -133,7 +137,7 @@ TEST(Contract, Golden) {
        "  %2 = f32 input c\n"
        "  %3 = f32 fma %0 %1 %2\n"
        "  store out %3\n"},
-      {"a b + c d: the later product",
+      {"a b + c d: one of them, whichever was recorded first",
        "  %4 = f32 mul %0 %1\n"
        "  %5 = f32 mul %2 %3\n"
        "  %6 = f32 add %4 %5\n"
@@ -142,9 +146,23 @@ TEST(Contract, Golden) {
        "  %1 = f32 input b\n"
        "  %2 = f32 input c\n"
        "  %3 = f32 input d\n"
-       "  %4 = f32 mul %0 %1\n"
-       "  %5 = f32 fma %2 %3 %4\n"
+       "  %4 = f32 mul %2 %3\n"
+       "  %5 = f32 fma %0 %1 %4\n"
        "  store out %5\n"},
+      {"a b + (c + d) d: the deeper product",
+       "  %4 = f32 add %2 %3\n"
+       "  %5 = f32 mul %3 %4\n"
+       "  %6 = f32 mul %0 %1\n"
+       "  %7 = f32 add %5 %6\n"
+       "  store out %7\n",
+       "  %0 = f32 input a\n"
+       "  %1 = f32 input b\n"
+       "  %2 = f32 input c\n"
+       "  %3 = f32 input d\n"
+       "  %4 = f32 add %2 %3\n"
+       "  %5 = f32 mul %0 %1\n"
+       "  %6 = f32 fma %3 %4 %5\n"
+       "  store out %6\n"},
       {"a b in two sums: both, and the product goes",
        "  %4 = f32 mul %0 %1\n"
        "  %5 = f32 add %2 %4\n"
@@ -325,12 +343,13 @@ Program random_polynomial(std::uint64_t seed) {
   for (int k = 0; k < 30; ++k) {
     const Float x = random.pick(values);
     const Float y = random.pick(values);
-    switch (random.below(7)) {
+    switch (random.below(8)) {
       case 0: values.push_back(x + y); break;
       case 1: values.push_back(x - y); break;
       case 2: values.push_back(-x); break;
       case 3: values.push_back(outline<Float>(recorder, "f", body, x, y)); break;
       case 4: values.push_back(if_any(x < y, x, [&] { return x - y * x; })); break;
+      case 5: values.push_back(x * random.pick(values) + y * random.pick(values)); break;
       default: values.push_back(x * y * 0.5f); break;
     }
   }
@@ -380,6 +399,83 @@ TEST(Contract, KeepsEveryValueToRounding) {
               count(before, Op::mul) + count(before, Op::add) + count(before, Op::sub));
   }
   EXPECT_GT(fused, 500u);
+}
+
+/// The same Program recorded in another order: between two instructions of its structure any
+/// order that has operands first.
+Program reordered(const Program& program, std::uint64_t seed) {
+  Random random(seed);
+  Program result = program;
+  for (Function& function : result.functions) {
+    const std::vector<Instruction> before = function.code;
+    const auto stays = [&](ValueId id) {
+      const Op op = before[id].op;
+      return is_structural(op) || op == Op::result || op == Op::argument || op == Op::call ||
+             op == Op::texture_call;
+    };
+    std::vector<ValueId> order;  // Old ids in the new order.
+    std::vector<ValueId> place(before.size(), no_value);
+    const auto put = [&](ValueId id) {
+      place[id] = static_cast<ValueId>(order.size());
+      order.push_back(id);
+    };
+    for (ValueId begin = 0; begin < before.size();) {
+      ValueId end = begin;
+      while (end < before.size() && !stays(end)) ++end;
+      std::vector<ValueId> waiting(end - begin);
+      std::iota(waiting.begin(), waiting.end(), begin);
+      while (!waiting.empty()) {
+        const auto at = waiting.begin() + random.below(static_cast<std::uint32_t>(waiting.size()));
+        const std::span<const ValueId> operands = function.operands(before[*at]);
+        const bool is_ready = std::ranges::all_of(
+            operands, [&](ValueId operand) { return place[operand] != no_value; });
+        if (!is_ready) continue;
+        put(*at);
+        waiting.erase(at);
+      }
+      if (end < before.size()) put(end);
+      begin = end + 1;
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      Instruction& instruction = function.code[i] = before[order[i]];
+      for (std::size_t k = 0; k < instruction.count; ++k) {
+        instruction.operands[k] = place[instruction.operands[k]];
+      }
+      const bool commutes = info(instruction.op).commutes;
+      if (commutes && instruction.operands[1] < instruction.operands[0]) {
+        std::swap(instruction.operands[0], instruction.operands[1]);
+      }
+    }
+    for (ValueId& operand : function.pool) operand = place[operand];
+  }
+  return result;
+}
+
+/// Compilers evaluate the operands of a node's body in different orders.
+TEST(Contract, GivesTheSameBitsInWhateverOrderAProgramWasRecorded) {
+  int reorderings = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const Program program = random_polynomial(seed);
+    const Program other = reordered(program, seed);
+    ASSERT_EQ(verify(other), "") << seed;
+    const Program first = contract(program);
+    const Program second = contract(other);
+    reorderings += to_string(first) != to_string(second);
+    EXPECT_EQ(evaluate(first, seed), evaluate(second, seed)) << seed;
+  }
+  EXPECT_GT(reorderings, 200);
+
+  // Every kind of instruction.
+  std::vector<std::uint32_t> points(19);
+  std::iota(points.begin(), points.end(), 0u);
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Program program = random_program(seed);
+    const Program first = contract(program);
+    const Program second = contract(reordered(program, seed));
+    EXPECT_EQ(RandomBatch(first, seed, points).run(*make_interpreter(first), 0, points.size()),
+              RandomBatch(second, seed, points).run(*make_interpreter(second), 0, points.size()))
+        << seed;
+  }
 }
 
 TEST(Contract, IsDeterministicAndLeavesNothingToDo) {
