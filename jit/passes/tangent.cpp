@@ -36,8 +36,9 @@ Float finite(Float x) {
 Float d_add(const Step& s) { return plus(s.d[0], s.d[1]); }
 /// d(a - b) = da - db
 Float d_sub(const Step& s) { return minus(s.d[0], s.d[1]); }
-/// d(a b) = a db + b da
-Float d_mul(const Step& s) { return scale_add(s.x[0], s.d[1], scale(s.x[1], s.d[0])); }
+/// d(a b) = a db + b da, which is the same for b a: which comes first depends on the order of
+/// recording. So neither product is chosen to be fused here; contract() chooses.
+Float d_mul(const Step& s) { return plus(scale(s.x[0], s.d[1]), scale(s.x[1], s.d[0])); }
 /// d(a / b) = (da - (a / b) db) / b; 0 where b = 0
 Float d_div(const Step& s) {
   const Float numerator = vanishes(s.d[1]) ? s.d[0] : scale_add(-s.y, s.d[1], s.d[0]);

@@ -11,12 +11,6 @@ namespace nacre {
 
 namespace {
 
-Scalar scalar_of(Type type) {
-  if (type == Type::integer) return Scalar::i32;
-  if (type == Type::boolean) return Scalar::b1;
-  return Scalar::f32;
-}
-
 Recorded recorded_input(Recorder& recorder, const NodePort& port) {
   Recorded value;
   value.type = port.type;

@@ -22,11 +22,6 @@ namespace {
 constexpr std::size_t point_count = 10'000;
 constexpr double tolerance = 1e-9;
 
-Scalar scalar_of(Type type) {
-  if (type == Type::integer) return Scalar::i32;
-  return type == Type::boolean ? Scalar::b1 : Scalar::f32;
-}
-
 /// Inputs and outputs of a nodedef as ports, numbers as channels of their names.
 std::vector<NodeCall::Port> input_ports(const NodeDef& def, Recorder& recorder,
                                         const std::map<std::string, std::string>& texts) {
