@@ -9,6 +9,7 @@
 
 #include "jit/shading/shading_system.h"
 #include "tests/support/standard_library.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre {
 namespace {
@@ -17,26 +18,12 @@ namespace fs = std::filesystem;
 
 class Limits : public ::testing::Test {
  protected:
-  Limits() : folder_(fs::path(::testing::TempDir()) / name()) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Limits() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-
-  static std::string name() {
-    return std::string("nacre_limits_") +
-           ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  }
-
   fs::path write(const std::string& file, const std::string& text) const {
-    std::ofstream(folder_ / file, std::ios::binary) << text;
-    return folder_ / file;
+    return temporary_.write(file, text);
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 std::string wrapped(const std::string& body) {

@@ -123,6 +123,10 @@ class Checks(unittest.TestCase):
         self.write("tests/jit/graphs/bad_test.cpp", "")
         self.assert_finds(form.mirror, "tests/jit/graphs/bad_test.cpp:")
 
+    def test_fixed_temporary_folder(self):
+        self.write("tests/jit/graph/bad_test.cpp", "fs::path(::testing::TempDir()) / \"a\";\n")
+        self.assert_finds(form.temporary, "tests/jit/graph/bad_test.cpp:1:")
+
     def test_package_twice(self):
         self.write(".packages.txt", "cmake\ncmake\n")
         self.assert_finds(form.packages, ".packages.txt:")

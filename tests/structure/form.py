@@ -95,4 +95,15 @@ def mirror(root: pathlib.Path) -> list[str]:
     return faults
 
 
-CHECKS = (length, cmake_lists, marked_lists, mirror, packages)
+def temporary(root: pathlib.Path) -> list[str]:
+    """A test's files lie in a folder of its own (tests/support/temporary_folder.h): under a
+    fixed name, tests that run at once take each other's away."""
+    faults = []
+    for file in tree.files(root / "tests", tree.CODE):
+        for number, line in enumerate((root / "tests" / file).read_text().split("\n"), 1):
+            if "TempDir()" in line:
+                faults.append(f"tests/{file}:{number}: {line.strip()}")
+    return faults
+
+
+CHECKS = (length, cmake_lists, marked_lists, mirror, packages, temporary)

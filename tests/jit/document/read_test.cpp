@@ -8,6 +8,7 @@
 #include "jit/document/names.h"
 #include "tests/support/materialx_samples.h"
 #include "tests/support/standard_library.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre {
 namespace {
@@ -17,14 +18,6 @@ namespace fs = std::filesystem;
 // Files in a folder of their own, gone at the end of the test.
 class Files : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::path(::testing::TempDir()) / (std::string("nacre_document_") + test->name());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   fs::path write(const fs::path& name, std::string_view body, std::string_view attributes = "") {
     fs::create_directories((folder / name).parent_path());
     std::ofstream out(folder / name, std::ios::binary);
@@ -37,7 +30,8 @@ class Files : public ::testing::Test {
     return read_document(folder / name, options, diagnostics);
   }
 
-  fs::path folder;
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path();
   Diagnostics diagnostics;
 };
 

@@ -3,10 +3,8 @@
 // has to be in 1.39.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "tests/jit/document/upgraded.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre {
 namespace {
@@ -375,23 +373,20 @@ TEST(Upgrade, TakesBoundedTime) {
 }
 
 TEST(Upgrade, EachIncludedFileByItsOwnVersion) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::path(::testing::TempDir()) / "nacre_upgrade_include";
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   const auto atan2 = [](std::string_view name) {
     return "<atan2 name=\"" + std::string(name) +
            "\" type=\"float\"><input name=\"in1\" type=\"float\" value=\"1\"/></atan2>";
   };
-  std::ofstream(folder / "a.mtlx")
-      << "<materialx version=\"1.37\">" << atan2("a") << "</materialx>";
-  std::ofstream(folder / "b.mtlx") << "<materialx version=\"1.38\"><xi:include href=\"a.mtlx\"/>"
-                                   << atan2("b") << "</materialx>";
+  folder.write("a.mtlx", "<materialx version=\"1.37\">" + atan2("a") + "</materialx>");
+  const std::string file =
+      folder.write("b.mtlx", "<materialx version=\"1.38\"><xi:include href=\"a.mtlx\"/>" +
+                                 atan2("b") + "</materialx>");
   Diagnostics diagnostics;
-  const auto document = read_document(folder / "b.mtlx", {}, diagnostics);
+  const auto document = read_document(file, {}, diagnostics);
   ASSERT_NE(document, nullptr) << diagnostics.to_string();
   EXPECT_NE(document->root().child("a")->child("inx"), nullptr);
   EXPECT_NE(document->root().child("b")->child("iny"), nullptr);
-  fs::remove_all(folder);
 }
 
 }  // namespace

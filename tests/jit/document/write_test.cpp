@@ -7,6 +7,7 @@
 #include "tests/jit/document/tree_text.h"
 #include "tests/support/materialx_samples.h"
 #include "tests/support/standard_library.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nacre {
 namespace {
@@ -70,8 +71,6 @@ TEST(WriteDocument, CommentsStayBesideWhatReplacesTheirElement) {
 class WriteInclude : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) / "nacre_write_include";
-    fs::remove_all(folder_);
     fs::create_directories(folder_ / "sub");
     write("sub/a.mtlx",
           "<materialx version=\"1.39\" namespace=\"lib\" fileprefix=\"tex/\">"
@@ -81,7 +80,6 @@ class WriteInclude : public ::testing::Test {
           "<materialx version=\"1.39\">\n  <!-- theirs -->\n  <xi:include href=\"sub/a.mtlx\" />\n"
           "  <!-- ours -->\n  <constant name=\"c\" type=\"float\" />\n</materialx>\n");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   void write(const fs::path& name, const std::string& text) {
     std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -95,7 +93,8 @@ class WriteInclude : public ::testing::Test {
     return document;
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(WriteInclude, StaysAnInclude) {
