@@ -144,8 +144,17 @@ TEST_P(Lobes, SamplesFollowTheDensityAndCarryTheLight) {
   }
 }
 
-// A host that runs a path backwards relies on it.
+// A host that runs a path backwards relies on it. The same bits, but for `fast`, where LLVM may
+// order sums and products as it likes: some roundings.
 TEST_P(Lobes, ReverseDensityIsTheForwardOneOfTheSwappedPair) {
+  const bool is_fast = std::get<1>(GetParam()) == Accuracy::fast;
+  const auto expect_same = [&](float reverse, float forward) {
+    if (is_fast) {
+      EXPECT_NEAR(reverse, forward, 8 * 0x1p-24f * forward);
+    } else {
+      EXPECT_EQ(reverse, forward);
+    }
+  };
   double worst = 1.0;
   each_configuration([&](const LobeCase&, const LobeKernels& kernels, float roughness, Direction wo,
                          std::uint64_t number) {
@@ -158,8 +167,8 @@ TEST_P(Lobes, ReverseDensityIsTheForwardOneOfTheSwappedPair) {
     const Evaluated there = kernels.evaluate(roughness, wo, wi);
     const Evaluated back = kernels.evaluate(roughness, wi, {wo});
     for (std::size_t i = 0; i < wi.size(); ++i) {
-      ASSERT_EQ(there.pdf_reverse[i], back.pdf[i]);
-      ASSERT_EQ(back.pdf_reverse[i], there.pdf[i]);
+      expect_same(there.pdf_reverse[i], back.pdf[i]);
+      expect_same(back.pdf_reverse[i], there.pdf[i]);
       const double f = there.f[i] * std::abs(double(wo.z));
       const double g = back.f[i] * std::abs(double(wi[i].z));
       if (std::max(f, g) < 1e-6) continue;
