@@ -196,8 +196,10 @@ class GraphRecorder {
     std::array<Side, 2> sides{{{holds, first, "in1"}, {!holds, second, "in2"}}};
     // A side without nodes of its own goes first: the region of the other can give its value.
     if (plan_.branches[second].nodes.empty()) std::swap(sides[0], sides[1]);
+    std::optional<Recorded> taken;
+    if (plan_.branches[sides[0].branch].nodes.empty()) taken = side(node, sides[0].input);
     const ValueId start = recorder_.next_value();
-    const auto taken = record_first(node, sides[0]);
+    if (!taken) taken = record_first(node, sides[0]);
     const auto chosen = taken ? record_second(node, sides[1], *taken, start) : std::nullopt;
     if (chosen) out = *chosen;
     return chosen.has_value();
@@ -212,7 +214,6 @@ class GraphRecorder {
 
   /// The value of the first side in its lanes; what it is in others nobody asks.
   std::optional<Recorded> record_first(const GraphNode& node, const Side& first) {
-    if (plan_.branches[first.branch].nodes.empty()) return side(node, first.input);
     return record_where(node, first, [&](Ref inside, std::size_t) {
       return recorder_.outlives_region(inside) ? inside
                                                : recorder_.merge(inside, {nullptr, 0, inside.type});

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <set>
 
 #include "jit/document/read.h"
@@ -89,6 +92,37 @@ TEST_F(Branches, AKnownSideNeedsNoSelect) {
   const auto both = compile(choice(condition));
   EXPECT_EQ(count(*known, Op::merge), 1);
   EXPECT_EQ(unconditional(*known) + 2, unconditional(*both));
+}
+
+/// A parameter that is read here first is no merge, though it is as new; the other side adds
+/// nothing to what was there.
+TEST_F(Branches, BothSidesMayBeKnown) {
+  const auto kernel = compile(R"(<materialx version="1.39">
+    <texcoord name="uv" type="vector2"/>
+    <separate2 name="p" type="multioutput"><input name="in" type="vector2" nodename="uv"/></separate2>
+    <add name="s" type="float"><input name="in1" type="float" nodename="p" output="outx"/>
+      <input name="in2" type="float" nodename="p" output="outy"/></add>
+    <ifgreater name="c" type="float">
+      <input name="value1" type="float" nodename="s"/>
+      <input name="value2" type="float" value="0.5" uniform="true"/>
+      <input name="in1" type="float" nodename="p" output="outy"/>
+      <input name="in2" type="float" value="7"/>
+    </ifgreater>
+    <output name="out" type="float" nodename="c"/></materialx>)");
+  ASSERT_NE(kernel, nullptr);
+  std::vector<std::uint32_t> parameters = kernel->kernel.parameters();
+  const auto index = kernel->kernel.parameter_index("c/in2");
+  ASSERT_TRUE(index);
+  parameters[*index] = std::bit_cast<std::uint32_t>(9.0f);
+  const std::array<float, 2> u{0.25f, 0.75f}, v{0.125f, 0.5f};
+  std::vector<const void*> in;
+  for (const Channel& channel : kernel->kernel.program().inputs) {
+    in.push_back(channel.name == "uv0.x" ? u.data() : v.data());
+  }
+  std::array<float, 2> found{};
+  void* out[] = {found.data()};
+  ASSERT_EQ(kernel->kernel.run(in, out, 2, parameters), RunStatus::done);
+  EXPECT_EQ(found, (std::array{9.0f, 0.5f}));
 }
 
 TEST_F(Branches, AUniformConditionIsABranchToo) {
