@@ -100,7 +100,8 @@ def temporary(root: pathlib.Path) -> list[str]:
     fixed name, tests that run at once take each other's away."""
     faults = []
     for file in tree.files(root / "tests", tree.CODE):
-        for number, line in enumerate((root / "tests" / file).read_text(encoding="utf-8").split("\n"), 1):
+        text = (root / "tests" / file).read_text(encoding="utf-8")
+        for number, line in enumerate(text.split("\n"), 1):
             if "TempDir()" in line:
                 faults.append(f"tests/{file}:{number}: {line.strip()}")
     return faults

@@ -58,13 +58,13 @@ TEST_P(HostileLobes, AnyBitsGiveFiniteLight) {
   const auto& [row, accuracy] = GetParam();
   LobePrograms programs = lobe_programs(row, accuracy, true);
   const Columns in = hostile_columns(7);
-  const Columns f = run(*machine_code(std::move(programs.evaluate), accuracy), in);
+  const Columns f = run(*lobe_kernel(std::move(programs.evaluate), accuracy), in);
   for (std::size_t i = 0; i < count; ++i) {
     for (const char* name : {"f.x", "f.y", "f.z", "pdf", "pdf_reverse"}) {
       ASSERT_TRUE(sane(f.at(name)[i])) << name << " " << f.at(name)[i] << " point " << i;
     }
   }
-  const Columns s = run(*machine_code(std::move(programs.sample), accuracy), in);
+  const Columns s = run(*lobe_kernel(std::move(programs.sample), accuracy), in);
   for (std::size_t i = 0; i < count; ++i) {
     for (const char* name : {"weight.x", "weight.y", "weight.z", "pdf", "pdf_reverse"}) {
       ASSERT_TRUE(sane(s.at(name)[i])) << name << " " << s.at(name)[i] << " point " << i;
@@ -73,7 +73,7 @@ TEST_P(HostileLobes, AnyBitsGiveFiniteLight) {
     const float x = s.at("wi.x")[i], y = s.at("wi.y")[i], z = s.at("wi.z")[i];
     ASSERT_NEAR(x * x + y * y + z * z, 1.0f, 1.1e-3f) << "point " << i;
   }
-  const Columns e = run(*machine_code(std::move(programs.albedo), accuracy), in);
+  const Columns e = run(*lobe_kernel(std::move(programs.albedo), accuracy), in);
   for (const float x : e.at("albedo.x")) ASSERT_TRUE(sane(x));
 }
 

@@ -52,20 +52,21 @@ LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile)
           slice(recorder.program(), "albedo", kernels.albedo)};
 }
 
-std::shared_ptr<const Kernel> machine_code(Program program, Accuracy accuracy) {
+std::shared_ptr<const Kernel> lobe_kernel(Program program, Accuracy accuracy, Backend backend) {
   CompileOptions options;
   options.accuracy = accuracy;
+  options.backend = backend;
   Diagnostics diagnostics;
   auto kernel = compile(std::move(program), options, service(), diagnostics);
   EXPECT_NE(kernel, nullptr);
   return kernel;
 }
 
-LobeKernels::LobeKernels(const LobeCase& row, Accuracy accuracy) {
+LobeKernels::LobeKernels(const LobeCase& row, Accuracy accuracy, Backend backend) {
   LobePrograms programs = lobe_programs(row, accuracy);
-  evaluate_ = machine_code(std::move(programs.evaluate), accuracy);
-  sample_ = machine_code(std::move(programs.sample), accuracy);
-  albedo_ = machine_code(std::move(programs.albedo), accuracy);
+  evaluate_ = lobe_kernel(std::move(programs.evaluate), accuracy, backend);
+  sample_ = lobe_kernel(std::move(programs.sample), accuracy, backend);
+  albedo_ = lobe_kernel(std::move(programs.albedo), accuracy, backend);
 }
 
 Columns lobe_columns(float roughness) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "jit/compile/options.h"
 #include "runtime/kernel.h"
 #include "runtime/reference/reference.h"
 #include "tests/pbs/battery/lobe_case.h"
@@ -26,10 +27,10 @@ struct Sampled {
   std::vector<bool> valid;
 };
 
-/// The machine code of one lobe, white, as a surface's kernels have it.
+/// The kernels of one lobe, white, as a surface has them.
 class LobeKernels {
  public:
-  LobeKernels(const LobeCase& row, Accuracy accuracy);
+  LobeKernels(const LobeCase& row, Accuracy accuracy, Backend backend = Backend::jit);
 
   Evaluated evaluate(float roughness, Direction wo, const std::vector<Direction>& wi) const;
   /// Each from its own side: wo.size() == wi.size().
@@ -51,8 +52,9 @@ struct LobePrograms {
 };
 LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile = false);
 
-/// Compiles with the JIT; fails the running test where it can't.
-std::shared_ptr<const Kernel> machine_code(Program program, Accuracy accuracy);
+/// Fails the running test where there is no kernel.
+std::shared_ptr<const Kernel> lobe_kernel(Program program, Accuracy accuracy,
+                                          Backend backend = Backend::jit);
 
 /// Channels for a white lobe at this roughness; normal z, tangent x.
 Columns lobe_columns(float roughness);

@@ -46,8 +46,8 @@ class Comparison {
  public:
   Comparison(const LobeCase& row, Accuracy accuracy) {
     LobePrograms machine = lobe_programs(row, accuracy);
-    evaluate_ = machine_code(std::move(machine.evaluate), accuracy);
-    sample_ = machine_code(std::move(machine.sample), accuracy);
+    evaluate_ = lobe_kernel(std::move(machine.evaluate), accuracy);
+    sample_ = lobe_kernel(std::move(machine.sample), accuracy);
     LobePrograms oracle = lobe_programs(row, Accuracy::precise);
     exact_evaluate_ = make_reference(std::move(oracle.evaluate));
     exact_sample_ = make_reference(std::move(oracle.sample));
