@@ -84,7 +84,7 @@ TEST(Session, ThousandsOfKernelsAreAFewMappings) {
   }
   // Two for a slab of some 1,000 kernels, and what the heap may want; a sanitizer's, which
   // keeps what was freed, wants more.
-  const std::size_t heap = address_sanitizer ? 64 : 8;
+  const std::size_t heap = is_sanitized ? 64 : 8;
   const std::size_t most = before + 4 * (count / 1000) + heap;
   EXPECT_LE(mappings(), most);
   // Nor do holes become mappings.

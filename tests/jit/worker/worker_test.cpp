@@ -156,7 +156,7 @@ TEST(Worker, CrashesLeaveTheInterpreter) {
 }
 TEST(Worker, HangsLeaveTheInterpreter) { expect_answers({"hang", "takes too long", 5}); }
 TEST(Worker, MemoryThatIsShortLeavesTheInterpreter) {
-  expect_answers({"memory", address_sanitizer ? "ended" : "ran out of memory"});
+  expect_answers({"memory", is_sanitized ? "ended" : "ran out of memory"});
 }
 TEST(Worker, AnswersToSomethingElseAreNotTaken) {
   expect_answers({"another", "to something else"});
