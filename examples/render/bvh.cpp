@@ -74,9 +74,12 @@ struct Bvh::Embree {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   bool ok = false;
+  /// Where TBB gets no thread for building, Embree 3 leaves tasks that nobody waits for; to release
+  /// such a scene ends the process, so it is left alone.
+  bool is_half_built = false;
 
   ~Embree() {
-    if (scene != nullptr) rtcReleaseScene(scene);
+    if (scene != nullptr && !is_half_built) rtcReleaseScene(scene);
     if (device != nullptr) rtcReleaseDevice(device);
   }
 };
@@ -102,9 +105,11 @@ Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_uniqu
                             "one built with EMBREE_RAY_MASK", mesh.object_name);
       }
     }
+    embree_->is_half_built = ok;
     if (ok) rtcCommitScene(embree_->scene);
   }
   const RTCError error = rtcGetDeviceError(embree_->device);
+  embree_->is_half_built = embree_->is_half_built && error != RTC_ERROR_NONE;
   embree_->ok = error == RTC_ERROR_NONE && embree_->device != nullptr;
   if (!embree_->ok) {
     diagnostics.error("bvh-failed", {}, "the acceleration structure could not be built", {},
