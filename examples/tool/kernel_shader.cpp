@@ -4,8 +4,9 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <cstring>
+
+#include "runtime/channel/channel_name.h"
 
 namespace nacre::tool {
 
@@ -40,16 +41,6 @@ constexpr std::array<Group3, 14> groups3{{
     {"dPody", &ShadingBatch::dPdy_object,
      host::attribute_footprint_position | host::attribute_object_space},
 }};
-
-/// Splits "P.x" into group and component 0..3; component -1 if it has none.
-std::pair<std::string_view, int> split(std::string_view channel) {
-  constexpr std::string_view suffixes = "xyzw";
-  const std::size_t dot = channel.rfind('.');
-  if (dot == std::string_view::npos || dot + 2 != channel.size()) return {channel, -1};
-  const std::size_t component = suffixes.find(channel[dot + 1]);
-  return {channel.substr(0, dot),
-          component == std::string_view::npos ? -1 : static_cast<int>(component)};
-}
 
 float* component(const Lanes3& lanes, int i) {
   return i == 0 ? lanes.x : i == 1 ? lanes.y : lanes.z;
@@ -119,14 +110,12 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
     bound.state.push_back(-1);
     bound.from_batch.emplace_back();
     if (extra != extras.end()) continue;
-    if (channel.name.starts_with("state.")) {
-      std::uint32_t number = 0;
-      std::from_chars(channel.name.data() + 6, channel.name.data() + channel.name.size(), number);
-      const auto slot = std::find(kernels_->state.begin(), kernels_->state.end(), number);
+    if (const auto number = state_number(channel.name)) {
+      const auto slot = std::find(kernels_->state.begin(), kernels_->state.end(), *number);
       bound.state.back() = static_cast<int>(slot - kernels_->state.begin());
       continue;
     }
-    const auto [group, i] = split(channel.name);
+    const auto [group, i] = parse_channel(channel.name);
     reads_uv_ = reads_uv_ || group == "uv0";
     bound.from_batch.back() = standard_channel(group, i, capabilities_.attributes);
     if (bound.from_batch.back() || i < 0) continue;

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <string_view>
 
+#include "runtime/channel/channel_name.h"
+
 namespace nacre::tool {
 
 namespace {
 
 /// "P" of the channel "P.x", and of "dPdx.y", its derivative.
 std::string group_of(std::string_view channel) {
-  std::string_view group = channel.substr(0, channel.rfind('.'));
-  const bool is_derivative = group.size() > 3 && group.starts_with('d') &&
-                             (group.ends_with("dx") || group.ends_with("dy"));
-  if (is_derivative) group = group.substr(1, group.size() - 3);
-  return std::string(group);
+  const std::string_view group = parse_channel(channel).group;
+  const auto derivative = parse_derivative(group);
+  return std::string(derivative ? derivative->group : group);
 }
 
 std::string text_of(const GraphNode& node, std::string_view name) {

@@ -1,9 +1,9 @@
 #include "jit/passes/footprint.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+
+#include "runtime/channel/channel_name.h"
 
 namespace nacre {
 
@@ -20,13 +20,12 @@ bool is_texture_coordinate(std::string_view group) {
 
 std::optional<std::string> derivative_channel(std::string_view channel, int axis,
                                               std::span<const std::string_view> more) {
-  const std::size_t dot = std::min(channel.rfind('.'), channel.size());
-  const std::string_view group = channel.substr(0, dot);
+  const auto [group, component] = parse_channel(channel);
   if (std::ranges::find(positions, group) == positions.end() && !is_texture_coordinate(group) &&
       std::ranges::find(more, group) == more.end()) {
     return std::nullopt;
   }
-  return fmt::format("d{}d{}{}", group, axis == 0 ? 'x' : 'y', channel.substr(dot));
+  return channel_text(derivative_text(group, axis), component);
 }
 
 }  // namespace nacre

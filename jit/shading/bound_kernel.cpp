@@ -4,6 +4,7 @@
 
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
+#include "runtime/batch/run_bound.h"
 
 namespace nacre {
 
@@ -19,6 +20,11 @@ bool BoundKernel::is_pending() const {
   return made != nullptr && made->state() == CompiledKernel::State::waiting;
 }
 
+bool BoundKernel::wait() const {
+  const auto* made = dynamic_cast<const CompiledKernel*>(kernel_.get());
+  return made == nullptr || made->wait();
+}
+
 Diagnostics BoundKernel::diagnostics() const {
   const auto* made = dynamic_cast<const CompiledKernel*>(kernel_.get());
   return made != nullptr ? made->diagnostics() : Diagnostics();
@@ -32,6 +38,15 @@ std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) c
   return std::nullopt;
 }
 
+KernelArguments BoundKernel::arguments(std::span<const std::uint32_t> parameters,
+                                       const std::atomic<std::uint32_t>* stop) const {
+  return {.parameters = parameters.empty() ? parameters_.data() : parameters.data(),
+          .textures = bindings_.data(),
+          .texture_callback = &RecordedTextures::look_up,
+          .texture_user = const_cast<RecordedTextures*>(textures_.get()),
+          .stop = stop};
+}
+
 RunStatus BoundKernel::run(std::span<const void* const> inputs, std::span<void* const> outputs,
                            std::uint64_t count, std::span<const std::uint32_t> parameters,
                            const std::atomic<std::uint32_t>* stop) const {
@@ -39,14 +54,28 @@ RunStatus BoundKernel::run(std::span<const void* const> inputs, std::span<void* 
                     outputs.size() == program().outputs.size() &&
                     (parameters.empty() || parameters.size() == parameters_.size());
   if (!fits) return RunStatus::wrong_arguments;
-  return kernel_->run({.inputs = inputs.data(),
-                       .outputs = outputs.data(),
-                       .parameters = parameters.empty() ? parameters_.data() : parameters.data(),
-                       .textures = bindings_.data(),
-                       .texture_callback = &RecordedTextures::look_up,
-                       .texture_user = const_cast<RecordedTextures*>(textures_.get()),
-                       .count = count,
-                       .stop = stop});
+  KernelArguments all = arguments(parameters, stop);
+  all.inputs = inputs.data();
+  all.outputs = outputs.data();
+  all.count = count;
+  return kernel_->run(all);
+}
+
+RunStatus BoundKernel::run(const Binding& binding, const Batch& batch,
+                           std::span<const std::uint32_t> parameters) const {
+  const bool fits = binding.inputs.size() == program().inputs.size() &&
+                    binding.outputs.size() == program().outputs.size() &&
+                    (parameters.empty() || parameters.size() == parameters_.size());
+  if (!fits) return RunStatus::wrong_arguments;
+  KernelArguments all = arguments(parameters, batch.stop);
+  return run_bound(
+      binding, batch,
+      [this, &all](const void* const* inputs, void* const* outputs, std::uint64_t count) {
+        all.inputs = inputs;
+        all.outputs = outputs;
+        all.count = count;
+        return kernel_->run(all);
+      });
 }
 
 }  // namespace nacre

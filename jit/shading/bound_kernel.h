@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/batch/binder.h"
+#include "runtime/batch/layout.h"
 #include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
 
@@ -37,6 +39,9 @@ class BoundKernel {
   /// Whether its code is still being made, and it is interpreted meanwhile; see
   /// CompileOptions::asynchronous.
   bool is_pending() const;
+  /// Waits until nothing is pending. Whether it runs as it was asked to: false where it stays
+  /// interpreted though machine code was wanted.
+  bool wait() const;
   /// What there is to say of making it, once nothing is pending: why it stays interpreted,
   /// say. Without `asynchronous`, compiling has said that already.
   Diagnostics diagnostics() const;
@@ -52,7 +57,16 @@ class BoundKernel {
                               std::uint64_t count, std::span<const std::uint32_t> parameters = {},
                               const std::atomic<std::uint32_t>* stop = nullptr) const;
 
+  /// The same for arrays as a host has them: see runtime/batch. `binding` was made for this
+  /// kernel's Program.
+  [[nodiscard]] RunStatus run(const Binding& binding, const Batch& batch,
+                              std::span<const std::uint32_t> parameters = {}) const;
+
  private:
+  /// All but the arrays.
+  KernelArguments arguments(std::span<const std::uint32_t> parameters,
+                            const std::atomic<std::uint32_t>* stop) const;
+
   std::shared_ptr<const Kernel> kernel_;
   std::shared_ptr<const RecordedTextures> textures_;
   std::vector<TextureBinding> bindings_;

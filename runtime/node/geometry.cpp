@@ -1,17 +1,16 @@
 #include "runtime/node/geometry.h"
 
-#include <array>
 #include <bit>
 #include <string>
+
+#include "runtime/channel/channel_name.h"
 
 namespace nacre {
 
 Space parse_space(std::string_view name) { return name == "world" ? Space::world : Space::object; }
 
 Ref channel(Recorder& recorder, std::string_view group, int component, Scalar type) {
-  constexpr std::array<std::string_view, 4> suffix{".x", ".y", ".z", ".w"};
-  return recorder.input(
-      std::string(group) + std::string(suffix[static_cast<std::size_t>(component)]), type);
+  return recorder.input(channel_text(group, component), type);
 }
 
 Float3 channel3(Recorder& recorder, std::string_view group) {

@@ -1,15 +1,13 @@
 #include "runtime/program/slice.h"
 
 #include <cassert>
-#include <charconv>
-#include <string_view>
 #include <utility>
+
+#include "runtime/channel/channel_name.h"
 
 namespace nacre {
 
 namespace {
-
-constexpr std::string_view state_prefix = "state.";
 
 /// Marks live values of one function, from the last to the first; and once more where what
 /// was passed may be needed after all: a carry needs its `next`, a loop what `again` reads.
@@ -174,7 +172,7 @@ void resolve_keeps(Program& program, Keeps keeps) {
       continue;
     }
     program.inputs.push_back(
-        {std::string(state_prefix) + std::to_string(instruction.imm), instruction.type});
+        {channel_text("state", static_cast<int>(instruction.imm)), instruction.type});
     instruction = {.op = Op::input,
                    .type = instruction.type,
                    .imm = static_cast<std::uint32_t>(program.inputs.size() - 1),
@@ -226,7 +224,7 @@ std::vector<SliceOutput> state_outputs(Recorder& recorder, std::span<const std::
     if (code[i].op != Op::keep) continue;
     for (std::size_t k = 0; k < keeps.size(); ++k) {
       if (code[i].imm != keeps[k]) continue;
-      outputs[k] = {std::string(state_prefix) + std::to_string(keeps[k]),
+      outputs[k] = {channel_text("state", static_cast<int>(keeps[k])),
                     {&recorder, static_cast<ValueId>(i), code[i].type}};
     }
   }
@@ -236,11 +234,7 @@ std::vector<SliceOutput> state_outputs(Recorder& recorder, std::span<const std::
 std::vector<std::uint32_t> state_channels(const Program& program) {
   std::vector<std::uint32_t> numbers;
   for (const Channel& input : program.inputs) {
-    if (!input.name.starts_with(state_prefix)) continue;
-    const std::string_view digits = std::string_view(input.name).substr(state_prefix.size());
-    std::uint32_t number = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    numbers.push_back(number);
+    if (const auto number = state_number(input.name)) numbers.push_back(*number);
   }
   return numbers;
 }

@@ -5,6 +5,8 @@
 #include <bit>
 #include <limits>
 
+#include "runtime/channel/channel_name.h"
+#include "runtime/channel/channel_table.h"
 #include "tests/support/random.h"
 
 namespace nacre::testing {
@@ -19,6 +21,19 @@ bool is_shader(Type type) {
 }  // namespace
 
 namespace {
+
+/// A host can look up what any kernel asks for.
+void expect_described(const Channel& channel) {
+  const ChannelName name = parse_channel(channel.name);
+  const ChannelGroup* group = find_channel_group(name.group);
+  ASSERT_NE(group, nullptr) << channel.name;
+  EXPECT_NE(group->role, ChannelRole::result) << channel.name;
+  if (group->role == ChannelRole::state) return;
+  EXPECT_LT(name.component, group->components) << channel.name;
+  EXPECT_EQ(name.component < 0, group->components == 1) << channel.name;
+  const bool is_property = group->name == "geomprop.*";
+  EXPECT_TRUE(is_property || group->type == channel.type) << channel.name;
+}
 
 /// Random numbers that the channel's name decides (FNV-1a).
 Random numbers_of(const Channel& channel) {
@@ -174,6 +189,7 @@ Arrays run(const BoundKernel& kernel, const Arrays& known, std::size_t count) {
   std::vector<std::vector<std::uint32_t>> inputs;
   std::vector<const void*> in;
   for (const Channel& channel : program.inputs) {
+    expect_described(channel);
     const auto given = known.find(channel.name);
     inputs.push_back(given == known.end() ? fill(channel, count) : given->second);
   }

@@ -1,0 +1,210 @@
+#include "runtime/batch/run_bound.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+
+#include "runtime/batch/index_runs.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr std::ptrdiff_t word = 4;
+
+/// Words of all copies at once: within a level-1 data cache of 32 KiB, with room for what the
+/// kernel itself touches.
+constexpr std::size_t staged_words = 6144;
+/// Channels that need no memory from the heap.
+constexpr std::size_t usual_channels = 96;
+
+/// Room for `count` elements, on the stack as long as they are few.
+template <class T, std::size_t usual>
+class Room {
+ public:
+  explicit Room(std::size_t count) {
+    if (count > usual) heap_ = std::make_unique_for_overwrite<T[]>(count);
+  }
+  T* data() { return heap_ != nullptr ? heap_.get() : stack_.data(); }
+
+ private:
+  std::array<T, usual> stack_;
+  std::unique_ptr<T[]> heap_;
+};
+
+/// How the arrays of a batch are read and written.
+class Access {
+ public:
+  Access(const Binding& binding, const Batch& batch) : binding_(binding), batch_(batch) {}
+
+  bool is_listed(const ChannelLayout& layout) const {
+    return layout.element == ElementOf::instance ||
+           (layout.element == ElementOf::point && batch_.points != nullptr);
+  }
+  bool needs_copy(const ChannelLayout& layout) const {
+    return layout.stride != word || layout.array == discarded || is_listed(layout);
+  }
+  /// Element `i` of a channel that no list picks from.
+  std::byte* element(const ChannelLayout& layout, std::uint64_t i) const {
+    const void* array =
+        layout.array == bound_constants ? binding_.constants.data() : batch_.arrays[layout.array];
+    return static_cast<std::byte*>(const_cast<void*>(array)) + layout.offset +
+           layout.stride * static_cast<std::ptrdiff_t>(i);
+  }
+  const Binding& binding() const { return binding_; }
+  const Batch& batch() const { return batch_; }
+
+ private:
+  const Binding& binding_;
+  const Batch& batch_;
+};
+
+/// The points of a batch, a block at a time: copied, run and written back.
+class Stage {
+ public:
+  /// `rows` has room for a pointer a channel, `words` for `copies` blocks.
+  Stage(const Access& access, std::size_t block, void** rows, std::uint32_t* words)
+      : access_(access), block_(block), rows_(rows) {
+    const auto place = [&](const ChannelLayout& layout, void*& row) {
+      if (!access_.needs_copy(layout)) return;
+      row = words;
+      words += block_ + IndexRuns::slack;
+    };
+    for (const ChannelLayout& input : inputs()) {
+      place(input, *rows);
+      if (input.stride == 0) fill(input, static_cast<std::uint32_t*>(*rows));
+      note_lists(input);
+      ++rows;
+    }
+    outputs_ = rows;
+    for (const ChannelLayout& output : outputs()) {
+      place(output, *rows++);
+      note_lists(output);
+    }
+  }
+
+  RunStatus run(const RunArrays& run) {
+    const std::uint64_t all = access_.batch().count;
+    for (std::uint64_t first = 0; first < all; first += block_) {
+      const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block_, all - first));
+      read(first, count);
+      const RunStatus status = run(rows_, outputs_, count);
+      if (status != RunStatus::done) return status;
+      write(first, count);
+    }
+    return RunStatus::done;
+  }
+
+ private:
+  const std::vector<ChannelLayout>& inputs() const { return access_.binding().inputs; }
+  const std::vector<ChannelLayout>& outputs() const { return access_.binding().outputs; }
+
+  void fill(const ChannelLayout& layout, std::uint32_t* to) const {
+    std::uint32_t value = 0;
+    std::memcpy(&value, access_.element(layout, 0), sizeof value);
+    std::fill_n(to, std::min<std::uint64_t>(block_, access_.batch().count), value);
+  }
+
+  void note_lists(const ChannelLayout& layout) {
+    if (layout.stride == 0 || layout.array == discarded || !access_.is_listed(layout)) return;
+    (layout.element == ElementOf::instance ? uses_instances_ : uses_points_) = true;
+  }
+
+  const IndexRuns& list_of(const ChannelLayout& layout) const {
+    return layout.element == ElementOf::instance ? instances_ : points_;
+  }
+
+  void prepare_lists(std::uint64_t first, std::size_t count) {
+    const Batch& batch = access_.batch();
+    if (uses_points_) points_.prepare(batch.points + first, count);
+    if (!uses_instances_) return;
+    std::array<std::uint32_t, IndexRuns::most> picked;
+    for (std::size_t i = 0; i < count; ++i) {
+      picked[i] = batch.instances[batch.points != nullptr ? batch.points[first + i] : first + i];
+    }
+    instances_.prepare(picked.data(), count);
+  }
+
+  void read(std::uint64_t first, std::size_t count) {
+    prepare_lists(first, count);
+    void** row = rows_;
+    for (const ChannelLayout& input : inputs()) {
+      auto* to = static_cast<std::uint32_t*>(*row);
+      if (input.stride == 0) {
+        // Filled in for good.
+      } else if (!access_.needs_copy(input)) {
+        *row = access_.element(input, first);
+      } else if (access_.is_listed(input)) {
+        list_of(input).gather(access_.element(input, 0), input.stride, to);
+      } else {
+        const std::byte* from = access_.element(input, first);
+        for (std::size_t i = 0; i < count; ++i, from += input.stride)
+          std::memcpy(to + i, from, word);
+      }
+      ++row;
+    }
+    for (const ChannelLayout& output : outputs()) {
+      if (!access_.needs_copy(output)) *row = access_.element(output, first);
+      ++row;
+    }
+  }
+
+  void write(std::uint64_t first, std::size_t count) const {
+    void* const* row = outputs_;
+    for (const ChannelLayout& output : outputs()) {
+      const auto* from = static_cast<const std::uint32_t*>(*row++);
+      if (output.array == discarded || !access_.needs_copy(output)) continue;
+      if (access_.is_listed(output)) {
+        list_of(output).scatter(from, access_.element(output, 0), output.stride);
+        continue;
+      }
+      std::byte* to = access_.element(output, first);
+      for (std::size_t i = 0; i < count; ++i, to += output.stride) std::memcpy(to, from + i, word);
+    }
+  }
+
+  const Access access_;
+  std::size_t block_;
+  void** rows_;     ///< Of the inputs; those of the outputs follow.
+  void** outputs_;  ///< Their rows.
+  bool uses_points_ = false;
+  bool uses_instances_ = false;
+  IndexRuns points_;
+  IndexRuns instances_;
+};
+
+bool fits(const Binding& binding, const Batch& batch) {
+  if (batch.arrays.size() < binding.arrays) return false;
+  const auto is_of_instance = [](const ChannelLayout& layout) {
+    return layout.element == ElementOf::instance;
+  };
+  return batch.instances != nullptr || (std::ranges::none_of(binding.inputs, is_of_instance) &&
+                                        std::ranges::none_of(binding.outputs, is_of_instance));
+}
+
+}  // namespace
+
+RunStatus run_bound(const Binding& binding, const Batch& batch, const RunArrays& run) {
+  if (!fits(binding, batch)) return RunStatus::wrong_arguments;
+  const Access access(binding, batch);
+  const auto needs_copy = [&](const ChannelLayout& layout) { return access.needs_copy(layout); };
+  const auto copies = static_cast<std::size_t>(std::ranges::count_if(binding.inputs, needs_copy) +
+                                               std::ranges::count_if(binding.outputs, needs_copy));
+  Room<void*, usual_channels> rows(binding.inputs.size() + binding.outputs.size());
+  if (copies == 0) {
+    void** row = rows.data();
+    for (const ChannelLayout& input : binding.inputs) *row++ = access.element(input, 0);
+    void** const outputs = row;
+    for (const ChannelLayout& output : binding.outputs) *row++ = access.element(output, 0);
+    return run(rows.data(), outputs, batch.count);
+  }
+  const std::size_t block =
+      std::clamp<std::size_t>(staged_words / copies / 16 * 16, 64, IndexRuns::most);
+  Room<std::uint32_t, staged_words + usual_channels * IndexRuns::slack> words(
+      copies * (block + IndexRuns::slack));
+  return Stage(access, block, rows.data(), words.data()).run(run);
+}
+
+}  // namespace nacre

@@ -1,0 +1,111 @@
+#include "runtime/batch/index_runs.h"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace nacre {
+namespace {
+
+/// Words that end where memory ends: a read behind them is a fault.
+class WordsBeforeNothing {
+ public:
+  explicit WordsBeforeNothing(std::size_t count) : count_(count) {
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    bytes_ = (count * 4 + page - 1) / page * page;
+    memory_ =
+        mmap(nullptr, bytes_ + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    mprotect(static_cast<std::byte*>(memory_) + bytes_, page, PROT_NONE);
+    page_ = page;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto word = static_cast<std::uint32_t>(i * 2654435761u);
+      std::memcpy(data() + i, &word, 4);
+    }
+  }
+  WordsBeforeNothing(const WordsBeforeNothing&) = delete;
+  WordsBeforeNothing& operator=(const WordsBeforeNothing&) = delete;
+  ~WordsBeforeNothing() { munmap(memory_, bytes_ + page_); }
+
+  std::uint32_t* data() const {
+    return reinterpret_cast<std::uint32_t*>(static_cast<std::byte*>(memory_) + bytes_) - count_;
+  }
+
+ private:
+  std::size_t count_;
+  std::size_t bytes_ = 0;
+  std::size_t page_ = 0;
+  void* memory_ = nullptr;
+};
+
+void expect_picked(std::span<const std::uint32_t> list, const std::uint32_t* words) {
+  IndexRuns runs;
+  runs.prepare(list.data(), list.size());
+  std::vector<std::uint32_t> picked(list.size() + IndexRuns::slack);
+  runs.gather(words, 4, picked.data());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    ASSERT_EQ(picked[i], words[list[i]]) << i << " of " << list.size();
+  }
+}
+
+// Every density, each list ending with the last element there is.
+TEST(IndexRuns, PickWhatTheListNamesAndReadNothingBehindIt) {
+  const WordsBeforeNothing words(1500);
+  std::mt19937 random(1);
+  for (int round = 0; round < 400; ++round) {
+    const double density = (round % 20 + 1) / 20.0;
+    std::vector<std::uint32_t> list;
+    for (std::uint32_t i = 1499; list.size() < 1 + random() % IndexRuns::most; --i) {
+      if (i == 1499 || std::bernoulli_distribution(density)(random)) list.insert(list.begin(), i);
+      if (i == 0) break;
+    }
+    expect_picked(list, words.data());
+  }
+}
+
+TEST(IndexRuns, TakeListsInAnyOrder) {
+  const WordsBeforeNothing words(1500);
+  std::mt19937 random(2);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<std::uint32_t> list(random() % IndexRuns::most + 1);
+    for (std::uint32_t& index : list)
+      index = static_cast<std::uint32_t>(random() % (round % 2 == 0 ? 1500 : 9));
+    expect_picked(list, words.data());
+  }
+}
+
+TEST(IndexRuns, OfShortArraysReadNothingBehindThem) {
+  for (std::size_t count = 1; count < 20; ++count) {
+    const WordsBeforeNothing words(count);
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < count; ++i) all.push_back(i);
+    expect_picked(all, words.data());
+    expect_picked(std::span(all).last(1), words.data());
+    const std::vector<std::uint32_t> often(12, static_cast<std::uint32_t>(count - 1));
+    expect_picked(often, words.data());
+  }
+}
+
+TEST(IndexRuns, PickAndPutAtAnyStride) {
+  const std::vector<std::uint32_t> list{3, 0, 2, 9};
+  IndexRuns runs;
+  runs.prepare(list.data(), list.size());
+  std::vector<std::uint32_t> table(30);
+  for (std::uint32_t i = 0; i < 30; ++i) table[i] = i;
+  std::vector<std::uint32_t> picked(list.size() + IndexRuns::slack);
+  runs.gather(table.data() + 1, 12, picked.data());
+  picked.resize(4);
+  EXPECT_EQ(picked, (std::vector<std::uint32_t>{10, 1, 7, 28}));
+  std::vector<std::uint32_t> out(20, 7);
+  runs.scatter(picked.data(), out.data(), 8);
+  std::vector<std::uint32_t> expected(20, 7);
+  expected[6] = 10, expected[0] = 1, expected[4] = 7, expected[18] = 28;
+  EXPECT_EQ(out, expected);
+}
+
+}  // namespace
+}  // namespace nacre
