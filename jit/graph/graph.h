@@ -78,7 +78,14 @@ struct Parameter {
   std::string unit;        ///< Of `value`; "" if none was given.
   std::string nodedef;     ///< Of the instance it is written on; "" for a graph's interface.
   std::string input;       ///< Name of the input it is written on.
-  std::string ui_name;     ///< From the input or the nodedef's input; all ui_* may be empty.
+  /// Nobody wrote it: the nodedef's default, of GraphOptions::default_parameters.
+  bool is_default = false;
+  /// From the input or the nodedef's input; all ui_* may be empty.
+  /// @{
+  std::string ui_name;
+  std::string ui_folder;
+  std::string doc;
+  /// @}
   /// Type none when not given. uisoftmin / uimin.
   /// @{
   Value ui_min, ui_max;

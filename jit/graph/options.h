@@ -71,6 +71,9 @@ struct GraphOptions {
   /// "" for an enumeration; colour spaces without a transform (as they are); declarations
   /// and elements that nothing can use.
   bool lenient = false;
+  /// Inputs of the document's own nodes that have a default and no author are parameters too
+  /// (Parameter::is_default).
+  bool default_parameters = false;
   /// A graph with more nodes is refused.
   std::size_t max_nodes = 250'000;
   /// A node with more inputs is refused.

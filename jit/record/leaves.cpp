@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "jit/record/pattern.h"
+
 namespace nacre {
 
 namespace {
@@ -40,7 +42,7 @@ Recorded literal(const Source& source, Type type, const RecordOptions& options) 
 
 Recorded parameter(const Parameter& parameter, const RecordOptions& options, Recorder& recorder) {
   const Type type = parameter.type;
-  if (options.parameters == ParameterMode::frozen || is_text(type)) {
+  if (!is_live(parameter, options)) {
     Source frozen;
     frozen.kind = Source::Kind::literal;
     frozen.value = parameter.value;
@@ -55,6 +57,12 @@ Recorded parameter(const Parameter& parameter, const RecordOptions& options, Rec
                            component_bits(parameter.value, static_cast<std::size_t>(i))));
   }
   return value;
+}
+
+bool is_live(const Parameter& parameter, const RecordOptions& options) {
+  if (is_text(parameter.type)) return false;
+  if (options.parameters == ParameterMode::live && !parameter.is_default) return true;
+  return fits_any(parameter.path, options.live);
 }
 
 std::string slot_name(const std::string& parameter, int i, int count) {

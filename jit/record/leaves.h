@@ -16,6 +16,10 @@ Recorded literal(const Source& source, Type type, const RecordOptions& options);
 /// always is.
 Recorded parameter(const Parameter& parameter, const RecordOptions& options, Recorder& recorder);
 
+/// Whether a parameter becomes slots of the block: the mode says so, of what an author wrote, or
+/// one of the patterns fits its path. `*` stands for any text, `?` for one letter.
+bool is_live(const Parameter& parameter, const RecordOptions& options);
+
 /// Slot name of component `i` of a parameter of `count` components.
 std::string slot_name(const std::string& parameter, int i, int count);
 

@@ -30,7 +30,9 @@ enum class ParameterMode {
 struct RecordOptions {
   Accuracy accuracy = Accuracy::standard;            ///< What bodies aim at.
   ParameterMode parameters = ParameterMode::frozen;  ///< Of the graph's parameters.
-  TextureProvider* textures = nullptr;               ///< Null: no node has an image.
+  /// Parameters that are live in any case: their paths fit one of these (is_live).
+  std::vector<std::string> live = {};
+  TextureProvider* textures = nullptr;  ///< Null: no node has an image.
   /// Runs the graph's `sources`; null: nodes that need one are errors.
   TextBodies* texts = nullptr;
   /// Compute what only one side of a conditional node needs only where it is taken;

@@ -11,6 +11,7 @@
 #include "jit/compile/lower.h"
 #include "jit/compile/stages.h"
 #include "jit/record/leaves.h"
+#include "jit/record/pattern.h"
 #include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
 #include "pbs/shader_channels.h"
@@ -75,6 +76,8 @@ constexpr OtherKernel other_kernels[] = {
 ShaderOptions from_now(const ShaderOptions& options) {
   ShaderOptions result = options;
   result.compile.stop = stop_from_now(options.compile);
+  // A pattern may name what nobody wrote.
+  result.graph.default_parameters |= !options.live.empty();
   return result;
 }
 
@@ -101,12 +104,14 @@ std::optional<Graph> Compilation::build(const Document& document, const GraphReq
 }
 
 std::unique_ptr<OutputKernel> Compilation::make_outputs(const Graph& graph) {
+  const std::size_t errors = diagnostics_.error_count();
   auto recorded = record_outputs(graph);
   if (!recorded) return nullptr;
   auto kernel = std::move(compile(std::move(recorded->programs)).front());
-  if (!kernel) return nullptr;
-  return std::make_unique<OutputKernel>(
-      OutputKernel{std::move(*kernel), std::move(recorded->outputs), std::move(stages_)});
+  if (!kernel || !is_complete(errors)) return nullptr;
+  return std::make_unique<OutputKernel>(OutputKernel{std::move(*kernel),
+                                                     std::move(recorded->outputs),
+                                                     live_parameters(graph), std::move(stages_)});
 }
 
 std::unique_ptr<MaterialKernels> Compilation::make_material(const Graph& graph,
@@ -119,9 +124,40 @@ std::unique_ptr<MaterialKernels> Compilation::make_material(const Graph& graph,
   for (std::size_t i = 0; i < compiled.size(); ++i) {
     (*kernels).*recorded->places[i] = std::move(compiled[i]);
   }
+  kernels->parameters = live_parameters(graph);
   kernels->stages = std::move(stages_);
-  if (diagnostics_.error_count() != errors + textures_->error_count()) return nullptr;
-  return kernels;
+  return is_complete(errors) ? std::move(kernels) : nullptr;
+}
+
+bool Compilation::is_complete(std::size_t errors_before) const {
+  return diagnostics_.error_count() == errors_before + textures_->error_count();
+}
+
+RecordOptions Compilation::record_options(const FileRoots& roots) {
+  return {.accuracy = options_.compile.accuracy,
+          .parameters = options_.parameters,
+          .live = options_.live,
+          .textures = textures_.get(),
+          .texts = parts_.texts.get(),
+          .lazy = options_.lazy,
+          .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
+          .max_instructions = options_.compile.max_instructions,
+          .max_steps = options_.compile.max_steps,
+          .resolve_file =
+              [this, roots](const std::string& name, const std::string& document) {
+                return find_image(name, document, options_.search_paths, roots);
+              },
+          .stop = options_.compile.stop};
+}
+
+std::vector<Parameter> Compilation::live_parameters(const Graph& graph) const {
+  RecordOptions options;
+  options.parameters = options_.parameters;
+  options.live = options_.live;
+  std::vector<Parameter> live;
+  std::ranges::copy_if(graph.parameters, std::back_inserter(live),
+                       [&](const Parameter& each) { return is_live(each, options); });
+  return live;
 }
 
 std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
@@ -129,24 +165,18 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
                               ? FileRoots{}
                               : image_roots(graph, options_.search_paths, parts_.texts->roots());
   textures_->give_access(image_access(roots, options_.missing_images, options_.compile.stop));
-  const RecordOptions record{
-      .accuracy = options_.compile.accuracy,
-      .parameters = options_.parameters,
-      .textures = textures_.get(),
-      .texts = parts_.texts.get(),
-      .lazy = options_.lazy,
-      .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
-      .max_instructions = options_.compile.max_instructions,
-      .max_steps = options_.compile.max_steps,
-      .resolve_file =
-          [&](const std::string& name, const std::string& document) {
-            return find_image(name, document, options_.search_paths, roots);
-          },
-      .stop = options_.compile.stop};
+  const RecordOptions options = record_options(roots);
+  if (!options_.varying.empty()) {
+    recorder_.vary_parameters([this](std::string_view slot) {
+      // A pattern of the parameter, or of one of its components.
+      return fits_any(std::string(slot), options_.varying) ||
+             fits_any(std::string(slot.substr(0, slot.rfind('.'))), options_.varying);
+    });
+  }
   if (!graph.outputs.empty()) where_ = graph.outputs.front().where;
   return Stages(&stages_).run(
       "record",
-      [&] { return record_graph(graph, *parts_.bodies, record, recorder_, diagnostics_); },
+      [&] { return record_graph(graph, *parts_.bodies, options, recorder_, diagnostics_); },
       [&](const auto&, StageReport& report) {
         report.instructions = instruction_count(recorder_.program());
       });

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "jit/document/file_roots.h"
 #include "jit/graph/graph.h"
 #include "jit/record/textures.h"
 #include "jit/shading/system_parts.h"
@@ -55,6 +56,10 @@ class Compilation {
   /// The passes and machine code, all entry points side by side; nothing where the compiler
   /// refuses.
   std::vector<std::optional<BoundKernel>> compile(std::vector<Program> programs);
+  RecordOptions record_options(const FileRoots& roots);
+  std::vector<Parameter> live_parameters(const Graph& graph) const;
+  /// Whether nothing was wrong since there were so many errors, but for images that are missing.
+  bool is_complete(std::size_t errors_before) const;
   /// Whether there is time and room for more; false, with an error, once there is not.
   bool may_go_on();
   /// Who compiles Programs does not know what document they come from.

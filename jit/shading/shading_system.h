@@ -58,7 +58,13 @@ enum class Side { front, back };
 struct ShaderOptions {
   CompileOptions compile;                            ///< Engine, accuracy and limits.
   ParameterMode parameters = ParameterMode::frozen;  ///< Whether values may change later.
-  KernelRequest kernels;                             ///< Of a material: which, and of what lobes.
+  /// Patterns of the paths of parameters that are live in any case, those included that the
+  /// document leaves at their default: `*` stands for any text, `?` for one letter.
+  std::vector<std::string> live = {};
+  /// Patterns of slots (parameters that are live by then, "time", "object_to_world") that
+  /// every point brings along: input channels of the same name, in place of slots.
+  std::vector<std::string> varying = {};
+  KernelRequest kernels;  ///< Of a material: which, and of what lobes.
   /// `is_native` and `stop` (that of `compile`) are filled in, and `colors` where it is null.
   GraphOptions graph;
   bool lazy = true;  ///< See RecordOptions.
@@ -94,9 +100,10 @@ struct OutputKernel {
     std::size_t channels = 0;       ///< component_count(type) of a numeric type.
     SourceLocation where = {};      ///< Of the node that it is of.
   };
-  BoundKernel kernel;               ///< All outputs at once.
-  std::vector<Output> outputs;      ///< In the order asked for.
-  std::vector<StageReport> stages;  ///< Of all that was done, in order.
+  BoundKernel kernel;                 ///< All outputs at once.
+  std::vector<Output> outputs;        ///< In the order asked for.
+  std::vector<Parameter> parameters;  ///< Those that are live.
+  std::vector<StageReport> stages;    ///< Of all that was done, in order.
 };
 
 /// True for types that an output may have to be a kernel by itself: numbers, media,
@@ -134,7 +141,8 @@ struct MaterialKernels {
   std::vector<std::string> manifest;  ///< What was left out, and why.
   /// Those lines of it that a renderer would have to do itself, for the picture lacks them.
   std::vector<std::string> not_modelled;
-  std::vector<StageReport> stages;  ///< Of all kernels, one after another.
+  std::vector<Parameter> parameters;  ///< Those that are live; each kernel has slots of some.
+  std::vector<StageReport> stages;    ///< Of all kernels, one after another.
 };
 
 struct SystemParts;

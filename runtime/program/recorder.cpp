@@ -86,6 +86,7 @@ Ref Recorder::adopted(const Instruction& instruction) {
 }
 
 Ref Recorder::parameter(std::string_view name, Scalar type, std::uint32_t bits) {
+  if (varies_ && varies_(name)) return input(name, type);
   const std::uint32_t index =
       find_or_add(program_.parameters, name, ParameterSlot{std::string(name), type, bits});
   assert(program_.parameters[index].type == type);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "runtime/program/program.h"
@@ -42,6 +44,10 @@ class Recorder {
   Ref input(std::string_view name, Scalar type);
   /// A slot of the parameter block, `bits` its value in the document.
   Ref parameter(std::string_view name, Scalar type, std::uint32_t bits);
+  /// Slots for which `varies` is true are input channels of the same name from now on.
+  void vary_parameters(std::function<bool(std::string_view slot)> varies) {
+    varies_ = std::move(varies);
+  }
   /// The slot number (an i32 literal) of the texture that the host knows by `key`.
   Ref texture(std::string_view key);
   /// The index of a constant table, for Op::table. The same name with other numbers is
@@ -64,6 +70,8 @@ class Recorder {
   /// True where x, a value of the current function, may be used now: no region
   /// that it was recorded in has ended.
   bool visible(Ref x) const { return in_scope(x.id); }
+  /// Of a value of the current function.
+  Scalar type_of(Ref x) const { return x.is_constant() ? x.type : current_code()[x.id].type; }
   /// The id of what the current function records next; values of it that were there before
   /// have smaller ones.
   ValueId next_value() const { return static_cast<ValueId>(open_.back().home.size()); }
@@ -142,6 +150,9 @@ class Recorder {
     std::uint32_t next_region = 1;
   };
 
+  const std::vector<Instruction>& current_code() const {
+    return open_.size() == 1 ? program_.entry().code : open_.back().function.code;
+  }
   Function& code() { return open_.size() == 1 ? program_.entry() : open_.back().function; }
   Ref append(Instruction instruction, bool varying);
   Ref append_shared(Instruction instruction, bool varying);
@@ -153,6 +164,7 @@ class Recorder {
   std::uint32_t origin_ = 0;
   std::unordered_map<std::string, std::uint32_t> origin_numbers_;
   Program program_;
+  std::function<bool(std::string_view slot)> varies_;
   std::vector<Open> open_;
   std::uint32_t next_number_ = 1;
   std::unordered_map<std::string, std::uint32_t> function_keys_;

@@ -76,8 +76,15 @@ std::optional<Resolver::Key> Resolver::default_input(Task& task, const Instance&
   }
   const bool has_literal = is_numeric(input.type) || is_text(input.type) || is_array(input.type);
   if (!has_literal) return std::nullopt;
-  result.source.kind = Source::Kind::literal;
-  result.source.value = input.default_value;
+  const bool is_parameter = options_.default_parameters && instance.element != nullptr &&
+                            &instance.element->document() == &document_ && !input.uniform &&
+                            is_numeric(input.type);
+  if (is_parameter) {
+    result.source = literals_.default_parameter(instance, input);
+  } else {
+    result.source.kind = Source::Kind::literal;
+    result.source.value = input.default_value;
+  }
   result.carrier = input.element;
   if (input.type == Type::filename) {
     result.source = literals_.file_name(*input.element, input.default_value, nullptr);

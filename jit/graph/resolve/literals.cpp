@@ -27,6 +27,27 @@ Value ui_bound(const Element* input, const Element* declared, Type type, std::st
   return {};
 }
 
+// What people are told of a parameter, by who wrote it or else by the nodedef.
+Parameter described(const Element* carrier, const NodeDefInput* input, Type type) {
+  const Element* declared = input == nullptr ? nullptr : input->element;
+  const auto text = [&](const char* attribute) -> std::string {
+    for (const Element* element : {carrier, declared}) {
+      if (element != nullptr && element->has_attribute(attribute)) {
+        return std::string(element->attribute(attribute));
+      }
+    }
+    return {};
+  };
+  Parameter parameter;
+  parameter.type = type;
+  parameter.ui_name = text("uiname");
+  parameter.ui_folder = text("uifolder");
+  parameter.doc = text("doc");
+  parameter.ui_min = ui_bound(carrier, declared, type, "uisoftmin", "uimin");
+  parameter.ui_max = ui_bound(carrier, declared, type, "uisoftmax", "uimax");
+  return parameter;
+}
+
 // Whether an input takes a string; one without an enumeration takes all.
 bool takes(const NodeDefInput& input, std::string_view text) {
   if (input.type != Type::string || input.enums.empty()) return true;
@@ -124,24 +145,32 @@ Source Literals::literal_or_parameter(const Element& carrier, Value value, std::
   const Element& owner = *carrier.parent();
   const NodeDef* def = is_node(owner) ? implementations_.nodedef_of(owner) : nullptr;
   const NodeDefInput* input = def == nullptr ? nullptr : def->input(carrier.name());
-  const Element* declared = input == nullptr ? nullptr : input->element;
-  Parameter parameter;
+  Parameter parameter = described(&carrier, input, value.type);
   parameter.path = element_path(carrier);
-  parameter.type = value.type;
   if (value.type == Type::color3 || value.type == Type::color4) {
     parameter.colorspace = carrier.inherited_attribute("colorspace");
   }
   parameter.unit = unit;
   if (def != nullptr) parameter.nodedef = def->name;
   parameter.input = carrier.name();
-  parameter.ui_name = carrier.attribute("uiname");
-  if (parameter.ui_name.empty() && declared != nullptr) {
-    parameter.ui_name = declared->attribute("uiname");
-  }
-  parameter.ui_min = ui_bound(&carrier, declared, value.type, "uisoftmin", "uimin");
-  parameter.ui_max = ui_bound(&carrier, declared, value.type, "uisoftmax", "uimax");
   parameter.where = location(carrier);
   parameter.value = std::move(value);
+  graph_.parameters.push_back(std::move(parameter));
+  return source;
+}
+
+Source Literals::default_parameter(const Instance& instance, const NodeDefInput& input) {
+  Source source;
+  source.kind = Source::Kind::parameter;
+  source.parameter = static_cast<std::uint32_t>(graph_.parameters.size());
+  Parameter parameter = described(nullptr, &input, input.type);
+  parameter.path = instance.path + '/' + std::string(input.name);
+  parameter.colorspace = input.colorspace;
+  parameter.nodedef = instance.def->name;
+  parameter.input = input.name;
+  parameter.is_default = true;
+  parameter.where = location(*instance.element);
+  parameter.value = input.default_value;
   graph_.parameters.push_back(std::move(parameter));
   return source;
 }

@@ -28,6 +28,8 @@ class Literals {
   void take(const Element& carrier, Type type, const Context* context, Resolved& result);
   /// Leaf `number` of a structure that is written as a value, or of one that is not written.
   void take_leaf(const Element& carrier, std::size_t number, Resolved& result) const;
+  /// A default that may change: of an input of a node of the document's own.
+  Source default_parameter(const Instance& instance, const NodeDefInput& input);
   /// A file name with what stands for its tokens, but those of the point and the frame.
   Source file_name(const Element& carrier, const Value& value, const Context* context) const;
 

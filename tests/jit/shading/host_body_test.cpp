@@ -78,6 +78,19 @@ TEST(HostBody, SetsAValueOfAnotherRecording) {
   expect_misfit([kept](NodeCall& call) { call.set(Float3{kept, kept, kept}); });
 }
 
+TEST(HostBody, SaysWhatItCannotDo) {
+  Diagnostics diagnostics;
+  const auto system = system_with(
+      [](NodeCall& call) {
+        call.diagnostics().error("no-such-pattern", call.where(), "there is no such pattern");
+        call.set(call.vector3("color1"));
+      },
+      diagnostics);
+  ASSERT_NE(system, nullptr) << diagnostics.to_string();
+  EXPECT_EQ(compile(*system, diagnostics), nullptr);
+  EXPECT_EQ(diagnostics.error_count(), 1u) << diagnostics.to_string();
+}
+
 TEST(HostBody, IsAFunction) {
   Diagnostics diagnostics;
   EXPECT_EQ(system_with({}, diagnostics), nullptr);
