@@ -16,6 +16,10 @@ target_link_libraries(nacre PRIVATE ${nacre_archives})
 add_dependencies(nacre nacre_compile_worker)
 target_sources(nacre PUBLIC FILE_SET HEADERS
   BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${nacre_headers})
+target_include_directories(nacre INTERFACE
+  "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/jit/api/include>"
+  "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/jit/api/include>"
+  "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
 target_compile_features(nacre INTERFACE cxx_std_20)
 set_target_properties(nacre PROPERTIES
   LINKER_LANGUAGE CXX
@@ -34,6 +38,10 @@ target_link_options(nacre PRIVATE
 install(TARGETS nacre EXPORT nacre
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/jit/api/include/nacre"
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN "*.in" EXCLUDE)
+install(FILES "${PROJECT_BINARY_DIR}/jit/api/include/nacre/version.h"
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre)
 # The library finds this from its own place, and so does a program that has it inside.
 install(TARGETS nacre_compile_worker RUNTIME DESTINATION libexec/nacre)
 # Programs find this folder from their own place: <bin>/../share/nacre/libraries.
@@ -51,6 +59,12 @@ write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/nacreConfigVersion
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/nacreConfig.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/nacreConfigVersion.cmake"
   DESTINATION ${nacre_package})
+
+# For hosts without CMake; finds the prefix from its own place.
+set(nacre_pc_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH nacre_prefix_from_pc "/${nacre_pc_folder}" "/")
+configure_file(.cmake/nacre.pc.in "${CMAKE_CURRENT_BINARY_DIR}/nacre.pc" @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/nacre.pc" DESTINATION ${nacre_pc_folder})
 
 # nacre_install_program(TARGET): a program for users, which may link libnacre.so.
 function(nacre_install_program target)

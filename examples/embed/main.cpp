@@ -1,55 +1,52 @@
 // The smallest host: compiles one graph output and shades a batch of points.
 //
-//   embed LIBRARY DOCUMENT.mtlx GRAPH/OUTPUT
-//
-// LIBRARY is the MaterialX data library, installed as share/nacre/libraries.
+//   embed DOCUMENT.mtlx GRAPH/OUTPUT
 #include <cstdio>
+#include <nacre/nacre.hpp>
 #include <vector>
 
-#include "jit/document/read.h"
-#include "jit/shading/shading_system.h"
-
-int main(int argc, char** argv) {
-  if (argc != 4) return std::fprintf(stderr, "usage: embed LIBRARY DOCUMENT GRAPH/OUTPUT\n"), 2;
-  nacre::Diagnostics diagnostics;
-  const auto fail = [&] {
-    std::fputs(diagnostics.to_string().c_str(), stderr);
-    return 1;
-  };
+int main(int argc, char** argv) try {
+  if (argc != 3) return std::fprintf(stderr, "usage: embed DOCUMENT GRAPH/OUTPUT\n"), 2;
 
   // 1. What all documents share: node definitions, textures, the compiler.
-  const auto system = nacre::ShadingSystem::create({.libraries = {argv[1]}}, diagnostics);
-  if (system == nullptr) return fail();
+  nacre::System system;
 
   // 2. A document, and a kernel for one of its outputs.
-  const auto document = nacre::read_document(argv[2], {}, diagnostics);
-  if (document == nullptr) return fail();
-  const auto shader = system->compile_outputs(*document, {argv[3]}, {}, diagnostics);
-  if (shader == nullptr) return fail();
+  const nacre::Document document = nacre::Document::read(argv[1]);
+  const nacre::Shader shader = system.compile_outputs(document, {argv[2]});
 
-  // 3. Points in structure-of-arrays layout: one array for each channel it asks for.
-  constexpr std::size_t points = 8;
-  const nacre::Program& program = shader->kernel.program();
-  std::vector<std::vector<float>> inputs(program.inputs.size(), std::vector<float>(points));
-  std::vector<const void*> in;
-  for (std::size_t k = 0; k < inputs.size(); ++k) {
-    const std::string& channel = program.inputs[k].name;
-    const bool sweeps = channel == "uv0.x" || channel == "P.x" || channel == "Po.x";
-    for (std::size_t i = 0; i < points; ++i) inputs[k][i] = sweeps ? float(i) / points : 0.5f;
-    in.push_back(inputs[k].data());
+  // 3. Where the points' numbers are: array 0 has a structure for each, array 1 takes the result.
+  struct Point {
+    float position[3];
+    float uv[2];
+  };
+  nacre::Binder binder;
+  binder.array("P", {0, offsetof(Point, position), sizeof(Point)});
+  binder.array("Po", {0, offsetof(Point, position), sizeof(Point)});
+  binder.array("uv0", {0, offsetof(Point, uv), sizeof(Point)});
+  for (const char* unit : {"N", "No", "Ng", "wo"}) binder.constant(unit, {0, 0, 1});
+  for (const char* change : {"dPdx", "dPdy", "dPodx", "dPody", "duv0dx", "duv0dy"}) {
+    binder.constant(change, {0, 0, 0});
   }
-  std::vector<std::vector<float>> outputs(program.outputs.size(), std::vector<float>(points));
-  std::vector<void*> out;
-  for (auto& channel : outputs) out.push_back(channel.data());
+  const std::size_t components = shader.results(NACRE_OUTPUTS).size();
+  binder.array(argv[2], {1, 0, std::ptrdiff_t(4 * components)});
+  const nacre::Binding binding(binder, shader);
 
-  // 4. Shade. Any number of threads may do this with the same kernel.
-  if (shader->kernel.run(in, out, points) != nacre::RunStatus::done) {
-    std::fprintf(stderr, "a loop of the shader does not end\n");
-    return 1;
+  // 4. Shade. Any number of threads may do this with the same binding.
+  constexpr std::size_t count = 8;
+  std::vector<Point> points(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = float(i) / count;
+    points[i] = {{x, 0.5f, 0.5f}, {x, 0.5f}};
   }
-  for (std::size_t i = 0; i < points; ++i) {
-    for (const auto& channel : outputs) std::printf("%9.5f", double(channel[i]));
-    std::printf("\n");
+  std::vector<float> results(components * count);
+  nacre::Batch batch;
+  batch.count = count;
+  binding.run(NACRE_OUTPUTS, std::vector<void*>{points.data(), results.data()}, batch);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    std::printf("%9.5f%s", double(results[i]), (i + 1) % components == 0 ? "\n" : "");
   }
   return 0;
+} catch (const nacre::Error& error) {
+  return std::fprintf(stderr, "%s\n", error.what()), 1;
 }

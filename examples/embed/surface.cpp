@@ -1,103 +1,150 @@
-// Shades a surface: scatters one ray at each of many points of a material.
+// A path tracer on a page: spheres on a floor under a sky, each of the first material of a
+// MaterialX document; the last document is the floor's.
 //
-//   surface LIBRARY DOCUMENT.mtlx MATERIAL
-#include <bit>
-#include <cstdint>
+//   surface OUT.ppm SAMPLES DOCUMENT.mtlx...
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <map>
-#include <string>
-#include <vector>
+#include <fstream>
+#include <nacre/nacre.hpp>
+#include <random>
 
-#include "jit/document/read.h"
-#include "jit/shading/shading_system.h"
+constexpr int width = 480, height = 270, most_bounces = 6;
+constexpr std::size_t pixels = std::size_t(width) * height;
+constexpr std::uint32_t nothing = ~0u;
 
-namespace {
-
-constexpr std::size_t points = 4096;
-
-/// Arrays by channel: one four-byte number a point. What a kernel stores the next may read.
-using Channels = std::map<std::string, std::vector<std::uint32_t>>;
-
-void set(Channels& channels, const std::string& name, float value) {
-  channels[name].assign(points, std::bit_cast<std::uint32_t>(value));
+struct Vec {
+  float x = 0, y = 0, z = 0;
+};
+Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vec operator*(Vec a, float b) { return {a.x * b, a.y * b, a.z * b}; }
+Vec operator*(Vec a, Vec b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+float dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec cross(Vec a, Vec b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+Vec unit(Vec a) { return a * (1 / std::sqrt(dot(a, a))); }
 
-float get(const Channels& channels, const std::string& name, std::size_t i) {
-  return std::bit_cast<float>(channels.at(name)[i]);
-}
+/// A path under way, with what kernels read and store of its point; binder() says where.
+struct Path {
+  Vec P, N, T, B, wo, u, wi, weight, emission;
+  float uv[2] = {0, 0};
+  std::int32_t flags = 0;
+  Vec from, direction, throughput{1, 1, 1};
+  std::size_t pixel = 0;
+};
 
-/// Runs a kernel where there is one. A channel that nobody has set is 0.
-void run(const std::optional<nacre::BoundKernel>& kernel, Channels& channels) {
-  if (!kernel) return;
-  const auto array_of = [&](const nacre::Channel& channel) {
-    std::vector<std::uint32_t>& array = channels[channel.name];
-    array.resize(points);
-    return array.data();
+/// Finds what a path meets and fills in its point: the number of the material, or `nothing`.
+std::uint32_t trace(Path& path, std::uint32_t spheres) {
+  const Vec o = path.from, d = path.direction;
+  float nearest = d.y < -0.01f ? -o.y / d.y : 1e30f;
+  std::uint32_t found = nearest < 50 ? spheres : nothing;
+  const auto centre = [&](std::uint32_t i) {
+    return 2.2f * (float(i) - 0.5f * float(spheres - 1));
   };
-  std::vector<const void*> in;
-  std::vector<void*> out;
-  for (const nacre::Channel& channel : kernel->program().inputs) in.push_back(array_of(channel));
-  for (const nacre::Channel& channel : kernel->program().outputs) out.push_back(array_of(channel));
-  if (kernel->run(in, out, points) != nacre::RunStatus::done) {
-    std::fprintf(stderr, "a loop of the shader does not end\n");
-  }
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 4) return std::fprintf(stderr, "usage: surface LIBRARY DOCUMENT MATERIAL\n"), 2;
-  nacre::Diagnostics diagnostics;
-  const auto fail = [&] {
-    std::fputs(diagnostics.to_string().c_str(), stderr);
-    return 1;
-  };
-  // What goes wrong in LLVM then costs a kernel its speed, not this program its life.
-  const auto system =
-      nacre::ShadingSystem::create({.libraries = {argv[1]}, .compile_apart = true}, diagnostics);
-  if (system == nullptr) return fail();
-  const auto document = nacre::read_document(argv[2], {}, diagnostics);
-  if (document == nullptr) return fail();
-  const auto material = system->compile_material(*document, argv[3], {}, diagnostics);
-  if (material == nullptr) return fail();
-  std::fputs(diagnostics.to_string().c_str(), stderr);  // Warnings, if there are any.
-
-  // 1. Where the points are, and from where they are seen: on a plane, from 45 degrees.
-  Channels channels;
-  for (const char* normal : {"N.z", "No.z", "Ng.z", "T.x", "To.x", "B.y", "Bo.y"}) {
-    set(channels, normal, 1.0f);
-  }
-  for (const char* viewer : {"wo.x", "wo.z"}) set(channels, viewer, 0.70710678f);
-  for (const char* place : {"uv0.x", "P.x", "Po.x"}) {
-    set(channels, place, 0.0f);
-    for (std::size_t i = 0; i < points; ++i) {
-      channels[place][i] = std::bit_cast<std::uint32_t>(float(i) / points);
+  for (std::uint32_t i = 0; i < spheres; ++i) {
+    const Vec c = o + Vec{-centre(i), -1, 0};
+    const float b = dot(c, d), inside = b * b - dot(c, c) + 1;
+    for (const float side : {-1.0f, 1.0f}) {
+      const float t = -b + side * std::sqrt(std::max(inside, 0.0f));
+      if (inside > 0 && t > 1e-3f && t < nearest) nearest = t, found = i;
     }
   }
-
-  // 2. What of the material depends on the point alone, once a point.
-  run(material->begin, channels);
-
-  // 3. A direction for each point, chosen by three numbers in [0, 1).
-  set(channels, "u.z", 0.5f);
-  for (std::size_t i = 0; i < points; ++i) {
-    channels["u.x"].resize(points);
-    channels["u.y"].resize(points);
-    channels["u.x"][i] = std::bit_cast<std::uint32_t>(float(i % 64) / 64 + 1.0f / 128);
-    channels["u.y"][i] = std::bit_cast<std::uint32_t>(float(i / 64) / 64 + 1.0f / 128);
+  if (found == nothing) return nothing;
+  path.P = o + d * nearest, path.wo = d * -1;
+  if (found == spheres) {
+    path.N = {0, 1, 0}, path.T = {1, 0, 0};
+    path.uv[0] = path.P.x / 4, path.uv[1] = -path.P.z / 4;
+  } else {
+    path.N = unit(path.P + Vec{-centre(found), -1, 0});
+    path.T = unit({path.N.z, 0, 1e-6f - path.N.x});
+    path.uv[0] = 0.5f + std::atan2(path.N.x, path.N.z) / 6.2831853f;
+    path.uv[1] = 0.5f + std::asin(std::clamp(path.N.y, -1.0f, 1.0f)) / 3.1415927f;
   }
-  run(material->sample, channels);
+  path.B = cross(path.N, path.T);
+  return found;
+}
 
-  // 4. The same direction evaluated: what a light there would be weighted with.
-  run(material->evaluate, channels);
-  run(material->albedo, channels);
-
-  double weight = 0, albedo = 0;
-  for (std::size_t i = 0; i < points; ++i) {
-    if (material->sample) weight += get(channels, "weight.y", i) / points;
-    if (material->albedo) albedo += get(channels, "albedo.y", i) / points;
+/// Array 0 is the paths, array 1 the state that kernels keep of them. Footprints are points.
+nacre::Binder binder() {
+  nacre::Binder made;
+  const auto bind = [&](std::initializer_list<const char*> names, std::size_t offset) {
+    for (const char* name : names) made.array(name, {0, std::ptrdiff_t(offset), sizeof(Path)});
+  };
+  bind({"P", "Po"}, offsetof(Path, P)), bind({"N", "No", "Ng"}, offsetof(Path, N));
+  bind({"T", "To"}, offsetof(Path, T)), bind({"B", "Bo"}, offsetof(Path, B));
+  bind({"wo"}, offsetof(Path, wo)), bind({"uv0"}, offsetof(Path, uv));
+  bind({"u"}, offsetof(Path, u)), bind({"wi"}, offsetof(Path, wi));
+  bind({"weight"}, offsetof(Path, weight)), bind({"flags"}, offsetof(Path, flags));
+  bind({"emission"}, offsetof(Path, emission));
+  for (const char* change : {"dPdx", "dPdy", "dPodx", "dPody", "duv0dx", "duv0dy"}) {
+    made.constant(change, {0, 0, 0});
   }
-  std::printf("%s: %zu lobes, mean weight %.3f, mean albedo %.3f (green)\n", argv[3],
-              material->lobes.size(), weight, albedo);
-  return 0;
+  return made.array("state", {1, 0, 4, std::ptrdiff_t(4 * pixels)});
+}
+
+int main(int argc, char** argv) try {
+  if (argc < 5) return std::fprintf(stderr, "usage: surface OUT.ppm SAMPLES DOCUMENT...\n"), 2;
+  nacre::System system;
+  std::vector<nacre::Shader> shaders;
+  std::vector<nacre::Binding> bindings;
+  std::vector<float> states;
+  for (int i = 3; i < argc; ++i) {
+    const nacre::Document document = nacre::Document::read(argv[i]);
+    shaders.push_back(system.compile_material(document, document.materials().at(0)));
+    bindings.emplace_back(binder(), shaders.back());
+    states.resize(std::max(states.size(), shaders.back().state_count() * pixels));
+  }
+  const auto spheres = std::uint32_t(shaders.size() - 1);
+  std::vector<Vec> film(pixels);
+  const int samples = std::max(1, std::atoi(argv[2]));
+  std::mt19937 random(1);
+  const auto number = [&] { return float(random() >> 8) * 0x1p-24f; };
+  for (int sample = 0; sample < samples; ++sample) {
+    std::vector<Path> paths(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const float x = (float(i % width) + number()) / width - 0.5f;
+      const float y = 0.5f - (float(i / width) + number()) / height;
+      paths[i].from = {0, 1.6f, 7};
+      paths[i].direction = unit({1.2f * x, 1.2f * y * height / width - 0.08f, -1});
+      paths[i].pixel = i;
+    }
+    for (int bounce = 0; bounce < most_bounces && !paths.empty(); ++bounce) {
+      // Which points have which material: kernels pick them from where they are.
+      std::vector<std::vector<std::uint32_t>> lists(shaders.size());
+      for (std::uint32_t i = 0; i < paths.size(); ++i) {
+        Path& path = paths[i];
+        path.u = {number(), number(), number()};
+        const std::uint32_t material = trace(path, spheres);
+        if (material == nothing) path.emission = Vec{0.7f, 0.8f, 1} * (1 + path.direction.y);
+        if (material != nothing) lists[material].push_back(i);
+      }
+      const std::vector<void*> arrays{paths.data(), states.data()};
+      for (std::size_t m = 0; m < shaders.size(); ++m) {
+        const nacre::Batch batch{lists[m].size(), lists[m].data()};
+        for (const auto entry : {NACRE_EMISSION, NACRE_BEGIN, NACRE_SAMPLE}) {
+          bindings[m].run(entry, arrays, batch);
+        }
+      }
+      std::vector<Path> going_on;
+      for (const Path& path : paths) {
+        film[path.pixel] = film[path.pixel] + path.throughput * path.emission;
+        if ((path.flags & NACRE_SAMPLE_VALID) == 0) continue;
+        Path& next = going_on.emplace_back();
+        next.from = path.P, next.direction = path.wi, next.pixel = path.pixel;
+        next.throughput = path.throughput * path.weight;
+      }
+      paths = std::move(going_on);
+    }
+  }
+  std::ofstream out(argv[1]);
+  out << "P6\n" << width << ' ' << height << "\n255\n";
+  for (const Vec& sum : film) {
+    for (const float v : {sum.x, sum.y, sum.z}) {
+      out.put(char(255.99f * std::pow(std::min(v / float(samples), 1.0f), 1 / 2.2f)));
+    }
+  }
+  return out.flush() ? 0 : 1;
+} catch (const std::exception& error) {
+  return std::fprintf(stderr, "%s\n", error.what()), 1;
 }

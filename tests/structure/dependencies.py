@@ -24,7 +24,7 @@ MAY_INCLUDE = {
 JIT_STAGES = ("jit/document", "jit/graph/look", "jit/graph", "jit/graph/color",
               "jit/graph/resolve", "jit/graph/build", "jit/graph/check", "jit/ocio", "jit/glsl",
               "jit/record", "jit/passes", "jit/llvm", "jit/cache", "jit/worker",
-              "jit/service", "jit/compile", "jit/shading")
+              "jit/service", "jit/compile", "jit/shading", "jit/api")
 
 # Start of an include from outside -> the folders that may have it.
 QUARANTINE = {
@@ -105,9 +105,15 @@ def quarantine(root: pathlib.Path) -> list[str]:
 
 def public(root: pathlib.Path) -> list[str]:
     """A host that has our headers and a compiler needs nothing else."""
+    faults = [f"{include.where()}: the interface includes {include.name}, which is neither "
+              f"<nacre/...> nor of the standard library"
+              for include in tree.includes(root)
+              if tree.inside(include.file, "jit/api/include")
+              and (include.quoted or not include.name.startswith("nacre/"))
+              and include.name not in C_HEADERS and ("/" in include.name or "." in include.name)]
     headers = tree.public_headers(root)
-    faults = [f"{where}: public header {name} does not exist"
-              for name, where in headers.items() if not (root / name).is_file()]
+    faults += [f"{where}: public header {name} does not exist"
+               for name, where in headers.items() if not (root / name).is_file()]
     for include in tree.includes(root):
         if include.file not in headers:
             continue

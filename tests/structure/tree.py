@@ -5,7 +5,7 @@ import re
 from typing import Iterator, NamedTuple
 
 FOLDERS = ("runtime", "nodes", "pbs", "jit", "bench", "tests", "examples")
-CODE = {".h", ".cpp", ".c", ".inc"}
+CODE = {".h", ".hpp", ".cpp", ".c", ".inc"}
 WRITTEN = CODE - {".inc"} | {".py", ".cmake", ".sh"}  # Tables that a program made are .inc.
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)

@@ -1,0 +1,139 @@
+// Where a host has its numbers, and running kernels on them.
+#include <array>
+#include <atomic>
+#include <optional>
+#include <span>
+
+#include "jit/api/call.h"
+#include "jit/api/handles.h"
+
+using namespace nacre;
+using namespace nacre::api;
+
+struct nacre_binding {
+  std::shared_ptr<const ShaderData> data;
+  std::array<std::optional<Binding>, NACRE_ENTRY_COUNT> entries;
+};
+
+namespace {
+
+constexpr std::array elements{ElementOf::point, ElementOf::place, ElementOf::instance};
+
+/// A kernel's slots out of an instance's block.
+class Block {
+ public:
+  Block(const std::vector<std::uint32_t>& places, const std::vector<std::uint32_t>& values,
+        const std::vector<std::uint32_t>& present) {
+    if (places.size() > few_.size()) many_.resize(places.size());
+    std::uint32_t* to = many_.empty() ? few_.data() : many_.data();
+    for (std::size_t i = 0; i < places.size(); ++i) to[i] = values[places[i]];
+    for (const std::uint32_t slot : present) to[slot] = 1;
+    block_ = {to, places.size()};
+  }
+  std::span<const std::uint32_t> get() const { return block_; }
+
+ private:
+  std::array<std::uint32_t, 256> few_;
+  std::vector<std::uint32_t> many_;
+  std::span<const std::uint32_t> block_;
+};
+
+nacre_status status_of(RunStatus status) {
+  switch (status) {
+    case RunStatus::done: return NACRE_OK;
+    case RunStatus::stopped: return NACRE_STOPPED;
+    case RunStatus::too_many_steps: return NACRE_TOO_MANY_STEPS;
+    case RunStatus::wrong_arguments: return NACRE_WRONG_ARGUMENTS;
+  }
+  return NACRE_FAILED;
+}
+
+}  // namespace
+
+nacre_status nacre_binder_create(nacre_binder** binder) {
+  if (binder == nullptr) return NACRE_WRONG_ARGUMENTS;
+  *binder = new (std::nothrow) nacre_binder;
+  return *binder != nullptr ? NACRE_OK : NACRE_OUT_OF_MEMORY;
+}
+
+void nacre_binder_destroy(nacre_binder* binder) { delete binder; }
+
+nacre_status nacre_binder_array(nacre_binder* binder, const char* name,
+                                const nacre_layout* layout) {
+  if (binder == nullptr || name == nullptr || layout == nullptr) return NACRE_WRONG_ARGUMENTS;
+  const nacre_layout asked = options_of(layout);
+  const bool is_known = asked.element >= 0 && asked.element < static_cast<int>(elements.size());
+  if (!is_known || asked.array >= bound_constants) return NACRE_WRONG_ARGUMENTS;
+  return guarded([&] {
+    binder->binder.bind(name,
+                        {.array = asked.array,
+                         .offset = asked.offset,
+                         .stride = asked.stride,
+                         .element = elements[static_cast<std::size_t>(asked.element)]},
+                        asked.component_stride);
+    return NACRE_OK;
+  });
+}
+
+nacre_status nacre_binder_constant(nacre_binder* binder, const char* name, const void* values,
+                                   size_t count) {
+  if (binder == nullptr || name == nullptr || values == nullptr) return NACRE_WRONG_ARGUMENTS;
+  return guarded([&] {
+    std::vector<std::uint32_t> bits(count);
+    std::memcpy(bits.data(), values, 4 * count);
+    binder->binder.bind_constant(name, bits);
+    return NACRE_OK;
+  });
+}
+
+nacre_status nacre_binding_create(const nacre_binder* binder, const nacre_shader* shader,
+                                  uint32_t entries, nacre_report* report, nacre_binding** binding) {
+  if (binding == nullptr) return NACRE_WRONG_ARGUMENTS;
+  *binding = nullptr;
+  if (binder == nullptr || shader == nullptr) return NACRE_WRONG_ARGUMENTS;
+  return guarded([&] {
+    Said said(report);
+    auto made = std::make_unique<nacre_binding>();
+    made->data = shader->data;
+    bool is_complete = true;
+    for (int i = 0; i < NACRE_ENTRY_COUNT; ++i) {
+      const auto entry = static_cast<nacre_entry>(i);
+      const BoundKernel* kernel = shader->data->kernel(entry);
+      const bool is_wanted = entries == 0 || (entries >> i & 1) != 0;
+      if (kernel == nullptr || !is_wanted) continue;
+      made->entries[entry] =
+          binder->binder.finish(kernel->program(), shader->data->state(), said.diagnostics());
+      is_complete = is_complete && made->entries[entry].has_value();
+    }
+    if (!is_complete) return NACRE_FAILED;
+    *binding = made.release();
+    return NACRE_OK;
+  });
+}
+
+void nacre_binding_destroy(nacre_binding* binding) { delete binding; }
+
+nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
+                       const nacre_instance* instance, const nacre_batch* given) {
+  if (binding == nullptr || given == nullptr) return NACRE_WRONG_ARGUMENTS;
+  const BoundKernel* kernel = binding->data->kernel(entry);
+  if (kernel == nullptr) return NACRE_OK;
+  if (!binding->entries[entry]) return NACRE_WRONG_ARGUMENTS;
+  if (instance != nullptr && instance->data != binding->data) return NACRE_WRONG_ARGUMENTS;
+  return guarded([&] {
+    const nacre_batch asked = options_of(given);
+    static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t) &&
+                  std::atomic<std::uint32_t>::is_always_lock_free);
+    const Batch batch{.arrays = {asked.arrays, asked.array_count},
+                      .count = asked.count,
+                      .points = asked.points,
+                      .instances = asked.instances,
+                      .stop = reinterpret_cast<const std::atomic<std::uint32_t>*>(
+                          const_cast<const std::uint32_t*>(asked.stop))};
+    const Binding& bound = *binding->entries[entry];
+    const Block block(binding->data->slots(entry),
+                      instance != nullptr ? instance->block : binding->data->block(),
+                      bound.present);
+    return status_of(kernel->run(bound, batch, block.get()));
+  });
+}

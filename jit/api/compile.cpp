@@ -1,0 +1,88 @@
+#include <array>
+
+#include "jit/api/call.h"
+#include "jit/api/handles.h"
+
+using namespace nacre;
+using namespace nacre::api;
+
+namespace {
+
+ShaderOptions shader_options(const nacre_compile_options* given) {
+  const nacre_compile_options asked = options_of(given);
+  ShaderOptions options;
+  constexpr std::array backends{Backend::jit, Backend::interpreter, Backend::reference};
+  constexpr std::array accuracies{Accuracy::standard, Accuracy::precise, Accuracy::fast};
+  options.compile.backend = backends.at(static_cast<std::size_t>(asked.engine));
+  options.compile.accuracy = accuracies.at(static_cast<std::size_t>(asked.accuracy));
+  options.compile.lanes = asked.lanes;
+  options.compile.asynchronous = asked.background != 0;
+  if (asked.max_seconds > 0) options.compile.max_seconds = asked.max_seconds;
+  options.live = texts_of(asked.live, asked.live_count);
+  options.varying = texts_of(asked.varying, asked.varying_count);
+  if (asked.lobes != 0) options.kernels.lobes = asked.lobes;
+  options.kernels.reverse_pdf = asked.reverse_pdf != 0;
+  options.kernels.lobe_mask = asked.lobe_mask != 0;
+  options.kernels.evaluate_at = asked.evaluate_at != 0;
+  options.side = asked.side == NACRE_BACK ? Side::back : Side::front;
+  if (asked.max_anisotropy != 0) options.max_anisotropy = asked.max_anisotropy;
+  for (const std::string& path : texts_of(asked.search_paths, asked.search_path_count)) {
+    options.search_paths.emplace_back(path);
+  }
+  options.files_anywhere = asked.files_anywhere != 0;
+  if (asked.missing_images_pass != 0) options.missing_images = MissingImages::use_default;
+  options.graph.lenient = asked.lenient != 0;
+  return options;
+}
+
+template <class Kernels>
+nacre_status hand_out(std::unique_ptr<Kernels> kernels, nacre_shader** shader) {
+  if (kernels == nullptr) return NACRE_FAILED;
+  *shader = new nacre_shader{std::make_shared<const ShaderData>(std::move(kernels))};
+  return NACRE_OK;
+}
+
+bool is_meant(const nacre_compile_options* given) {
+  const nacre_compile_options asked = options_of(given);
+  const auto is_one_of_three = [](int value) { return value >= 0 && value <= 2; };
+  return is_one_of_three(asked.engine) && is_one_of_three(asked.accuracy);
+}
+
+}  // namespace
+
+nacre_status nacre_compile_material(nacre_system* system, const nacre_document* document,
+                                    const char* material, const nacre_compile_options* options,
+                                    nacre_report* report, nacre_shader** shader) {
+  if (shader == nullptr) return NACRE_WRONG_ARGUMENTS;
+  *shader = nullptr;
+  if (system == nullptr || document == nullptr || material == nullptr || !is_meant(options)) {
+    return NACRE_WRONG_ARGUMENTS;
+  }
+  return guarded([&] {
+    Said said(report);
+    return hand_out(system->system->compile_material(*document->document, material,
+                                                     shader_options(options), said.diagnostics()),
+                    shader);
+  });
+}
+
+nacre_status nacre_compile_outputs(nacre_system* system, const nacre_document* document,
+                                   const char* const* outputs, size_t output_count,
+                                   const nacre_compile_options* options, nacre_report* report,
+                                   nacre_shader** shader) {
+  if (shader == nullptr) return NACRE_WRONG_ARGUMENTS;
+  *shader = nullptr;
+  if (system == nullptr || document == nullptr || outputs == nullptr || output_count == 0 ||
+      !is_meant(options)) {
+    return NACRE_WRONG_ARGUMENTS;
+  }
+  return guarded([&] {
+    Said said(report);
+    return hand_out(
+        system->system->compile_outputs(*document->document, texts_of(outputs, output_count),
+                                        shader_options(options), said.diagnostics()),
+        shader);
+  });
+}
+
+void nacre_shader_destroy(nacre_shader* shader) { delete shader; }

@@ -1,0 +1,74 @@
+// Versions and reports.
+
+#include "jit/api/call.h"
+
+namespace nacre::api {
+
+std::vector<std::string> texts_of(const char* const* texts, std::size_t count) {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; texts != nullptr && i < count; ++i) {
+    if (texts[i] != nullptr) list.emplace_back(texts[i]);
+  }
+  return list;
+}
+
+}  // namespace nacre::api
+
+using namespace nacre;
+using namespace nacre::api;
+
+uint32_t nacre_version(void) { return NACRE_VERSION; }
+
+const char* nacre_version_text(void) {
+#define NACRE_TEXT_OF(number) #number
+#define NACRE_TEXT(number) NACRE_TEXT_OF(number)
+  return NACRE_TEXT(NACRE_VERSION_MAJOR) "." NACRE_TEXT(NACRE_VERSION_MINOR) "." NACRE_TEXT(
+      NACRE_VERSION_PATCH);
+#undef NACRE_TEXT
+#undef NACRE_TEXT_OF
+}
+
+nacre_status nacre_report_create(nacre_report** report) {
+  if (report == nullptr) return NACRE_WRONG_ARGUMENTS;
+  *report = new (std::nothrow) nacre_report;
+  return *report != nullptr ? NACRE_OK : NACRE_OUT_OF_MEMORY;
+}
+
+void nacre_report_destroy(nacre_report* report) { delete report; }
+
+size_t nacre_report_count(const nacre_report* report) {
+  return report != nullptr ? report->said.all().size() : 0;
+}
+
+size_t nacre_report_error_count(const nacre_report* report) {
+  return report != nullptr ? report->said.error_count() : 0;
+}
+
+nacre_status nacre_report_get(const nacre_report* report, size_t index,
+                              nacre_diagnostic* diagnostic) {
+  if (index >= nacre_report_count(report)) return NACRE_WRONG_ARGUMENTS;
+  return guarded([&] {
+    const std::vector<Diagnostic>& all = report->said.all();
+    report->lines.resize(all.size());
+    const Diagnostic& one = all[index];
+    std::string& line = report->lines[index];
+    if (line.empty()) line = one.to_string();
+    return give(diagnostic, {.size = 0,
+                             .severity = static_cast<int>(one.severity),
+                             .code = one.code.c_str(),
+                             .file = one.where.file.c_str(),
+                             .line = one.where.line,
+                             .column = one.where.column,
+                             .path = one.where.path.c_str(),
+                             .message = one.message.c_str(),
+                             .expected = one.expected.c_str(),
+                             .found = one.found.c_str(),
+                             .text = line.c_str()});
+  });
+}
+
+void nacre_report_clear(nacre_report* report) {
+  if (report == nullptr) return;
+  report->said = {};
+  report->lines.clear();
+}

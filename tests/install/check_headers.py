@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""usage: check_headers.py PREFIX FOLDER
+
+Compiles each public header of the installed package alone: the C ones as C99 and as C++17, the
+C++ ones as C++17 and C++20, by GCC and by Clang, all warnings being errors. Folders of a host that
+have files of the same names as ours come before on the include path: FOLDER gets them.
+"""
+
+import pathlib
+import subprocess
+import sys
+
+C = [("gcc", "c99"), ("clang-19", "c99")]
+CXX = [("g++", "c++17"), ("g++", "c++20"), ("clang++-19", "c++17"), ("clang++-19", "c++20")]
+FLAGS = ["-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror"]
+HOSTILE = ["runtime/value.h", "runtime/kernel.h", "jit/document/read.h", "record.h", "version.h",
+           "nacre.h", "record.hpp", "value.h"]
+
+
+def main() -> int:
+    prefix, folder = (pathlib.Path(argument) for argument in sys.argv[1:])
+    for name in HOSTILE:
+        file = folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("#error a header of the host\n", encoding="utf-8")
+    include = prefix / "include"
+    headers = sorted(header.name for header in (include / "nacre").glob("*.h*"))
+    faults = 0
+    for header in headers:
+        for compiler, standard in (C if header.endswith(".h") else []) + CXX:
+            language = "c" if standard.startswith("c9") else "c++"
+            done = subprocess.run(
+                [compiler, f"-std={standard}", *FLAGS, f"-I{folder}", f"-I{include}", "-x",
+                 language, "-"], input=f"#include <nacre/{header}>\nint unused;\n",
+                capture_output=True, text=True, check=False)
+            if done.returncode != 0 or done.stderr:
+                faults += 1
+                print(f"{header} by {compiler} as {standard}:\n{done.stderr}")
+    print(f"{len(headers)} headers, {faults} faults")
+    return 1 if faults or not headers else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
