@@ -185,11 +185,28 @@ def growth(run: results.Run) -> str:
                      "JIT, µs an operation", "interpreter, MB", "JIT, MB"], rows))
 
 
+def hosts(run: results.Run) -> str:
+    entries = ("begin", "sample", "evaluate", "albedo")
+    rows = []
+    for case in ("columns/all", "columns/half", "columns/half_in_any_order", "structures/all",
+                 "structures/half", "instances/all"):
+        rows.append([case] + [cell(run.get(f"hosts/{entry}/{case}")) for entry in entries])
+    one = run.get("hosts/evaluate/one_point")
+    made = run.get("hosts/instance")
+    return ("What a host pays for the way it keeps its points: standard_surface with every number "
+            "live, time for each point that is shaded. Half of the points are picked by a list, "
+            "at random; instances differ in colour and roughness from point to point.\n\n"
+            + table(["points"] + list(entries), rows)
+            + f"\nA call for one point (evaluate): {cell(one)} ns. An instance, made and given a "
+            f"colour: {cell(made)} ns.\n")
+
+
 PAGES = {
     "acceptance": ("The figures the project promises", acceptance),
     "closures": ("Lobes", lambda run: variants(run, "closures", WIDE + MODES + SLOW)),
     "functions": ("Transcendental functions", functions),
     "growth": ("Growth", growth),
+    "hosts": ("What hosts pay", hosts),
     "latency": ("Latency", latency),
     "materials": ("Shading models", materials),
     "nodes": ("Nodes", nodes),
