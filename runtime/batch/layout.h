@@ -20,7 +20,7 @@ struct ChannelLayout {
   std::uint32_t array = 0;    ///< Which of Batch::arrays.
   std::ptrdiff_t offset = 0;  ///< Bytes from there to element 0.
   std::ptrdiff_t stride = 4;  ///< Bytes from one element to the next; 0: one for all points.
-  ElementOf element = ElementOf::point;
+  ElementOf element = ElementOf::point;  ///< Which element is a point's.
 
   bool operator==(const ChannelLayout&) const = default;
 };

@@ -16,6 +16,7 @@ struct ChannelName {
   bool operator==(const ChannelName&) const = default;
 };
 
+/// Of any text; one that is no such name is a group.
 ChannelName parse_channel(std::string_view name);
 
 /// The inverse: "P.x".
@@ -23,8 +24,8 @@ std::string channel_text(std::string_view group, int component);
 
 /// What a derivative's group is of: "dPdx" is P along axis 0, "duv0dy" uv0 along axis 1.
 struct DerivativeName {
-  std::string_view group;
-  int axis = 0;  ///< 0 for x, 1 for y of the footprint.
+  std::string_view group;  ///< "P"
+  int axis = 0;            ///< 0 for x, 1 for y of the footprint.
 
   bool operator==(const DerivativeName&) const = default;
 };

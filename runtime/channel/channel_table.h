@@ -20,7 +20,7 @@ enum class ChannelRole : std::uint8_t {
 /// Channels "<name>.x", ".y", ... of one meaning. All hosts and kernels have in common.
 struct ChannelGroup {
   std::string_view name;  ///< "P"; "uv*", where * is a number, or a name after "geomprop.".
-  ChannelRole role;
+  ChannelRole role;       ///< Who gives the numbers.
   int components;  ///< 1: no suffix. At most so many of a geomprop, which has a suffix always.
   Scalar type;     ///< Of each.
   std::string_view unit;     ///< "scene units", "unit vector"; empty: a bare number.

@@ -22,7 +22,7 @@ class ValueTable {
 
   /// What is added between the two goes out of scope.
   void open_scope() { scopes_.push_back(added_.size()); }
-  void close_scope();
+  void close_scope();  ///< The second of the two.
 
  private:
   struct Slot {
