@@ -13,9 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/benchmarks.h"
 
 namespace nacre::bench {
+
+/// See bench/common/benchmarks.h, which a host does not know.
+void register_benchmarks();
 
 namespace {
 
