@@ -19,8 +19,8 @@ export TSAN_OPTIONS ?= suppressions=$(CURDIR)/tests/support/tsan.suppressions:se
   :die_after_fork=0:handle_segv=0:handle_sigbus=0:handle_abort=0:handle_sigill=0:handle_sigfpe=0
 
 # Files of ours that clang-format and clang-tidy look at.
-CXX_SOURCES = $(shell git ls-files '*.h' '*.cpp' 2> /dev/null \
-  || find runtime nodes pbs jit examples bench tests -name '*.h' -o -name '*.cpp')
+CXX_SOURCES = $(shell git ls-files '*.h' '*.hpp' '*.c' '*.cpp' 2> /dev/null \
+  || find runtime nodes pbs jit examples bench tests -name '*.h' -o -name '*.hpp' -o -name '*.c' -o -name '*.cpp')
 
 # Where configuring looks: one copy for all builds, unless somebody names a folder of theirs.
 OWN_LIBRARIES = $(abspath $(if $(filter file,$(origin BUILD)),build,$(BUILD)))/materialx/libraries

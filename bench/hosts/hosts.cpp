@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-
 namespace nacre::bench {
 
 /// See bench/common/benchmarks.h, which a host does not know.

@@ -60,10 +60,10 @@ struct ShaderOptions {
   ParameterMode parameters = ParameterMode::frozen;  ///< Whether values may change later.
   /// Patterns of the paths of parameters that are live in any case, those included that the
   /// document leaves at their default: `*` stands for any text, `?` for one letter.
-  std::vector<std::string> live = {};
+  std::vector<std::string> live;
   /// Patterns of slots (parameters that are live by then, "time", "object_to_world") that
   /// every point brings along: input channels of the same name, in place of slots.
-  std::vector<std::string> varying = {};
+  std::vector<std::string> varying;
   KernelRequest kernels;  ///< Of a material: which, and of what lobes.
   /// `is_native` and `stop` (that of `compile`) are filled in, and `colors` where it is null.
   GraphOptions graph;

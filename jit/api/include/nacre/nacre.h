@@ -6,7 +6,8 @@
  *  - A function that can fail returns a status and says why in the nacre_report it is given,
  *    which may be NULL. What it makes is written to its last argument, NULL where it failed.
  *  - Structures that a host fills in begin with their size, so that later versions can add to
- *    them, and mean by 0 or NULL what is usual: nacre_compile_options options = {.size = sizeof options};
+ *    them, and mean by 0 or NULL what is usual:
+ *    nacre_compile_options options = {.size = sizeof options};
  *  - Structures that are filled in for a host have a size that the host sets, too.
  *  - Text is UTF-8 with a 0 at its end. Text that is handed out lives as long as the object it
  *    was asked of, but a report's until it is cleared.
@@ -19,11 +20,10 @@
 #ifndef NACRE_NACRE_H
 #define NACRE_NACRE_H
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include <nacre/record.h>
 #include <nacre/version.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #define NACRE_API __attribute__((visibility("default")))
 
@@ -40,8 +40,8 @@ enum {
   NACRE_WRONG_ARGUMENTS = 2, /* A call that cannot be meant: an object that is NULL, a size of 0,
                                 fewer arrays than were bound. Nothing was done. */
   NACRE_OUT_OF_MEMORY = 3,
-  NACRE_STOPPED = 4,         /* nacre_batch::stop was not 0. The outputs hold anything. */
-  NACRE_TOO_MANY_STEPS = 5   /* A loop of the document does not end. The outputs hold anything. */
+  NACRE_STOPPED = 4,       /* nacre_batch::stop was not 0. The outputs hold anything. */
+  NACRE_TOO_MANY_STEPS = 5 /* A loop of the document does not end. The outputs hold anything. */
 };
 
 /* NACRE_VERSION of the library that is running. */
@@ -138,7 +138,8 @@ typedef struct nacre_system_options {
   int compile_apart;       /* 1: in processes of their own, so that a fault of LLVM's costs a kernel
                               its speed and not the host its life. */
   uint64_t texture_memory; /* Bytes of texels in memory. 0: 2 GiB. */
-  /* Nodedefs of the libraries that the host implements (record.h), in place of whatever else does. */
+  /* Nodedefs of the libraries that the host implements (record.h), in place of whatever else does.
+   */
   const nacre_body* bodies;
   size_t body_count;
 } nacre_system_options;
@@ -163,8 +164,8 @@ NACRE_API nacre_status nacre_document_read(const char* file, const nacre_read_op
 /* Of text in memory, which need not end with 0. `name` stands for the file in diagnostics, and its
    folder is where includes and images are looked for. */
 NACRE_API nacre_status nacre_document_parse(const char* text, size_t length, const char* name,
-                                            const nacre_read_options* options,
-                                            nacre_report* report, nacre_document** document);
+                                            const nacre_read_options* options, nacre_report* report,
+                                            nacre_document** document);
 NACRE_API void nacre_document_destroy(nacre_document* document);
 /* Material nodes, in the document's order. */
 NACRE_API size_t nacre_document_material_count(const nacre_document* document);
@@ -179,10 +180,10 @@ NACRE_API const char* nacre_document_output(const nacre_document* document, size
    materials; each needs what its channels say. */
 typedef enum nacre_entry {
   NACRE_OUTPUTS = 0,
-  NACRE_BEGIN = 1,        /* Once a point: what depends on it alone, kept as the state. */
-  NACRE_SAMPLE = 2,       /* State and u: a direction wi, its weight, pdf, lobe, flags. */
-  NACRE_EVALUATE = 3,     /* State and wi: f, pdf. */
-  NACRE_EVALUATE_AT = 4,  /* The same for one point and many wi. */
+  NACRE_BEGIN = 1,       /* Once a point: what depends on it alone, kept as the state. */
+  NACRE_SAMPLE = 2,      /* State and u: a direction wi, its weight, pdf, lobe, flags. */
+  NACRE_EVALUATE = 3,    /* State and wi: f, pdf. */
+  NACRE_EVALUATE_AT = 4, /* The same for one point and many wi. */
   NACRE_ALBEDO = 5,
   NACRE_EMISSION = 6,
   NACRE_OPACITY = 7,
@@ -225,12 +226,12 @@ typedef struct nacre_compile_options {
      point, as channels of the slot's name. */
   const char* const* varying;
   size_t varying_count;
-  int lobes;        /* Those that are modelled. 0: all. */
-  int reverse_pdf;  /* 1: NACRE_SAMPLE and NACRE_EVALUATE also store pdf_reverse. */
-  int lobe_mask;    /* 1: a slot lobe_mask switches lobes off later. */
-  int evaluate_at;  /* 1: with NACRE_EVALUATE_AT. */
-  int side;         /* NACRE_BACK: what the back shows, see nacre_shader_has_back. */
-  int background;   /* 1: return at once, and interpret until the code is there; the same bits. */
+  int lobes;          /* Those that are modelled. 0: all. */
+  int reverse_pdf;    /* 1: NACRE_SAMPLE and NACRE_EVALUATE also store pdf_reverse. */
+  int lobe_mask;      /* 1: a slot lobe_mask switches lobes off later. */
+  int evaluate_at;    /* 1: with NACRE_EVALUATE_AT. */
+  int side;           /* NACRE_BACK: what the back shows, see nacre_shader_has_back. */
+  int background;     /* 1: return at once, and interpret until the code is there; the same bits. */
   double max_seconds; /* Of the call. 0: 60. */
   int max_anisotropy; /* Of footprints on images. 0: 16. */
   const char* const* search_paths; /* Of images, after the document's own folder. */

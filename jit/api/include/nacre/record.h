@@ -1,12 +1,12 @@
 /* Nodes and lobes that a host writes: part of <nacre/nacre.h>.
  *
- * A body is a function that runs once for each node of a graph, when a kernel is made. It computes on
- * recorded values in place of numbers; the operations that it records become part of the kernel.
+ * A body is a function that runs once for each node of a graph, when a kernel is made. It computes
+ * on recorded values in place of numbers; the operations that it records become part of the kernel.
  * <nacre/record.hpp> lets them look like floats.
  *
  * What a body does wrong (operands of another type, values of another recording, an output that is
- * not there) is an error in the report of the call that compiles, at the node; the body goes on with
- * zeros.
+ * not there) is an error in the report of the call that compiles, at the node; the body goes on
+ * with zeros.
  */
 #ifndef NACRE_RECORD_H
 #define NACRE_RECORD_H
@@ -126,7 +126,8 @@ NACRE_API void nacre_node_set(nacre_node* node, const char* output, const nacre_
 /* Something that the body cannot do: keeps the kernel from being made. */
 NACRE_API void nacre_node_error(nacre_node* node, const char* message);
 
-/* -- Leaves -------------------------------------------------------------------------------------- */
+/* -- Leaves --------------------------------------------------------------------------------------
+ */
 
 /* A channel of the batch: "P.x", or one of the host's own. */
 NACRE_API nacre_value nacre_read_channel(nacre_recorder* recorder, const char* name, int type);
@@ -140,7 +141,8 @@ NACRE_API uint32_t nacre_table(nacre_recorder* recorder, const char* name, const
    and functions. */
 NACRE_API nacre_value nacre_keep(nacre_recorder* recorder, nacre_value value);
 
-/* -- Regions -------------------------------------------------------------------------------------- */
+/* -- Regions --------------------------------------------------------------------------------------
+ */
 
 /* What is recorded until nacre_end_if is computed where any point needs it; of it nothing can be
    used behind but merges: `inside` where the mask is true, `outside` (of before) elsewhere. */
@@ -149,8 +151,8 @@ NACRE_API nacre_value nacre_merge(nacre_recorder* recorder, nacre_value inside,
                                   nacre_value outside);
 NACRE_API void nacre_end_if(nacre_recorder* recorder);
 
-/* Repeats at most `bound` times what is recorded until nacre_end_loop, in the points where `mask` is
-   true and nacre_again was, too. In order: carries, the body, a nacre_next for each carry (which
+/* Repeats at most `bound` times what is recorded until nacre_end_loop, in the points where `mask`
+   is true and nacre_again was, too. In order: carries, the body, a nacre_next for each carry (which
    gives its value behind the loop), nacre_again. */
 NACRE_API void nacre_begin_loop(nacre_recorder* recorder, nacre_value mask, uint32_t bound);
 NACRE_API nacre_value nacre_carry(nacre_recorder* recorder, nacre_value initial);
@@ -158,7 +160,8 @@ NACRE_API nacre_value nacre_next(nacre_recorder* recorder, nacre_value carry, na
 NACRE_API void nacre_again(nacre_recorder* recorder, nacre_value goes_on);
 NACRE_API void nacre_end_loop(nacre_recorder* recorder);
 
-/* -- Lobes --------------------------------------------------------------------------------------------- */
+/* -- Lobes
+ * --------------------------------------------------------------------------------------------- */
 
 /* From where a lobe is looked at; lives during the call. */
 typedef struct nacre_view {
@@ -172,11 +175,11 @@ typedef struct nacre_view {
 /* A direction that a lobe chose. */
 typedef struct nacre_lobe_sample {
   size_t size;
-  nacre_value wi[3];                /* Unit, world space. */
-  nacre_value valid;                /* False: the sample is lost. */
-  nacre_value delta;                /* wi is one of finitely many; evaluate gives 0 there. */
-  nacre_value delta_weight[3];      /* Only then: f cos / probability of the choice. */
-  nacre_value delta_probability;    /* Only then. */
+  nacre_value wi[3];             /* Unit, world space. */
+  nacre_value valid;             /* False: the sample is lost. */
+  nacre_value delta;             /* wi is one of finitely many; evaluate gives 0 there. */
+  nacre_value delta_weight[3];   /* Only then: f cos / probability of the choice. */
+  nacre_value delta_probability; /* Only then. */
 } nacre_lobe_sample;
 
 /* One term of a BSDF, of weight 1. Its functions record; `user` is the host's, with the values that
