@@ -14,9 +14,11 @@ namespace {
 
 constexpr std::ptrdiff_t word = 4;
 
-/// Words of all copies at once: within a level-1 data cache of 32 KiB, with room for what the
-/// kernel itself touches.
-constexpr std::size_t staged_words = 6144;
+/// Words of all copies at once: within a level-2 cache. What a kernel computes once a call it
+/// computes once for so many points, and of a live material that is as much as for 20 of them.
+constexpr std::size_t staged_words = 32768;
+/// Words of copies that need no memory from the heap.
+constexpr std::size_t usual_words = 4096;
 /// Channels that need no memory from the heap.
 constexpr std::size_t usual_channels = 96;
 
@@ -200,10 +202,9 @@ RunStatus run_bound(const Binding& binding, const Batch& batch, const RunArrays&
     for (const ChannelLayout& output : binding.outputs) *row++ = access.element(output, 0);
     return run(rows.data(), outputs, batch.count);
   }
-  const std::size_t block =
-      std::clamp<std::size_t>(staged_words / copies / 16 * 16, 64, IndexRuns::most);
-  Room<std::uint32_t, staged_words + usual_channels * IndexRuns::slack> words(
-      copies * (block + IndexRuns::slack));
+  const std::size_t block = std::min<std::uint64_t>(
+      std::clamp<std::size_t>(staged_words / copies / 16 * 16, 64, IndexRuns::most), batch.count);
+  Room<std::uint32_t, usual_words> words(copies * (block + IndexRuns::slack));
   return Stage(access, block, rows.data(), words.data()).run(run);
 }
 
