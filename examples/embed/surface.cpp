@@ -80,7 +80,7 @@ nacre::Binder binder() {
   for (const char* change : {"dPdx", "dPdy", "dPodx", "dPody", "duv0dx", "duv0dy"}) {
     made.constant(change, {0, 0, 0});
   }
-  return made.array("state", {1, 0, 4, std::ptrdiff_t(4 * pixels)});
+  return std::move(made.array("state", {1, 0, 4, std::ptrdiff_t(4 * pixels)}));
 }
 
 int main(int argc, char** argv) try {
@@ -105,7 +105,7 @@ int main(int argc, char** argv) try {
     for (std::size_t i = 0; i < pixels; ++i) {
       const float x = (float(i % width) + number()) / width - 0.5f;
       const float y = 0.5f - (float(i / width) + number()) / height;
-      paths[i].from = {0, 1.6f, 7};
+      paths[i].from = {0, 1.6f, 8.5f};
       paths[i].direction = unit({1.2f * x, 1.2f * y * height / width - 0.08f, -1});
       paths[i].pixel = i;
     }
@@ -116,7 +116,7 @@ int main(int argc, char** argv) try {
         Path& path = paths[i];
         path.u = {number(), number(), number()};
         const std::uint32_t material = trace(path, spheres);
-        if (material == nothing) path.emission = Vec{0.7f, 0.8f, 1} * (1 + path.direction.y);
+        if (material == nothing) path.emission = Vec{0.4f, 0.46f, 0.6f} * (1 + path.direction.y);
         if (material != nothing) lists[material].push_back(i);
       }
       const std::vector<void*> arrays{paths.data(), states.data()};
