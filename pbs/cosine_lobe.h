@@ -22,6 +22,8 @@ class CosineLobe : public Lobe {
   bool is_opaque() const final { return true; }
   Color3 throughput(const View&) const final { return Color3(0.0f); }
   LobeSample sample(const View& view, Float3 u) const final;
+  Float3 normal(const View&) const final { return normal_; }
+  Float roughness(const View&) const final { return 1.0f; }
 
  protected:
   /// The normal on the side that the light comes from.

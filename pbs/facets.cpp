@@ -1,9 +1,22 @@
 #include "pbs/facets.h"
 
+#include <algorithm>
+
 #include "pbs/per_view.h"
 #include "runtime/node/geometry.h"
 
 namespace nacre {
+
+namespace {
+
+/// Whether whoever records has said that the host sets a slot: by recording it first.
+bool is_offered(const Program& program, std::string_view slot) {
+  return std::ranges::find(program.parameters, slot, &ParameterSlot::name) !=
+             program.parameters.end() ||
+         std::ranges::find(program.inputs, slot, &Channel::name) != program.inputs.end();
+}
+
+}  // namespace
 
 LocalView Facets::look(const View& view) const {
   Frame frame = isotropic ? make_frame(normal) : make_frame(normal, tangent);
@@ -17,9 +30,13 @@ LocalView Facets::look(const View& view) const {
 
 Facets prepare_facets(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  const Float2 roughness = call.vector2("roughness");
+  Float2 roughness = call.vector2("roughness");
   const float threshold = call.accuracy() == Accuracy::fast ? 1e-3f : 1e-4f;
   const bool isotropic = same_value(roughness.x.ref(), roughness.y.ref());
+  if (is_offered(recorder.program(), "min_alpha")) {
+    const Float least(recorder.parameter("min_alpha", Scalar::f32, 0));
+    roughness = {max(roughness.x, least), max(roughness.y, least)};
+  }
   const auto clamped = [&](Float x) { return keep(recorder, clamp(x, threshold, 1.0f)); };
   return {.alpha = {clamped(roughness.x), clamped(roughness.y)},
           .delta = keep(recorder, !((roughness.x >= threshold) | (roughness.y >= threshold))),

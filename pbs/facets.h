@@ -27,12 +27,15 @@ struct Facets {
   Float3 normal, tangent;
 
   LocalView look(const View& view) const;
+  /// As Lobe::roughness.
+  Float roughness() const { return select(delta, 0.0f, sqrt(0.5f * (alpha.x + alpha.y))); }
   GgxView table_view(const LocalView& local) const { return ggx_view(local.wo, alpha, isotropic); }
 };
 
 /// From the inputs roughness, normal and tangent of a node. The threshold
 /// separates what float can evaluate: below it the rounding of a half-way vector
-/// is as wide as the lobe. One axis alone is never below: it is clamped.
+/// is as wide as the lobe. One axis alone is never below: it is clamped. Alpha is no less than the
+/// slot "min_alpha" where the host offers one: what lies behind a rough bounce needs no sharp lobe.
 Facets prepare_facets(NodeCall& call);
 
 /// A unit normal, kept. The shading normal itself is trusted; others are

@@ -1,5 +1,8 @@
 #include "pbs/kernels.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "runtime/node/geometry.h"
 #include "runtime/program/origin.h"
 #include "runtime/value/control.h"
@@ -20,7 +23,14 @@ struct Term {
 struct Total {
   Color3 f = Color3(0.0f);
   Float pdf = 0.0f;
+  std::vector<Color3> by_lobe;  ///< Their parts of f.
 };
+
+void add_color(std::vector<SliceOutput>& outputs, const std::string& name, Float3 v) {
+  outputs.push_back({name + ".x", v.x.ref()});
+  outputs.push_back({name + ".y", v.y.ref()});
+  outputs.push_back({name + ".z", v.z.ref()});
+}
 
 class SurfaceRecorder {
  public:
@@ -39,20 +49,26 @@ class SurfaceRecorder {
     view_.left_out = nullptr;
     kernels_.not_modelled = left_out_.lines();
     kernels_.manifest = kernels_.not_modelled;
-    for (const Term& term : terms_) kernels_.lobes.emplace_back(term.lobe->name());
-    if (!terms_.empty()) {
-      record_evaluate();
-      record_sample();
-      record_albedo();
-    } else {
-      kernels_.manifest.push_back("evaluate, sample, albedo: no lobe has a weight");
+    for (const Term& term : terms_) {
+      kernels_.lobes.push_back({std::string(term.lobe->name()),
+                                recorder_.program().origins[term.origin], term.lobe->kinds()});
     }
-    record_emission();
-    record_opacity();
+    if (terms_.empty()) {
+      kernels_.manifest.push_back("evaluate, sample, albedo: no lobe has a weight");
+    } else {
+      if (wants(entry_evaluate | entry_evaluate_at | entry_shade)) record_evaluate();
+      if (wants(entry_sample | entry_shade)) record_sample();
+      if (wants(entry_albedo)) add_color(kernels_.albedo, "albedo", albedo());
+    }
+    if (wants(entry_emission)) record_emission();
+    if (wants(entry_opacity)) record_opacity();
+    if (wants(entry_begin | entry_shade)) record_point();
     return std::move(kernels_);
   }
 
  private:
+  bool wants(std::uint32_t entries) const { return (request_.entries & entries) != 0; }
+
   bool may_go_on() {
     kernels_.complete = kernels_.complete && (!ask_ || ask_());
     return kernels_.complete;
@@ -111,6 +127,7 @@ class SurfaceRecorder {
       const LobeValue value =
           if_any(term.probability > 0.0f, none, [&] { return term.lobe->evaluate(view, wi); });
       total.f = fma(term.weight, value.f, total.f);
+      if (request_.by_lobe) total.by_lobe.push_back(term.weight * value.f);
       total.pdf = fma(term.probability, value.pdf, total.pdf);
     }
     return total;
@@ -126,10 +143,11 @@ class SurfaceRecorder {
   void record_evaluate() {
     const Float3 wi = channel3(recorder_, "wi");
     const Total total = evaluate(view_, terms_, wi);
-    kernels_.evaluate = {{"f.x", total.f.x.ref()},
-                         {"f.y", total.f.y.ref()},
-                         {"f.z", total.f.z.ref()},
-                         {"pdf", total.pdf.ref()}};
+    add_color(kernels_.evaluate, "f", total.f);
+    kernels_.evaluate.push_back({"pdf", total.pdf.ref()});
+    for (std::size_t i = 0; i < total.by_lobe.size(); ++i) {
+      add_color(kernels_.evaluate, "f.lobe" + std::to_string(i), total.by_lobe[i]);
+    }
     if (request_.reverse_pdf) {
       kernels_.evaluate.push_back({"pdf_reverse", reverse_pdf(wi).ref()});
     }
@@ -186,29 +204,68 @@ class SurfaceRecorder {
       const Float reverse = select(delta, pdf, select(smooth, reverse_pdf(wi), Float(0.0f)));
       kernels_.sample.push_back({"pdf_reverse", reverse.ref()});
     }
+    for (std::size_t i = 0; i < total.by_lobe.size(); ++i) {
+      const Bool mine = delta & (lobe == Int(static_cast<int>(i)));
+      const Color3 part =
+          select(smooth, total.by_lobe[i] * Color3(inverse), select(mine, discrete, Color3(0.0f)));
+      add_color(kernels_.sample, "weight.lobe" + std::to_string(i), part);
+    }
   }
 
-  void record_albedo() {
+  Color3 albedo() {
     Color3 total = Color3(0.0f);
     for (const Term& term : terms_) {
       if (!may_go_on()) break;
       const ScopedOrigin origin(recorder_, term.origin);
       total = fma(term.weight, term.lobe->albedo(view_), total);
     }
-    kernels_.albedo = {
-        {"albedo.x", total.x.ref()}, {"albedo.y", total.y.ref()}, {"albedo.z", total.z.ref()}};
+    return total;
+  }
+
+  Color3 emission() const {
+    const ScopedOrigin origin(recorder_, "emission");
+    return radiance(surface_.edf, view_);
+  }
+
+  /// As denoisers like it: of what is seen, and of the shading normal where nothing is.
+  Float3 mean_normal() const {
+    const Float3 shading = facing(normal(recorder_, Space::world), view_.wo);
+    Float3 sum = Float3(0.0f);
+    for (const Term& term : terms_) {
+      const Float3 n = facing(term.lobe->normal(view_), view_.wo);
+      sum = fma(Float3(term.probability), n, sum);
+    }
+    const Float squared = dot(sum, sum);
+    return select(squared > 1e-6f, sum * Float3(1.0f / sqrt(squared)), shading);
+  }
+
+  Float mean_roughness() const {
+    Float sum = 0.0f;
+    for (const Term& term : terms_) {
+      sum = fma(term.probability, term.lobe->roughness(view_), sum);
+    }
+    return sum;
+  }
+
+  void record_point() {
+    for (const std::string& name : request_.with_begin) {
+      if (name == "albedo") add_color(kernels_.point, name, albedo());
+      if (name == "emission") add_color(kernels_.point, name, emission());
+      if (name == "normal") add_color(kernels_.point, name, mean_normal());
+      if (name == "roughness") kernels_.point.push_back({name, mean_roughness().ref()});
+      if (name != "opacity") continue;
+      kernels_.point.push_back({name, surface_.opacity.ref()});
+      add_color(kernels_.point, "transmission", surface_.transmission);
+    }
   }
 
   void record_emission() {
-    const ScopedOrigin origin(recorder_, "emission");
-    const Color3 emitted = radiance(surface_.edf, view_);
+    const Color3 emitted = emission();
     if (is_zero(emitted)) {
       kernels_.manifest.push_back("emission: always black");
       return;
     }
-    kernels_.emission = {{"emission.x", emitted.x.ref()},
-                         {"emission.y", emitted.y.ref()},
-                         {"emission.z", emitted.z.ref()}};
+    add_color(kernels_.emission, "emission", emitted);
   }
 
   void record_opacity() {
@@ -216,10 +273,8 @@ class SurfaceRecorder {
       kernels_.manifest.push_back("opacity: always opaque");
       return;
     }
-    kernels_.opacity = {{"opacity", surface_.opacity.ref()},
-                        {"transmission.x", surface_.transmission.x.ref()},
-                        {"transmission.y", surface_.transmission.y.ref()},
-                        {"transmission.z", surface_.transmission.z.ref()}};
+    kernels_.opacity = {{"opacity", surface_.opacity.ref()}};
+    add_color(kernels_.opacity, "transmission", surface_.transmission);
   }
 
   Recorder& recorder_;
@@ -233,6 +288,11 @@ class SurfaceRecorder {
 };
 
 }  // namespace
+
+bool is_point_result(std::string_view name) {
+  constexpr std::string_view names[] = {"albedo", "emission", "normal", "opacity", "roughness"};
+  return std::ranges::find(names, name) != std::end(names);
+}
 
 SurfaceKernels record_kernels(Recorder& recorder, const Surface& surface, Accuracy accuracy,
                               const KernelRequest& request,

@@ -9,13 +9,47 @@
 
 namespace nacre {
 
+/// The kernels of a material, as bits of KernelRequest::entries.
+enum KernelEntry : std::uint32_t {
+  entry_begin = 1 << 1,
+  entry_sample = 1 << 2,
+  entry_evaluate = 1 << 3,
+  entry_evaluate_at = 1 << 4,
+  entry_albedo = 1 << 5,
+  entry_emission = 1 << 6,
+  entry_opacity = 1 << 7,
+  entry_displacement = 1 << 8,
+  entry_volume = 1 << 9,
+  entry_light = 1 << 10,
+  entry_shade = 1 << 11,
+  /// What most renderers ask one after another.
+  entry_usual = ~std::uint32_t(entry_evaluate_at | entry_shade),
+};
+
 /// What a host wants of a surface's kernels; only this is recorded.
 struct KernelRequest {
+  /// KernelEntry bits. `begin` comes with whatever reads its state.
+  std::uint32_t entries = entry_usual;
   std::int32_t lobes = lobe_all;  ///< LobeKind bits; others are left out for good.
   bool lobe_mask = false;         ///< Lobes can be switched off by the slot "lobe_mask" too.
+  bool min_alpha = false;         ///< Roughness can be raised by the slot "min_alpha" (see Facets).
   bool reverse_pdf = false;       ///< The density of wo given wi as well.
-  bool evaluate_at = false;       ///< Also evaluate for one point and many directions.
+  bool by_lobe = false;           ///< What each lobe gives of f and weight as well.
+  /// What `begin` (and `shade`) stores beside the state, so that nothing of the point is computed
+  /// twice: "albedo", "emission", "opacity" (with transmission), "normal", "roughness"; all
+  /// there, if constant. Other names are values of the graph: see GraphRequest::values.
+  std::vector<std::string> with_begin;
 };
+
+/// What a host may know of a lobe.
+struct LobeInfo {
+  std::string name;        ///< Category of its node: "dielectric_bsdf".
+  std::string path;        ///< The node: "SR_gold/coat_bsdf". A label for light path expressions.
+  std::int32_t kinds = 0;  ///< LobeKind bits.
+};
+
+/// Whether KernelRequest::with_begin means that by a name, and no value of the graph.
+bool is_point_result(std::string_view name);
 
 /// The recorded entry points of one surface: named values for `slice`, all of
 /// one recording. Empty: that kernel has nothing to compute.
@@ -25,21 +59,25 @@ struct KernelRequest {
 ///   sample    in:  u.x u.y u.z, state, geometry
 ///             out: wi.x wi.y wi.z, weight.x .y .z (f |cos| / pdf), pdf
 ///                  [, pdf_reverse], lobe (i32: which), flags (i32: SampleFlag)
+///   by lobe   both: f.lobe<k>.*, weight.lobe<k>.*: what lobe k adds to f or weight
 ///   albedo    out: albedo.x .y .z     fraction of light that scatters, at wo
 ///   emission  out: emission.x .y .z   radiance towards wo
 ///   opacity   out: opacity, transmission.x .y .z: of a ray that meets the
 ///             surface, 1 - opacity + opacity * transmission goes straight on
+///   point     out: what KernelRequest::with_begin names; besides the above
+///             normal.x .y .z          unit, towards wo: the lobes' mean, as `sample` picks them
+///             roughness               [0, 1]: their mean
 struct SurfaceKernels {
   /// Channels as listed above.
   /// @{
-  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity;
+  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity, point;
   /// @}
   /// One line for each thing that was left out, with the reason.
   std::vector<std::string> manifest;
   /// Those lines of it that change the picture, such as a medium inside.
   std::vector<std::string> not_modelled;
-  /// Names of the lobes; `lobe` counts in this order.
-  std::vector<std::string> lobes;
+  /// `lobe` counts in this order.
+  std::vector<LobeInfo> lobes;
   bool complete = true;  ///< Else `may_go_on` said no, and the rest is of no use.
 };
 

@@ -79,6 +79,12 @@ class Lobe {
   /// How a weight w enters the throughput. Interfaces let 1 - w (1 - throughput)
   /// pass; opaque lobes 0 whatever their weight (the library's 1.39.5 closures).
   virtual bool is_opaque() const { return false; }
+
+  // For AOVs, and not for what scatters.
+  /// Unit, world space, on either side.
+  virtual Float3 normal(const View& view) const = 0;
+  /// In [0, 1]: the root of the mean alpha; 0 of a mirror, 1 where light scatters everywhere.
+  virtual Float roughness(const View& view) const = 0;
 };
 using LobePtr = std::shared_ptr<const Lobe>;  ///< Shared by all that read its node.
 

@@ -26,6 +26,8 @@ class MicrofacetInterface final : public Lobe {
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;
   Color3 throughput(const View& view) const override { return reflection_.throughput(view); }
+  Float3 normal(const View&) const override { return facets_.normal; }
+  Float roughness(const View&) const override { return facets_.roughness(); }
 
  private:
   struct Terms {

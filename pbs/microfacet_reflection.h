@@ -30,6 +30,8 @@ class MicrofacetReflection final : public Lobe {
   Color3 throughput(const View& view) const override;
   /// The albedo before the tint.
   Color3 reflected(const View& view) const;
+  Float3 normal(const View&) const override { return facets_.normal; }
+  Float roughness(const View&) const override { return facets_.roughness(); }
 
  private:
   struct Terms {

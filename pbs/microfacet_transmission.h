@@ -58,6 +58,8 @@ class MicrofacetTransmission final : public Lobe {
   Color3 albedo(const View& view) const override;
   /// All light is taken.
   Color3 throughput(const View&) const override { return Color3(0.0f); }
+  Float3 normal(const View&) const override { return facets_.normal; }
+  Float roughness(const View&) const override { return facets_.roughness(); }
 
  private:
   struct Terms {

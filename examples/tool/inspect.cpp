@@ -73,6 +73,12 @@ Json stage_list(const std::vector<StageReport>& stages) {
   return list;
 }
 
+Json lobe_names(const MaterialKernels& kernels) {
+  Json names = Json::array();
+  for (const LobeInfo& lobe : kernels.lobes) names.push_back(lobe.name);
+  return names;
+}
+
 /// With what it costs where there is a compiler to measure with; so below.
 Json inspect_material(const Opened& opened, const std::string& material,
                       const ShaderOptions& shader, Compiler* for_cost, Diagnostics& diagnostics) {
@@ -80,7 +86,7 @@ Json inspect_material(const Opened& opened, const std::string& material,
       opened.system->compile_material(*opened.document, material, shader, diagnostics);
   if (kernels == nullptr) return nullptr;
   Json result{{"material", material},
-              {"lobes", kernels->lobes},
+              {"lobes", lobe_names(*kernels)},
               {"state_channels", kernels->state.size()},
               {"left_out", kernels->manifest}};
   Json list = Json::object();

@@ -30,7 +30,8 @@ nacre_channel channel_info(const Channel& channel, std::span<const std::uint32_t
   }
   const ChannelGroup* known = find_channel_group(group);
   if (known == nullptr || (is_input && known->role == ChannelRole::result)) return info;
-  info.role = is_input ? static_cast<int>(known->role) : NACRE_RESULT;
+  const bool is_state = known->role == ChannelRole::state;
+  info.role = is_input || is_state ? static_cast<int>(known->role) : NACRE_RESULT;
   info.unit = known->unit.data();
   info.meaning = known->meaning.data();
   return info;

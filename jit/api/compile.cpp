@@ -8,6 +8,9 @@ using namespace nacre::api;
 
 namespace {
 
+static_assert(entry_begin == 1u << NACRE_BEGIN && entry_evaluate_at == 1u << NACRE_EVALUATE_AT &&
+              entry_opacity == 1u << NACRE_OPACITY && entry_shade == 1u << NACRE_SHADE);
+
 ShaderOptions shader_options(const nacre_compile_options* given) {
   const nacre_compile_options asked = options_of(given);
   ShaderOptions options;
@@ -23,7 +26,10 @@ ShaderOptions shader_options(const nacre_compile_options* given) {
   if (asked.lobes != 0) options.kernels.lobes = asked.lobes;
   options.kernels.reverse_pdf = asked.reverse_pdf != 0;
   options.kernels.lobe_mask = asked.lobe_mask != 0;
-  options.kernels.evaluate_at = asked.evaluate_at != 0;
+  options.kernels.by_lobe = asked.by_lobe != 0;
+  options.kernels.min_alpha = asked.min_alpha != 0;
+  if (asked.entries != 0) options.kernels.entries = asked.entries;
+  options.kernels.with_begin = texts_of(asked.with_begin, asked.with_begin_count);
   options.side = asked.side == NACRE_BACK ? Side::back : Side::front;
   if (asked.max_anisotropy != 0) options.max_anisotropy = asked.max_anisotropy;
   for (const std::string& path : texts_of(asked.search_paths, asked.search_path_count)) {

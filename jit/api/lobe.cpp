@@ -7,6 +7,7 @@
 
 #include "jit/api/call.h"
 #include "pbs/bsdf.h"
+#include "runtime/node/geometry.h"
 
 namespace nacre::api {
 
@@ -57,13 +58,27 @@ class HostLobe final : public Lobe {
                 Float(recording.take(made.delta_probability, Scalar::f32, "delta_probability"))};
   }
 
-  Color3 albedo(const View& view) const override { return colour(lobe_.albedo, view, "albedo"); }
+  Color3 albedo(const View& view) const override { return three(lobe_.albedo, view, "albedo"); }
 
   Color3 throughput(const View& view) const override {
-    if (lobe_.throughput != nullptr) return colour(lobe_.throughput, view, "throughput");
+    if (lobe_.throughput != nullptr) return three(lobe_.throughput, view, "throughput");
     if (is_opaque()) return Color3(0.0f);
     const Color3 kept = albedo(view);
     return {1.0f - kept.x, 1.0f - kept.y, 1.0f - kept.z};
+  }
+
+  Float3 normal(const View& view) const override {
+    if (lobe_.normal == nullptr) return nacre::normal(*view.recorder, Space::world);
+    return three(lobe_.normal, view, "normal");
+  }
+
+  Float roughness(const View& view) const override {
+    if (lobe_.roughness == nullptr) return 1.0f;
+    Recording recording(*view.recorder, diagnostics_, where_);
+    const nacre_view seen = seen_from(view, recording);
+    nacre_value number = zero();
+    lobe_.roughness(user_.get(), &seen, &number);
+    return Float(recording.take(number, Scalar::f32, "roughness"));
   }
 
  private:
@@ -89,8 +104,8 @@ class HostLobe final : public Lobe {
     seen.thin_walled = recording.give(view.thin_walled.ref());
     return seen;
   }
-  Color3 colour(void (*function)(void*, const nacre_view*, nacre_value*), const View& view,
-                const char* what) const {
+  Color3 three(void (*function)(void*, const nacre_view*, nacre_value*), const View& view,
+               const char* what) const {
     Recording recording(*view.recorder, diagnostics_, where_);
     const nacre_view seen = seen_from(view, recording);
     Three rgb = zeros();

@@ -67,9 +67,11 @@ size_t nacre_shader_lobe_count(const nacre_shader* shader) {
   return shader != nullptr ? shader->data->lobes().size() : 0;
 }
 
-const char* nacre_shader_lobe(const nacre_shader* shader, size_t index) {
-  if (index >= nacre_shader_lobe_count(shader)) return nullptr;
-  return shader->data->lobes()[index].c_str();
+nacre_status nacre_shader_lobe(const nacre_shader* shader, size_t index, nacre_lobe_info* info) {
+  if (index >= nacre_shader_lobe_count(shader)) return NACRE_WRONG_ARGUMENTS;
+  const LobeInfo& lobe = shader->data->lobes()[index];
+  return give(
+      info, {.size = 0, .name = lobe.name.c_str(), .path = lobe.path.c_str(), .kinds = lobe.kinds});
 }
 
 size_t nacre_shader_left_out_count(const nacre_shader* shader) {

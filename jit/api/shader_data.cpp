@@ -58,6 +58,7 @@ ShaderData::ShaderData(std::unique_ptr<MaterialKernels> kernels)
   add(NACRE_DISPLACEMENT, std::move(kernels->displacement));
   add(NACRE_VOLUME, std::move(kernels->volume));
   add(NACRE_LIGHT, std::move(kernels->light));
+  add(NACRE_SHADE, std::move(kernels->shade));
   for (const std::string& line : kernels->manifest) {
     const auto& changes = kernels->not_modelled;
     left_out_.emplace_back(line, std::ranges::find(changes, line) != changes.end());

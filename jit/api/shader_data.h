@@ -38,7 +38,7 @@ class ShaderData {
   const BoundKernel* kernel(nacre_entry entry) const;
   const std::vector<std::uint32_t>& state() const { return state_; }
   bool has_back() const { return has_back_; }
-  const std::vector<std::string>& lobes() const { return lobes_; }
+  const std::vector<LobeInfo>& lobes() const { return lobes_; }
   /// What is left out, and whether that changes the picture.
   const std::vector<std::pair<std::string, bool>>& left_out() const { return left_out_; }
   const std::vector<ShaderParameter>& parameters() const { return parameters_; }
@@ -55,7 +55,7 @@ class ShaderData {
   std::array<std::optional<BoundKernel>, NACRE_ENTRY_COUNT> kernels_;
   std::array<std::vector<std::uint32_t>, NACRE_ENTRY_COUNT> slots_;
   std::vector<std::uint32_t> state_;
-  std::vector<std::string> lobes_;
+  std::vector<LobeInfo> lobes_;
   std::vector<std::pair<std::string, bool>> left_out_;
   std::vector<ShaderParameter> parameters_;
   std::vector<std::uint32_t> block_;

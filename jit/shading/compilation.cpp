@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 #include <utility>
 
 #include "jit/compile/compile.h"
@@ -15,13 +14,9 @@
 #include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
 #include "pbs/shader_channels.h"
-#include "pbs/sides.h"
-#include "runtime/program/fix_inputs.h"
 #include "runtime/report_stop.h"
 
 namespace nacre {
-
-namespace {
 
 std::vector<SliceOutput> channels_of(const std::string& name, const Recorded& value) {
   std::vector<SliceOutput> list;
@@ -31,47 +26,6 @@ std::vector<SliceOutput> channels_of(const std::string& name, const Recorded& va
   }
   return list;
 }
-
-/// The sides of the material that a graph is of. Reports a back that is not shown.
-SurfaceSides sides_of(const Graph& graph, const std::vector<Recorded>& values,
-                      Diagnostics& diagnostics) {
-  SurfacePtr front;
-  SurfacePtr back;
-  const GraphOutput* back_output = nullptr;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const GraphOutput& output = graph.outputs[i];
-    if (output.type != Type::surfaceshader) continue;
-    if (output.name == "backsurfaceshader") {
-      back = as_surface(values[i].closure);
-      back_output = &output;
-    } else if (front == nullptr) {
-      front = as_surface(values[i].closure);
-    }
-  }
-  const bool two_shaders = front != nullptr && back != nullptr && front != back;
-  SurfaceSides sides = surface_sides(std::move(front), std::move(back));
-  if (two_shaders && sides.back == nullptr) {
-    const bool is_node = back_output->source.kind == Source::Kind::link;
-    diagnostics.warning("back-not-shown",
-                        is_node ? graph.nodes[back_output->source.node].where : SourceLocation{},
-                        "the backsurfaceshader is not shown, for neither side is thin-walled",
-                        "a thin-walled surface on one of the sides");
-  }
-  return sides;
-}
-
-/// The kernels of a material that are no surface's.
-struct OtherKernel {
-  Type type;
-  const char* name;
-  std::optional<BoundKernel> MaterialKernels::* place;
-};
-constexpr OtherKernel other_kernels[] = {
-    {Type::displacementshader, "displacement", &MaterialKernels::displacement},
-    {Type::lightshader, "light", &MaterialKernels::light},
-    {Type::volumeshader, "volume", &MaterialKernels::volume}};
-
-}  // namespace
 
 ShaderOptions from_now(const ShaderOptions& options) {
   ShaderOptions result = options;
@@ -173,6 +127,8 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
              fits_any(std::string(slot.substr(0, slot.rfind('.'))), options_.varying);
     });
   }
+  // Recorded first, it is a slot that facets read; see pbs/facets.cpp.
+  if (options_.kernels.min_alpha) recorder_.parameter("min_alpha", Scalar::f32, 0);
   if (!graph.outputs.empty()) where_ = graph.outputs.front().where;
   return Stages(&stages_).run(
       "record",
@@ -253,76 +209,6 @@ std::optional<Compilation::RecordedOutputs> Compilation::record_outputs(const Gr
     std::ranges::move(list, std::back_inserter(channels));
   }
   recorded.programs.push_back(slice(recorder_.program(), "outputs", channels, Keeps::pass));
-  return recorded;
-}
-
-std::optional<Compilation::RecordedMaterial> Compilation::record_material(
-    const Graph& graph, const SourceLocation& where) {
-  const auto has = [&](Type type) {
-    return std::ranges::any_of(graph.outputs,
-                               [&](const GraphOutput& output) { return output.type == type; });
-  };
-  if (!has(Type::surfaceshader) && !has(Type::volumeshader) && !has(Type::displacementshader) &&
-      !has(Type::lightshader)) {
-    diagnostics_.error("no-surface", where, "the material has no shader",
-                       "a surface, volume, displacement or light shader");
-    return std::nullopt;
-  }
-  const auto values = record(graph);
-  if (!values) return std::nullopt;
-  const SurfaceSides sides = sides_of(graph, *values, diagnostics_);
-  const bool is_back = options_.side == Side::back && sides.back != nullptr;
-  const SurfacePtr surface = is_back ? sides.back : sides.front;
-  if (surface == nullptr && has(Type::surfaceshader)) {
-    diagnostics_.error("no-surface", where, "the material's surface shader is not connected",
-                       "a surface shader");
-    return std::nullopt;
-  }
-  const SurfaceKernels surface_kernels =
-      surface == nullptr ? SurfaceKernels{}
-                         : record_kernels(recorder_, *surface, options_.compile.accuracy,
-                                          options_.kernels, [this] { return may_go_on(); });
-  if (!surface_kernels.complete) return std::nullopt;
-  RecordedMaterial recorded;
-  MaterialKernels& kernels = recorded.kernels;
-  kernels.has_surface = surface != nullptr;
-  kernels.has_back = sides.back != nullptr;
-  kernels.lobes = surface_kernels.lobes;
-  kernels.manifest = surface_kernels.manifest;
-  kernels.not_modelled = surface_kernels.not_modelled;
-  std::set<std::uint32_t> state;
-  const auto add = [&](std::optional<BoundKernel> MaterialKernels::* place, Program program) {
-    for (const std::uint32_t k : state_channels(program)) state.insert(k);
-    recorded.programs.push_back(std::move(program));
-    recorded.places.push_back(place);
-  };
-  const auto add_entry = [&](std::optional<BoundKernel> MaterialKernels::* place, const char* name,
-                             const std::vector<SliceOutput>& outputs, Keeps keeps) {
-    if (!outputs.empty()) add(place, slice(recorder_.program(), name, outputs, keeps));
-  };
-  add_entry(&MaterialKernels::sample, "sample", surface_kernels.sample, Keeps::load);
-  add_entry(&MaterialKernels::evaluate, "evaluate", surface_kernels.evaluate, Keeps::load);
-  kernels.state.assign(state.begin(), state.end());
-  if (options_.kernels.evaluate_at && !surface_kernels.evaluate.empty()) {
-    const auto is_of_point = [](std::string_view channel) { return !channel.starts_with("wi."); };
-    add(&MaterialKernels::evaluate_at,
-        fix_inputs(slice(recorder_.program(), "evaluate_at", surface_kernels.evaluate, Keeps::load),
-                   is_of_point));
-  }
-  add_entry(&MaterialKernels::albedo, "albedo", surface_kernels.albedo, Keeps::pass);
-  add_entry(&MaterialKernels::emission, "emission", surface_kernels.emission, Keeps::pass);
-  add_entry(&MaterialKernels::opacity, "opacity", surface_kernels.opacity, Keeps::pass);
-  for (const Recorded& value : *values) {
-    const auto found = std::ranges::find(other_kernels, value.type, &OtherKernel::type);
-    if (found == std::end(other_kernels)) continue;
-    const auto list = shader_channels(recorder_, options_.compile.accuracy, value);
-    if (all_zero(list)) {
-      kernels.manifest.push_back(std::string(found->name) + ": always nothing");
-      continue;
-    }
-    add_entry(found->place, found->name, list, Keeps::pass);
-  }
-  add_entry(&MaterialKernels::begin, "begin", state_outputs(recorder_, kernels.state), Keeps::pass);
   return recorded;
 }
 

@@ -18,6 +18,9 @@ namespace nacre {
 /// The options of a call that begins now: how long it may take becomes when it must end.
 ShaderOptions from_now(const ShaderOptions& options);
 
+/// The numbers of a value, as channels "<name>", or "<name>.x" ...
+std::vector<SliceOutput> channels_of(const std::string& name, const Recorded& value);
+
 /// The way from a document to kernels, once: graph, record, slice, passes, machine code.
 /// make_outputs and make_material read as that way; check goes it up to machine code.
 class Compilation {
@@ -56,6 +59,9 @@ class Compilation {
   /// The passes and machine code, all entry points side by side; nothing where the compiler
   /// refuses.
   std::vector<std::optional<BoundKernel>> compile(std::vector<Program> programs);
+  /// What KernelRequest::with_begin names, in that order.
+  std::vector<SliceOutput> point_results(const Graph& graph, const std::vector<Recorded>& values,
+                                         const SurfaceKernels& kernels);
   RecordOptions record_options(const FileRoots& roots);
   std::vector<Parameter> live_parameters(const Graph& graph) const;
   /// Whether nothing was wrong since there were so many errors, but for images that are missing.

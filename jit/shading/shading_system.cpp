@@ -1,5 +1,7 @@
 #include "jit/shading/shading_system.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "jit/graph/find.h"
@@ -9,6 +11,17 @@
 #include "runtime/float_environment.h"
 
 namespace nacre {
+
+namespace {
+
+std::vector<std::string> values_of(const std::vector<std::string>& with_begin) {
+  std::vector<std::string> values;
+  std::ranges::copy_if(with_begin, std::back_inserter(values),
+                       [](const std::string& name) { return !is_point_result(name); });
+  return values;
+}
+
+}  // namespace
 
 ShadingSystem::ShadingSystem(std::unique_ptr<SystemParts> parts) : parts_(std::move(parts)) {}
 
@@ -52,7 +65,9 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Document&
                                                                  Diagnostics& diagnostics) {
   const ScopedDefaultFloatEnvironment environment;
   Compilation compilation(*parts_, from_now(options), diagnostics);
-  const auto graph = compilation.build(document, {.outputs = {}, .material = material});
+  const auto graph = compilation.build(
+      document,
+      {.outputs = {}, .material = material, .values = values_of(options.kernels.with_begin)});
   return graph ? compilation.make_material(*graph, location_of(document, material)) : nullptr;
 }
 

@@ -131,13 +131,17 @@ struct MaterialKernels {
   /// wi.*; every other channel of evaluate, state and geometry, is a slot of the
   /// parameter block under the channel's name, for the host to fill from the point.
   std::optional<BoundKernel> evaluate_at;
+  /// Only if requested: all of a point at once, without a state. Reads what `begin` reads, wi and
+  /// u; stores f and pdf of wi, "next.wi", "next.weight", "next.pdf", lobe and flags of the
+  /// direction that u leads to, and what KernelRequest::with_begin names.
+  std::optional<BoundKernel> shade;
   /// Channels as of the types displacementshader, volumeshader and lightshader in OutputKernel.
   /// @{
   std::optional<BoundKernel> displacement, volume, light;
   /// @}
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
-  std::vector<std::string> lobes;     ///< Names; the channel `lobe` of sample counts in this order.
+  std::vector<LobeInfo> lobes;        ///< The channel `lobe` of sample counts in this order.
   std::vector<std::string> manifest;  ///< What was left out, and why.
   /// Those lines of it that a renderer would have to do itself, for the picture lacks them.
   std::vector<std::string> not_modelled;

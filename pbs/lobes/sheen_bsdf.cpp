@@ -98,6 +98,8 @@ class ContyKullaSheen final : public Lobe {
   Color3 throughput(const View& view) const override {
     return Color3(1.0f - terms_.get(view, [&] { return compute(view); }).albedo);
   }
+  Float3 normal(const View&) const override { return normal_; }
+  Float roughness(const View&) const override { return roughness_; }
 
  private:
   struct Terms {
@@ -161,6 +163,8 @@ class ZeltnerSheen final : public Lobe {
   Color3 throughput(const View& view) const override {
     return Color3(1.0f - terms_.get(view, [&] { return compute(view); }).albedo);
   }
+  Float3 normal(const View&) const override { return normal_; }
+  Float roughness(const View&) const override { return roughness_; }
 
  private:
   /// The inverse matrix is (a 0 b; 0 a 0; 0 0 1), its x axis along the view.

@@ -68,6 +68,22 @@ class GraphBuild {
     }
   }
 
+  void add_value(const std::string& name) {
+    const Element* element = find_element(document_, name);
+    if (element != nullptr && is_node(*element)) return add_value_of(name, *element, "");
+    if (element != nullptr && element->category() == "output") return add_output(name);
+    // A port, which need not be written down.
+    const std::size_t slash = name.rfind('/');
+    const Element* node =
+        slash == std::string::npos ? nullptr : find_element(document_, name.substr(0, slash));
+    if (node != nullptr && is_node(*node)) {
+      return add_value_of(name, *node, std::string_view(name).substr(slash + 1));
+    }
+    diagnostics_.error("unknown-request", at_root(document_, name),
+                       "the document has no such node, output or input",
+                       "NODE, NODE/PORT or GRAPH/...", fmt::format("'{}'", name));
+  }
+
   void add_material(const std::string& name) {
     const Element* element = find_element(document_, name);
     if (element == nullptr || !(is_node(*element) || element->category() == "output")) {
@@ -159,6 +175,24 @@ class GraphBuild {
     }
   }
 
+  /// `port`: one of its outputs or inputs; "" for its only output.
+  void add_value_of(const std::string& name, const Element& node, std::string_view port) {
+    const NodeDef* def = resolver_.nodedef_of(node);
+    if (def == nullptr) return;
+    const auto input = std::ranges::find(def->inputs, port, &NodeDefInput::name);
+    const Resolved found =
+        input == def->inputs.end()
+            ? resolver_.resolve_node(node, port, context_around(node))
+            : resolver_.resolve_input(node, std::uint32_t(input - def->inputs.begin()),
+                                      context_around(node));
+    if (!found.failed && !is_numeric(found.type)) {
+      diagnostics_.error("not-numeric", location(node), fmt::format("'{}' has no numbers", name),
+                         "a numeric type", std::string(type_name(found.type)));
+      return;
+    }
+    add(name, found, node);
+  }
+
   // A material is its shaders; nodes that pass materials on are looked through.
   void add_shaders(Source source, const Element& element) {
     Graph& graph = resolver_.graph();
@@ -198,6 +232,7 @@ std::optional<Graph> build_graph(const Document& document, const Definitions& de
   GraphBuild build(document, definitions, options, diagnostics);
   for (const std::string& name : request.outputs) build.add_output(name);
   if (!request.material.empty()) build.add_material(request.material);
+  for (const std::string& name : request.values) build.add_value(name);
   if (diagnostics.error_count() != errors) return std::nullopt;
   std::optional<Graph> graph = build.take();
   const auto named = [](const std::string& file) { return !file.empty(); };

@@ -21,6 +21,9 @@ struct GraphRequest {
   /// "backsurfaceshader", "displacementshader" and "volumeshader", those that
   /// are connected.
   std::string material;
+  /// Outputs and inputs of nodes anywhere in the document, as outputs of these names:
+  /// "NG_marble/noise1", "NG_marble/separate1/outx", "SR_marble/base_color".
+  std::vector<std::string> values = {};
 };
 
 /// Resolves what is requested into a Graph. Nothing if that finds an error;

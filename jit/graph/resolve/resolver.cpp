@@ -159,4 +159,9 @@ Resolved Resolver::resolve_node(const Element& node, std::string_view output,
   return index ? run({Kind::output, *index, instance, nullptr}) : failure();
 }
 
+Resolved Resolver::resolve_input(const Element& node, std::uint32_t index, const Context* context) {
+  const Instance* instance = instances_.of(node, context);
+  return instance != nullptr ? run({Kind::input, index, instance, nullptr}) : failure();
+}
+
 }  // namespace nacre

@@ -45,6 +45,8 @@ class Resolver {
   /// An output of a node that stands in `context`, null at the root; "" for its only one.
   Resolved resolve_node(const Element& node, std::string_view output,
                         const Context* context = nullptr);
+  /// What feeds input `index` of the nodedef of a node that stands in `context`.
+  Resolved resolve_input(const Element& node, std::uint32_t index, const Context* context);
   /// A colour as GraphOptions::output_space has it; other results as they are.
   Resolved in_output_space(const Resolved& result, const std::string& name, const Element& user);
   /// Null, after an error, for an element that is no instance of anything.

@@ -208,7 +208,9 @@ TEST_F(HostNodes, MayBeLobes) {
       <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
   </materialx>)");
   const Shader shader = system.compile_material(document, "M");
-  EXPECT_EQ(shader.lobes(), std::vector<std::string>{"grey"});
+  ASSERT_EQ(shader.lobes().size(), 1u);
+  EXPECT_EQ(shader.lobes()[0].name, "grey");
+  EXPECT_EQ(shader.lobes()[0].kinds, NACRE_DIFFUSE_REFLECTION);
   SurfacePoints points(500);
   points.shade(shader);
   for (std::size_t i = 0; i < points.points.size(); ++i) {

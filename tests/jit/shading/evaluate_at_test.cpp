@@ -44,7 +44,7 @@ TEST(EvaluateAt, AgreesWithEvaluateToTheBit) {
   builder.set(node, "coat", {Type::float_, {0.7f}, {}, {}});
   builder.output("surfaceshader", node);
   ShaderOptions options;
-  options.kernels.evaluate_at = true;
+  options.kernels.entries |= entry_evaluate_at;
   options.compile.accuracy = Accuracy::precise;
   const auto graph = builder.finish(system->graph_options(options), diagnostics);
   ASSERT_TRUE(graph.has_value()) << diagnostics.to_string();

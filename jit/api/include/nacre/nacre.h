@@ -190,7 +190,9 @@ typedef enum nacre_entry {
   NACRE_DISPLACEMENT = 8,
   NACRE_VOLUME = 9,
   NACRE_LIGHT = 10,
-  NACRE_ENTRY_COUNT = 11
+  NACRE_SHADE = 11, /* Point, wi and u at once, without a state: f and pdf of wi; as "next.wi",
+                       "next.weight", "next.pdf" the direction that u leads to. */
+  NACRE_ENTRY_COUNT = 12
 } nacre_entry;
 
 /* Bits of the channel `flags` of NACRE_SAMPLE. */
@@ -226,10 +228,22 @@ typedef struct nacre_compile_options {
      point, as channels of the slot's name. */
   const char* const* varying;
   size_t varying_count;
-  int lobes;          /* Those that are modelled. 0: all. */
-  int reverse_pdf;    /* 1: NACRE_SAMPLE and NACRE_EVALUATE also store pdf_reverse. */
-  int lobe_mask;      /* 1: a slot lobe_mask switches lobes off later. */
-  int evaluate_at;    /* 1: with NACRE_EVALUATE_AT. */
+  int lobes;       /* Those that are modelled. 0: all. */
+  int reverse_pdf; /* 1: NACRE_SAMPLE and NACRE_EVALUATE also store pdf_reverse. */
+  int lobe_mask;   /* 1: a slot lobe_mask switches lobes off later. */
+  int by_lobe;     /* 1: NACRE_SAMPLE, NACRE_EVALUATE and NACRE_SHADE also store the part of each
+                      lobe: "f.lobe0", "weight.lobe0", ... */
+  int min_alpha;   /* 1: a slot min_alpha raises the roughness of what is smoother, so that paths
+                      behind rough bounces find no sharp lobes. */
+  /* Bits 1 << nacre_entry of those that are compiled, for rays that ask no more: a shadow ray needs
+     NACRE_OPACITY. NACRE_BEGIN comes with what reads its state. 0: all but NACRE_EVALUATE_AT and
+     NACRE_SHADE. */
+  uint32_t entries;
+  /* What NACRE_BEGIN and NACRE_SHADE also store, so that nothing of a point is computed twice:
+     "albedo", "emission", "opacity" (and transmission), "normal", "roughness", or a value of the
+     graph by its path: "NG_marble/noise1", "NG_marble/separate1/outx", "SR_marble/base_color". */
+  const char* const* with_begin;
+  size_t with_begin_count;
   int side;           /* NACRE_BACK: what the back shows, see nacre_shader_has_back. */
   int background;     /* 1: return at once, and interpret until the code is there; the same bits. */
   double max_seconds; /* Of the call. 0: 60. */
@@ -266,9 +280,17 @@ NACRE_API size_t nacre_shader_state_count(const nacre_shader* shader);
 /* 1 if the back shows another shader, to be compiled with NACRE_BACK and used where
    dot(Ng, wo) < 0. */
 NACRE_API int nacre_shader_has_back(const nacre_shader* shader);
-/* Names; the channel `lobe` counts in this order. */
+typedef struct nacre_lobe_info {
+  size_t size;
+  const char* name; /* Category of its node: "dielectric_bsdf". */
+  const char* path; /* The node, "SR_gold/coat_bsdf": a label for light path expressions. */
+  int kinds;        /* NACRE_DIFFUSE_REFLECTION and so on. */
+} nacre_lobe_info;
+
+/* The channel `lobe` counts in this order. */
 NACRE_API size_t nacre_shader_lobe_count(const nacre_shader* shader);
-NACRE_API const char* nacre_shader_lobe(const nacre_shader* shader, size_t index);
+NACRE_API nacre_status nacre_shader_lobe(const nacre_shader* shader, size_t index,
+                                         nacre_lobe_info* info);
 /* Lines that say what the kernels leave out; of those that change the picture `changes_picture`,
    which may be NULL, is 1. */
 NACRE_API size_t nacre_shader_left_out_count(const nacre_shader* shader);

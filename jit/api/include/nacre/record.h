@@ -201,6 +201,10 @@ typedef struct nacre_lobe {
   void (*albedo)(void* user, const nacre_view* view, nacre_value rgb[3]);
   /* What passes to a layer below. NULL: 1 - albedo, or 0 where opaque. */
   void (*throughput)(void* user, const nacre_view* view, nacre_value rgb[3]);
+  /* For renderers' images of normals: unit, world space. NULL: the shading normal. */
+  void (*normal)(void* user, const nacre_view* view, nacre_value xyz[3]);
+  /* And of roughness, in [0, 1]. NULL: 1. */
+  void (*roughness)(void* user, const nacre_view* view, nacre_value* roughness);
 } nacre_lobe;
 
 /* Sets the node's first output, a BSDF, to the lobe times its input "weight". */

@@ -60,6 +60,16 @@ class Lobe {
     return is_opaque() ? Float3(0.0f) : Float3(1.0f) - albedo(view);
   }
   virtual bool is_opaque() const { return false; }
+  /// For renderers' images.
+  /// @{
+  virtual Float3 normal(const View& view) const {
+    const auto channel = [&](const char* name) {
+      return Float(nacre_read_channel(view.recorder, name, NACRE_FLOAT));
+    };
+    return {channel("N.x"), channel("N.y"), channel("N.z")};
+  }
+  virtual Float roughness(const View&) const { return 1.0f; }
+  /// @}
 };
 
 namespace detail {
@@ -169,6 +179,12 @@ class Node {
     };
     made.throughput = [](void* user, const nacre_view* view, nacre_value* rgb) {
       detail::put(rgb, detail::lobe_of(user).throughput(detail::view_of(view)));
+    };
+    made.normal = [](void* user, const nacre_view* view, nacre_value* xyz) {
+      detail::put(xyz, detail::lobe_of(user).normal(detail::view_of(view)));
+    };
+    made.roughness = [](void* user, const nacre_view* view, nacre_value* roughness) {
+      *roughness = detail::lobe_of(user).roughness(detail::view_of(view)).value();
     };
     nacre_node_set_lobe(node_, &made);
   }

@@ -35,6 +35,12 @@ struct Channel {
   std::string unit, meaning;
 };
 
+/// A lobe of a material; see nacre_lobe_info.
+struct LobeInfo {
+  std::string name, path;
+  int kinds = 0;
+};
+
 /// The compiled kernels of a material or of outputs.
 class Shader {
  public:
@@ -48,12 +54,15 @@ class Shader {
   /// Numbers a point that NACRE_BEGIN stores for the other entries.
   std::size_t state_count() const { return nacre_shader_state_count(get()); }
   bool has_back() const { return nacre_shader_has_back(get()) != 0; }
-  std::vector<std::string> lobes() const {
-    std::vector<std::string> names;
+  std::vector<LobeInfo> lobes() const {
+    std::vector<LobeInfo> list;
     for (std::size_t i = 0; i < nacre_shader_lobe_count(get()); ++i) {
-      names.emplace_back(nacre_shader_lobe(get(), i));
+      nacre_lobe_info one{};
+      one.size = sizeof one;
+      detail::check(nacre_shader_lobe(get(), i, &one));
+      list.push_back({one.name, one.path, one.kinds});
     }
-    return names;
+    return list;
   }
   /// What the kernels leave out, a line each.
   std::vector<std::string> left_out() const {

@@ -60,7 +60,10 @@ struct CompileOptions {
   int lobes = 0;
   bool reverse_pdf = false;
   bool lobe_mask = false;
-  bool evaluate_at = false;
+  bool by_lobe = false;
+  bool min_alpha = false;
+  std::uint32_t entries = 0;            ///< Bits 1 << nacre_entry.
+  std::vector<std::string> with_begin;  ///< "albedo", "normal", "SR_gold/base_color".
   int side = NACRE_FRONT;
   bool background = false;
   double max_seconds = 0;
@@ -123,6 +126,7 @@ class System {
   static Shader compile(const CompileOptions& options, std::vector<Diagnostic>* said, Make&& call) {
     const detail::TextList live(options.live);
     const detail::TextList varying(options.varying);
+    const detail::TextList with_begin(options.with_begin);
     const detail::TextList paths(options.search_paths);
     nacre_compile_options asked{};
     asked.size = sizeof asked;
@@ -136,7 +140,11 @@ class System {
     asked.lobes = options.lobes;
     asked.reverse_pdf = options.reverse_pdf;
     asked.lobe_mask = options.lobe_mask;
-    asked.evaluate_at = options.evaluate_at;
+    asked.by_lobe = options.by_lobe;
+    asked.min_alpha = options.min_alpha;
+    asked.entries = options.entries;
+    asked.with_begin = with_begin.data();
+    asked.with_begin_count = with_begin.size();
     asked.side = options.side;
     asked.background = options.background;
     asked.max_seconds = options.max_seconds;

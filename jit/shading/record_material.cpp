@@ -1,0 +1,181 @@
+// What of a recording each kernel of a material computes.
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "jit/record/leaves.h"
+#include "jit/shading/compilation.h"
+#include "pbs/shader_channels.h"
+#include "pbs/sides.h"
+#include "runtime/channel/channel_name.h"
+#include "runtime/program/fix_inputs.h"
+
+namespace nacre {
+
+namespace {
+
+/// The sides of the material that a graph is of. Reports a back that is not shown.
+SurfaceSides sides_of(const Graph& graph, const std::vector<Recorded>& values,
+                      Diagnostics& diagnostics) {
+  SurfacePtr front;
+  SurfacePtr back;
+  const GraphOutput* back_output = nullptr;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const GraphOutput& output = graph.outputs[i];
+    if (output.type != Type::surfaceshader) continue;
+    if (output.name == "backsurfaceshader") {
+      back = as_surface(values[i].closure);
+      back_output = &output;
+    } else if (front == nullptr) {
+      front = as_surface(values[i].closure);
+    }
+  }
+  const bool two_shaders = front != nullptr && back != nullptr && front != back;
+  SurfaceSides sides = surface_sides(std::move(front), std::move(back));
+  if (two_shaders && sides.back == nullptr) {
+    const bool is_node = back_output->source.kind == Source::Kind::link;
+    diagnostics.warning("back-not-shown",
+                        is_node ? graph.nodes[back_output->source.node].where : SourceLocation{},
+                        "the backsurfaceshader is not shown, for neither side is thin-walled",
+                        "a thin-walled surface on one of the sides");
+  }
+  return sides;
+}
+
+/// The kernels of a material that are no surface's.
+struct OtherKernel {
+  Type type;
+  KernelEntry entry;
+  const char* name;
+  std::optional<BoundKernel> MaterialKernels::* place;
+};
+constexpr OtherKernel other_kernels[] = {
+    {Type::displacementshader, entry_displacement, "displacement", &MaterialKernels::displacement},
+    {Type::lightshader, entry_light, "light", &MaterialKernels::light},
+    {Type::volumeshader, entry_volume, "volume", &MaterialKernels::volume}};
+
+/// The results of `shade`: those of evaluate, and of sample by names that say whose they are.
+std::vector<SliceOutput> shade_results(const SurfaceKernels& kernels) {
+  std::vector<SliceOutput> results = kernels.evaluate;
+  for (SliceOutput result : kernels.sample) {
+    const bool is_plain = result.name == "lobe" || result.name == "flags";
+    if (!is_plain) result.name = "next." + result.name;
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+std::vector<SliceOutput> joined(std::vector<SliceOutput> first,
+                                const std::vector<SliceOutput>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+}  // namespace
+
+std::optional<Compilation::RecordedMaterial> Compilation::record_material(
+    const Graph& graph, const SourceLocation& where) {
+  const auto has = [&](Type type) {
+    return std::ranges::any_of(graph.outputs,
+                               [&](const GraphOutput& output) { return output.type == type; });
+  };
+  if (!has(Type::surfaceshader) && !has(Type::volumeshader) && !has(Type::displacementshader) &&
+      !has(Type::lightshader)) {
+    diagnostics_.error("no-surface", where, "the material has no shader",
+                       "a surface, volume, displacement or light shader");
+    return std::nullopt;
+  }
+  const auto values = record(graph);
+  if (!values) return std::nullopt;
+  const SurfaceSides sides = sides_of(graph, *values, diagnostics_);
+  const bool is_back = options_.side == Side::back && sides.back != nullptr;
+  const SurfacePtr surface = is_back ? sides.back : sides.front;
+  if (surface == nullptr && has(Type::surfaceshader)) {
+    diagnostics_.error("no-surface", where, "the material's surface shader is not connected",
+                       "a surface shader");
+    return std::nullopt;
+  }
+  const SurfaceKernels surface_kernels =
+      surface == nullptr ? SurfaceKernels{}
+                         : record_kernels(recorder_, *surface, options_.compile.accuracy,
+                                          options_.kernels, [this] { return may_go_on(); });
+  if (!surface_kernels.complete) return std::nullopt;
+  RecordedMaterial recorded;
+  MaterialKernels& kernels = recorded.kernels;
+  kernels.has_surface = surface != nullptr;
+  kernels.has_back = sides.back != nullptr;
+  kernels.lobes = surface_kernels.lobes;
+  kernels.manifest = surface_kernels.manifest;
+  kernels.not_modelled = surface_kernels.not_modelled;
+  const std::vector<SliceOutput> point = point_results(graph, *values, surface_kernels);
+  std::set<std::uint32_t> state;
+  const auto add = [&](std::optional<BoundKernel> MaterialKernels::* place, Program program) {
+    for (const std::uint32_t k : state_channels(program)) state.insert(k);
+    recorded.programs.push_back(std::move(program));
+    recorded.places.push_back(place);
+  };
+  const auto wants = [&](KernelEntry entry) { return (options_.kernels.entries & entry) != 0; };
+  const auto add_entry = [&](std::optional<BoundKernel> MaterialKernels::* place, const char* name,
+                             const std::vector<SliceOutput>& outputs, Keeps keeps) {
+    if (!outputs.empty()) add(place, slice(recorder_.program(), name, outputs, keeps));
+  };
+  if (wants(entry_sample)) {
+    add_entry(&MaterialKernels::sample, "sample", surface_kernels.sample, Keeps::load);
+  }
+  if (wants(entry_evaluate)) {
+    add_entry(&MaterialKernels::evaluate, "evaluate", surface_kernels.evaluate, Keeps::load);
+  }
+  kernels.state.assign(state.begin(), state.end());
+  if (wants(entry_evaluate_at) && !surface_kernels.evaluate.empty()) {
+    const auto is_of_point = [](std::string_view channel) { return !channel.starts_with("wi."); };
+    add(&MaterialKernels::evaluate_at,
+        fix_inputs(slice(recorder_.program(), "evaluate_at", surface_kernels.evaluate, Keeps::load),
+                   is_of_point));
+  }
+  add_entry(&MaterialKernels::albedo, "albedo", surface_kernels.albedo, Keeps::pass);
+  add_entry(&MaterialKernels::emission, "emission", surface_kernels.emission, Keeps::pass);
+  add_entry(&MaterialKernels::opacity, "opacity", surface_kernels.opacity, Keeps::pass);
+  for (const Recorded& value : *values) {
+    const auto found = std::ranges::find(other_kernels, value.type, &OtherKernel::type);
+    if (found == std::end(other_kernels) || !wants(found->entry)) continue;
+    const auto list = shader_channels(recorder_, options_.compile.accuracy, value);
+    if (all_zero(list)) {
+      kernels.manifest.push_back(std::string(found->name) + ": always nothing");
+      continue;
+    }
+    add_entry(found->place, found->name, list, Keeps::pass);
+  }
+  // The state has no place in a call that asks everything at once.
+  if (wants(entry_shade)) {
+    add_entry(&MaterialKernels::shade, "shade", joined(shade_results(surface_kernels), point),
+              Keeps::pass);
+  }
+  const bool stores_point = wants(entry_begin) && !point.empty();
+  add_entry(&MaterialKernels::begin, "begin",
+            joined(state_outputs(recorder_, kernels.state),
+                   stores_point ? point : std::vector<SliceOutput>{}),
+            Keeps::pass);
+  return recorded;
+}
+
+std::vector<SliceOutput> Compilation::point_results(const Graph& graph,
+                                                    const std::vector<Recorded>& values,
+                                                    const SurfaceKernels& kernels) {
+  std::vector<SliceOutput> results;
+  const auto take = [&](const SliceOutput& result, const std::string& group) {
+    const std::string_view name = parse_channel(result.name).group;
+    if (name == group || (group == "opacity" && name == "transmission")) results.push_back(result);
+  };
+  for (const std::string& name : options_.kernels.with_begin) {
+    for (const SliceOutput& result : kernels.point) take(result, name);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (graph.outputs[i].name == name && is_numeric(values[i].type)) {
+        results = joined(std::move(results), channels_of(name, values[i]));
+      }
+    }
+  }
+  return results;
+}
+
+}  // namespace nacre
