@@ -188,17 +188,26 @@ def growth(run: results.Run) -> str:
 def hosts(run: results.Run) -> str:
     entries = ("begin", "sample", "evaluate", "albedo")
     rows = []
-    for case in ("columns/all", "columns/half", "columns/half_in_any_order", "structures/all",
-                 "structures/half", "instances/all"):
+    for case in ("columns/all", "columns/half", "columns/half_in_any_order",
+                 "columns/half_of_state", "structures/all", "structures/half", "instances/all"):
         rows.append([case] + [cell(run.get(f"hosts/{entry}/{case}")) for entry in entries])
+    ways = [[name.replace("_", " "), cell(run.get(f"hosts/point/{name}"))]
+            for name in ("begin", "begin_with", "begin_and_aovs", "apart",
+                         "begin_sample_evaluate", "shade")]
     one = run.get("hosts/evaluate/one_point")
     made = run.get("hosts/instance")
     return ("What a host pays for the way it keeps its points: standard_surface with every number "
             "live, time for each point that is shaded. Half of the points are picked by a list, "
-            "at random; instances differ in colour and roughness from point to point.\n\n"
+            "at random, and their state is kept by place in the list, but in the row half_of_state; "
+            "instances differ in colour and roughness from point to point.\n\n"
             + table(["points"] + list(entries), rows)
             + f"\nA call for one point (evaluate): {cell(one)} ns. An instance, made and given a "
-            f"colour: {cell(made)} ns.\n")
+            f"colour: {cell(made)} ns.\n\n"
+            "More of a point, of a standard_surface whose colour, emission and presence are one "
+            "fractal noise of six octaves: begin alone; with albedo, emission and opacity; with "
+            "normal, roughness and base colour too; those three by kernels of their own after it; "
+            "begin, sample and evaluate one after another; and all at once.\n\n"
+            + table(["asked", "ns"], ways))
 
 
 PAGES = {

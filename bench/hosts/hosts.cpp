@@ -13,29 +13,32 @@
 #include <string>
 #include <vector>
 
+#include "bench/hosts/points.h"
+
 namespace nacre::bench {
 
 /// See bench/common/benchmarks.h, which a host does not know.
 void register_benchmarks();
+/// Of point_results.cpp.
+void register_point_results();
 
 namespace {
-
-constexpr std::size_t all = 4096;
-constexpr std::size_t numbers_a_point = 21;
 
 /// How a host keeps its points, and which of them it shades.
 struct Case {
   const char* name;
   bool structures;  ///< Else a column a number.
   enum { every, half_in_order, half_in_any_order } list;
-  bool varying;  ///< base_color and roughness by instances.
+  bool varying = false;         ///< base_color and roughness by instances.
+  bool state_by_place = false;  ///< Else an element for each point, listed or not.
 };
 constexpr Case cases[] = {
-    {"columns/all", false, Case::every, false},
-    {"columns/half", false, Case::half_in_order, false},
-    {"columns/half_in_any_order", false, Case::half_in_any_order, false},
-    {"structures/all", true, Case::every, false},
-    {"structures/half", true, Case::half_in_order, false},
+    {"columns/all", false, Case::every},
+    {"columns/half", false, Case::half_in_order, false, true},
+    {"columns/half_in_any_order", false, Case::half_in_any_order, false, true},
+    {"columns/half_of_state", false, Case::half_in_order},
+    {"structures/all", true, Case::every},
+    {"structures/half", true, Case::half_in_order, false, true},
     {"instances/all", false, Case::every, true},
 };
 
@@ -47,87 +50,6 @@ constexpr Entry entries[] = {{NACRE_BEGIN, "begin"},
                              {NACRE_SAMPLE, "sample"},
                              {NACRE_EVALUATE, "evaluate"},
                              {NACRE_ALBEDO, "albedo"}};
-
-System& host_system() {
-  static System system;
-  return system;
-}
-
-/// Named groups of numbers, every one an array of its own or all in structures.
-class Points {
- public:
-  explicit Points(bool structures) : structures_(structures) {
-    std::mt19937 random(1);
-    const auto number = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
-    for (std::size_t i = 0; i < all; ++i) {
-      const float z = 0.05f + 0.95f * number();
-      const float azimuth = 6.2831853f * number();
-      const float r = std::sqrt(1 - z * z);
-      const float P[]{number(), number(), 0};
-      const float N[]{0, 0, 1}, T[]{1, 0, 0}, B[]{0, 1, 0};
-      const float wo[]{r * std::cos(azimuth), r * std::sin(azimuth), z};
-      const float u[]{number(), number(), number()};
-      for (const auto* group : {P, N, T, B, wo, u, wo}) {
-        numbers_.insert(numbers_.end(), group, group + 3);
-      }
-    }
-    if (!structures_) {
-      std::vector<float> columns(numbers_.size());
-      for (std::size_t i = 0; i < all; ++i) {
-        for (std::size_t k = 0; k < numbers_a_point; ++k) {
-          columns[k * all + i] = numbers_[numbers_a_point * i + k];
-        }
-      }
-      numbers_ = std::move(columns);
-    }
-    for (std::size_t i = 0; i < all; ++i)
-      instances_.push_back(static_cast<std::uint32_t>(i * 7 % 16));
-    for (int k = 0; k < 16 * 4; ++k) looks_.push_back(0.1f + 0.8f * number());
-  }
-
-  Binding bind(const Shader& shader) {
-    state_.resize(std::max<std::size_t>(shader.state_count(), 1) * all);
-    Binder binder;
-    const auto group = [&](std::initializer_list<const char*> names, std::ptrdiff_t first) {
-      for (const char* name : names) {
-        binder.array(name, structures_ ? Layout{0, 4 * first, 4 * numbers_a_point}
-                                       : Layout{0, 4 * first * std::ptrdiff_t(all), 4, 4 * all});
-      }
-    };
-    group({"P", "Po"}, 0);
-    group({"N", "No", "Ng"}, 3);
-    group({"T", "To"}, 6);
-    group({"B", "Bo"}, 9);
-    group({"wo"}, 12);
-    group({"u"}, 15);
-    group({"wi"}, 18);
-    binder.array("state", {1, 0, 4, 4 * all});
-    results_.resize(12 * all);
-    const auto result = [&](const char* name, std::ptrdiff_t first) {
-      binder.array(name, structures_ ? Layout{2, 4 * first, 48}
-                                     : Layout{2, 4 * first * std::ptrdiff_t(all), 4, 4 * all});
-    };
-    result("f", 0), result("weight", 3), result("pdf", 6);
-    result("flags", 7), result("lobe", 8), result("albedo", 9);
-    binder.array("S_standard_surface/base_color", {3, 0, 16, 4, NACRE_OF_INSTANCE});
-    binder.array("S_standard_surface/specular_roughness", {3, 12, 16, 4, NACRE_OF_INSTANCE});
-    return Binding(binder, shader);
-  }
-
-  std::vector<void*> arrays() {
-    return {numbers_.data(), state_.data(), results_.data(), looks_.data()};
-  }
-  const std::uint32_t* instances() const { return instances_.data(); }
-  /// Result number `k` of a point.
-  float result(std::size_t i, std::size_t k) const {
-    return structures_ ? results_[12 * i + k] : results_[k * all + i];
-  }
-
- private:
-  bool structures_;
-  std::vector<float> numbers_, state_, results_, looks_;
-  std::vector<std::uint32_t> instances_;
-};
 
 Shader shader_of(bool varying) {
   CompileOptions options;
@@ -168,13 +90,13 @@ Batch batch_of(const Case& host, const std::vector<std::uint32_t>& list, const P
 bool is_right(const Case& host, nacre_entry entry) {
   if (host.varying) return true;  // tests/jit/api compares those with instances.
   const std::vector<std::uint32_t> list = list_of(host);
-  Points expected(false), found(host.structures);
+  Points expected(false), found(host.structures, host.state_by_place);
   const Binding plain = expected.bind(shader(false));
   const Binding bound = found.bind(shader(false));
   Batch whole;
   whole.count = all;
   plain.run(NACRE_BEGIN, expected.arrays(), whole);
-  bound.run(NACRE_BEGIN, found.arrays(), whole);
+  bound.run(NACRE_BEGIN, found.arrays(), host.state_by_place ? batch_of(host, list, found) : whole);
   plain.run(entry, expected.arrays(), whole);
   bound.run(entry, found.arrays(), batch_of(host, list, found));
   if (entry == NACRE_BEGIN) return true;  // Its state is what the others were run on.
@@ -190,15 +112,14 @@ bool is_right(const Case& host, nacre_entry entry) {
 
 void run_case(benchmark::State& state, const Case& host, nacre_entry entry) {
   if (!is_right(host, entry)) return state.SkipWithError("another result than of plain columns");
-  Points points(host.structures);
+  Points points(host.structures, host.state_by_place);
   const Binding binding = points.bind(shader(host.varying));
   const std::vector<std::uint32_t> list = list_of(host);
   const Batch batch = batch_of(host, list, points);
   const std::vector<void*> arrays = points.arrays();
-  Batch whole = batch;
-  whole.count = all;
-  whole.points = nullptr;
-  binding.run(NACRE_BEGIN, arrays, whole);
+  Batch first = batch;
+  if (!host.state_by_place) first.count = all, first.points = nullptr;
+  binding.run(NACRE_BEGIN, arrays, first);
   for (auto _ : state) binding.run(entry, arrays, batch);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch.count));
 }
@@ -234,6 +155,7 @@ void run_instances(benchmark::State& state) {
 }  // namespace
 
 void register_benchmarks() {
+  register_point_results();
   for (const Case& host : cases) {
     for (const Entry& entry : entries) {
       const std::string name = "hosts/" + std::string(entry.name) + '/' + host.name;

@@ -345,7 +345,8 @@ NACRE_API nacre_status nacre_instance_get(const nacre_instance* instance, size_t
 /* Which element of an array belongs to the i-th point that is shaded. */
 enum {
   NACRE_OF_POINT = 0,   /* Element points[i] of nacre_batch::points; i where there is no list. */
-  NACRE_OF_PLACE = 1,   /* Element i: arrays that are as long as the list. */
+  NACRE_OF_PLACE = 1,   /* Element i: arrays that are as long as the list. Best for the state where
+                           all entries are given the same list. */
   NACRE_OF_INSTANCE = 2 /* Element instances[points[i]], or instances[i]. */
 };
 
