@@ -35,6 +35,7 @@ ShaderOptions shader_options(const nacre_compile_options* given) {
   for (const std::string& path : texts_of(asked.search_paths, asked.search_path_count)) {
     options.search_paths.emplace_back(path);
   }
+  options.footprints = asked.no_footprints == 0;
   options.files_anywhere = asked.files_anywhere != 0;
   if (asked.missing_images_pass != 0) options.missing_images = MissingImages::use_default;
   options.graph.lenient = asked.lenient != 0;

@@ -14,6 +14,7 @@
 #include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
 #include "pbs/shader_channels.h"
+#include "runtime/program/drop_footprints.h"
 #include "runtime/report_stop.h"
 
 namespace nacre {
@@ -157,7 +158,10 @@ void Compilation::add_located(const Diagnostics& said) {
 
 std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program> programs) {
   std::vector<std::string> names;
-  for (const Program& program : programs) names.push_back(program.name);
+  for (Program& program : programs) {
+    names.push_back(program.name);
+    if (!options_.footprints) program = drop_footprints(program);
+  }
   std::vector<std::vector<StageReport>> reports;
   Diagnostics said;
   auto compiled =

@@ -70,6 +70,9 @@ struct ShaderOptions {
   bool lazy = true;  ///< See RecordOptions.
   /// Of footprints on images, 1 .. largest_anisotropy; see runtime/texture/sampling.h.
   int max_anisotropy = default_anisotropy;
+  /// Whether images are filtered and derivatives taken by how channels change from sample to
+  /// sample. False: points have no extent, and no such channels are read.
+  bool footprints = true;
   Side side = Side::front;  ///< Of a material; see MaterialKernels::has_back.
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;

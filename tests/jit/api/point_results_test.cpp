@@ -273,6 +273,27 @@ TEST_F(PointResults, OnlyWhatARayAsksIsCompiled) {
   EXPECT_FALSE(lit.has(NACRE_SAMPLE));
 }
 
+TEST_F(PointResults, PointsMayHaveNoExtent) {
+  const std::string text = of_lobe(R"(
+    <position name="place" type="vector3"/>
+    <separate3 name="parts" type="multioutput"><input name="in" type="vector3" nodename="place"/></separate3>
+    <heighttonormal name="bumpy" type="vector3"><input name="in" type="float" nodename="parts" output="outx"/></heighttonormal>
+    <oren_nayar_diffuse_bsdf name="lobe" type="BSDF"><input name="normal" type="vector3" nodename="bumpy"/></oren_nayar_diffuse_bsdf>)");
+  const auto reads_changes = [](const Shader& shader) {
+    for (const Channel& channel : shader.inputs(NACRE_BEGIN)) {
+      if (channel.name.starts_with("dP")) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(reads_changes(compile(text)));
+  CompileOptions options = with_begin({"bumpy"});
+  options.no_footprints = true;
+  const Shader shader = compile(text, options);
+  EXPECT_FALSE(reads_changes(shader));
+  // No slope is known: an encoded normal straight up.
+  EXPECT_EQ(run(shader, NACRE_BEGIN).at("bumpy.z"), std::vector<float>(count, 1.0f));
+}
+
 TEST_F(PointResults, FacetsAreNoSmootherThanTheHostSays) {
   const auto metal = [](const char* alpha) {
     return of_lobe(std::string(R"(<conductor_bsdf name="lobe" type="BSDF">

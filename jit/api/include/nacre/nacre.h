@@ -248,6 +248,8 @@ typedef struct nacre_compile_options {
   int background;     /* 1: return at once, and interpret until the code is there; the same bits. */
   double max_seconds; /* Of the call. 0: 60. */
   int max_anisotropy; /* Of footprints on images. 0: 16. */
+  int no_footprints;  /* 1: points have no extent: images are not filtered, and no channels as dPdx
+                         are read. For rays of which nobody knows more. */
   const char* const* search_paths; /* Of images, after the document's own folder. */
   size_t search_path_count;
   int files_anywhere;      /* 1: images also from outside those folders. */

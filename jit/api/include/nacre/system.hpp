@@ -68,6 +68,7 @@ struct CompileOptions {
   bool background = false;
   double max_seconds = 0;
   int max_anisotropy = 0;
+  bool no_footprints = false;
   std::vector<std::string> search_paths;
   bool files_anywhere = false;
   bool missing_images_pass = false;
@@ -149,6 +150,7 @@ class System {
     asked.background = options.background;
     asked.max_seconds = options.max_seconds;
     asked.max_anisotropy = options.max_anisotropy;
+    asked.no_footprints = options.no_footprints;
     asked.search_paths = paths.data();
     asked.search_path_count = paths.size();
     asked.files_anywhere = options.files_anywhere;
