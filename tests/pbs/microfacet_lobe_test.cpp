@@ -19,7 +19,9 @@ class Scattering {
     Surface surface;
     surface.bsdf = make(recorder_);
     surface.thin_walled = thin_walled;
-    kernels_ = record_kernels(recorder_, surface, Accuracy::standard, {.reverse_pdf = true});
+    KernelRequest request;
+    request.reverse_pdf = true;
+    kernels_ = record_kernels(recorder_, surface, Accuracy::standard, request);
   }
   DoubleColumns evaluate(const Columns& in) const { return run(kernels_.evaluate, in); }
   DoubleColumns sample(const Columns& in) const { return run(kernels_.sample, in); }

@@ -45,8 +45,9 @@ LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile)
   }
   Surface surface;
   surface.bsdf = make_lobe(recorder, row, inputs, accuracy, more);
-  const SurfaceKernels kernels = record_kernels(
-      recorder, surface, accuracy, {.lobes = lobe_all, .lobe_mask = false, .reverse_pdf = true});
+  KernelRequest request;
+  request.reverse_pdf = true;
+  const SurfaceKernels kernels = record_kernels(recorder, surface, accuracy, request);
   return {slice(recorder.program(), "evaluate", kernels.evaluate),
           slice(recorder.program(), "sample", kernels.sample),
           slice(recorder.program(), "albedo", kernels.albedo)};
