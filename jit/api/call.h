@@ -39,12 +39,16 @@ nacre_status guarded(Body&& body) noexcept {
 /// The diagnostics of a call, with or without somebody who reads them.
 class Said {
  public:
-  explicit Said(nacre_report* report) : said_(report != nullptr ? report->said : own_) {}
+  explicit Said(nacre_report* report)
+      : said_(report != nullptr ? report->said : own_), errors_before_(said_.error_count()) {}
   Diagnostics& diagnostics() { return said_; }
+  /// Whether there are errors of this call.
+  bool has_errors() const { return said_.error_count() != errors_before_; }
 
  private:
   Diagnostics own_;
   Diagnostics& said_;
+  std::size_t errors_before_;
 };
 
 /// The host's options, with what its version of them does not have being 0.

@@ -43,8 +43,9 @@ ShaderOptions shader_options(const nacre_compile_options* given) {
 }
 
 template <class Kernels>
-nacre_status hand_out(std::unique_ptr<Kernels> kernels, nacre_shader** shader) {
-  if (kernels == nullptr) return NACRE_FAILED;
+nacre_status hand_out(std::unique_ptr<Kernels> kernels, Said& said, nacre_shader** shader) {
+  // Kernels that lack an image are there, and not right.
+  if (kernels == nullptr || said.has_errors()) return NACRE_FAILED;
   *shader = new nacre_shader{std::make_shared<const ShaderData>(std::move(kernels))};
   return NACRE_OK;
 }
@@ -69,7 +70,7 @@ nacre_status nacre_compile_material(nacre_system* system, const nacre_document* 
     Said said(report);
     return hand_out(system->system->compile_material(*document->document, material,
                                                      shader_options(options), said.diagnostics()),
-                    shader);
+                    said, shader);
   });
 }
 
@@ -88,7 +89,7 @@ nacre_status nacre_compile_outputs(nacre_system* system, const nacre_document* d
     return hand_out(
         system->system->compile_outputs(*document->document, texts_of(outputs, output_count),
                                         shader_options(options), said.diagnostics()),
-        shader);
+        said, shader);
   });
 }
 

@@ -250,5 +250,23 @@ TEST(ApiShader, AStopEndsARun) {
   EXPECT_FALSE(binding.run(NACRE_BEGIN, points.arrays(), batch));
 }
 
+TEST(ApiShader, ThatLacksAnImageIsAnErrorUnlessTheHostLetsItPass) {
+  const std::string text = R"(<materialx version="1.39">
+    <image name="I" type="color3"><input name="file" type="filename" value="none.png"/></image>
+    <output name="out" type="color3" nodename="I"/></materialx>)";
+  try {
+    shared_system().compile_outputs(Document::parse(text), {"out"});
+    FAIL() << "nothing was said";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.diagnostics().front().path, "I/file") << error.what();
+  }
+  CompileOptions options;
+  options.missing_images_pass = true;
+  std::vector<Diagnostic> said;
+  shared_system().compile_outputs(Document::parse(text), {"out"}, options, &said);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said.front().severity, NACRE_WARNING);
+}
+
 }  // namespace
 }  // namespace nacre
