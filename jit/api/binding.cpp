@@ -1,6 +1,9 @@
 // Where a host has its numbers, and running kernels on them.
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstring>
 #include <optional>
 #include <span>
 
@@ -13,6 +16,9 @@ using namespace nacre::api;
 struct nacre_binding {
   std::shared_ptr<const ShaderData> data;
   std::array<std::optional<Binding>, NACRE_ENTRY_COUNT> entries;
+  /// Of NACRE_EVALUATE_AT: where ShaderData::point_channels() are, as inputs.
+  std::optional<Binding> of_point;
+  std::vector<std::uint32_t> point_slots;  ///< Of the kernel, one each of its inputs.
 };
 
 namespace {
@@ -26,9 +32,14 @@ class Block {
         const std::vector<std::uint32_t>& present) {
     if (places.size() > few_.size()) many_.resize(places.size());
     std::uint32_t* to = many_.empty() ? few_.data() : many_.data();
-    for (std::size_t i = 0; i < places.size(); ++i) to[i] = values[places[i]];
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      to[i] = places[i] != ShaderData::of_point ? values[places[i]] : 0;
+    }
     for (const std::uint32_t slot : present) to[slot] = 1;
     block_ = {to, places.size()};
+  }
+  void set(std::size_t slot, std::uint32_t bits) {
+    (many_.empty() ? few_.data() : many_.data())[slot] = bits;
   }
   std::span<const std::uint32_t> get() const { return block_; }
 
@@ -37,6 +48,42 @@ class Block {
   std::vector<std::uint32_t> many_;
   std::span<const std::uint32_t> block_;
 };
+
+/// The channels of NACRE_EVALUATE_AT's one point that the kernel has slots for, as if another
+/// kernel read them. False, with errors, where one has no place.
+bool bind_point(const Binder& binder, nacre_binding& binding, Diagnostics& said) {
+  const auto& slots = binding.data->kernel(NACRE_EVALUATE_AT)->program().parameters;
+  Program reader;
+  for (const Channel& channel : binding.data->point_channels()) {
+    const auto slot = std::ranges::find(slots, channel.name, &ParameterSlot::name);
+    if (slot == slots.end()) continue;
+    binding.point_slots.push_back(static_cast<std::uint32_t>(slot - slots.begin()));
+    reader.inputs.push_back(channel);
+  }
+  binding.of_point = binder.finish(reader, binding.data->state(), said);
+  return binding.of_point.has_value();
+}
+
+/// Fills in the slots of the one point; false where the batch lacks an array or the point's
+/// instance.
+bool take_point(const nacre_binding& binding, const Batch& batch, std::uint32_t point,
+                Block& block) {
+  const Binding& of_point = *binding.of_point;
+  if (batch.arrays.size() < of_point.arrays) return false;
+  for (std::size_t i = 0; i < of_point.inputs.size(); ++i) {
+    const ChannelLayout& layout = of_point.inputs[i];
+    const bool is_of_instance = layout.element == ElementOf::instance;
+    if (is_of_instance && batch.instances == nullptr) return false;
+    const std::uint32_t element = is_of_instance ? batch.instances[point] : point;
+    const auto* array = static_cast<const std::byte*>(
+        layout.array == bound_constants ? of_point.constants.data() : batch.arrays[layout.array]);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, array + layout.offset + layout.stride * std::ptrdiff_t{element},
+                sizeof bits);
+    block.set(binding.point_slots[i], bits);
+  }
+  return true;
+}
 
 nacre_status status_of(RunStatus status) {
   switch (status) {
@@ -104,6 +151,8 @@ nacre_status nacre_binding_create(const nacre_binder* binder, const nacre_shader
       made->entries[entry] =
           binder->binder.finish(kernel->program(), shader->data->state(), said.diagnostics());
       is_complete = is_complete && made->entries[entry].has_value();
+      if (entry != NACRE_EVALUATE_AT) continue;
+      is_complete = bind_point(binder->binder, *made, said.diagnostics()) && is_complete;
     }
     if (!is_complete) return NACRE_FAILED;
     *binding = made.release();
@@ -131,9 +180,11 @@ nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
                       .stop = reinterpret_cast<const std::atomic<std::uint32_t>*>(
                           const_cast<const std::uint32_t*>(asked.stop))};
     const Binding& bound = *binding->entries[entry];
-    const Block block(binding->data->slots(entry),
-                      instance != nullptr ? instance->block : binding->data->block(),
-                      bound.present);
+    Block block(binding->data->slots(entry),
+                instance != nullptr ? instance->block : binding->data->block(), bound.present);
+    if (entry == NACRE_EVALUATE_AT && !take_point(*binding, batch, asked.point, block)) {
+      return NACRE_WRONG_ARGUMENTS;
+    }
     return status_of(kernel->run(bound, batch, block.get()));
   });
 }

@@ -45,7 +45,8 @@ Parameter parameter_of_slot(std::string_view group, int components, Scalar numbe
 }  // namespace
 
 ShaderData::ShaderData(std::unique_ptr<MaterialKernels> kernels)
-    : state_(std::move(kernels->state)),
+    : point_channels_(std::move(kernels->of_point)),
+      state_(std::move(kernels->state)),
       lobes_(std::move(kernels->lobes)),
       has_back_(kernels->has_back) {
   add(NACRE_BEGIN, std::move(kernels->begin));
@@ -82,10 +83,14 @@ void ShaderData::add(nacre_entry entry, std::optional<BoundKernel> kernel) {
 
 void ShaderData::lay_out(std::vector<Parameter> parameters) {
   std::map<std::string, Use, std::less<>> uses;
+  const auto is_of_point = [&](const std::optional<BoundKernel>& kernel, const std::string& slot) {
+    return &kernel == &kernels_[NACRE_EVALUATE_AT] &&
+           std::ranges::find(point_channels_, slot, &Channel::name) != point_channels_.end();
+  };
   for (const auto& kernel : kernels_) {
     if (!kernel) continue;
     for (const ParameterSlot& slot : kernel->program().parameters) {
-      uses.insert({slot.name, {slot.type, slot.value, false}});
+      if (!is_of_point(kernel, slot.name)) uses.insert({slot.name, {slot.type, slot.value, false}});
     }
     for (const Channel& channel : kernel->program().inputs) {
       uses.insert({channel.name, {channel.type, 0, true}});
@@ -137,7 +142,8 @@ void ShaderData::lay_out(std::vector<Parameter> parameters) {
   for (std::size_t entry = 0; entry < kernels_.size(); ++entry) {
     if (!kernels_[entry]) continue;
     for (const ParameterSlot& slot : kernels_[entry]->program().parameters) {
-      slots_[entry].push_back(places.at(slot.name));
+      slots_[entry].push_back(is_of_point(kernels_[entry], slot.name) ? of_point
+                                                                      : places.at(slot.name));
     }
   }
 }

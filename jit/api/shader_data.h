@@ -45,8 +45,11 @@ class ShaderData {
 
   /// The block as the document has it.
   const std::vector<std::uint32_t>& block() const { return block_; }
-  /// Place in the block of each slot of a kernel.
+  /// Place in the block of each slot of a kernel; `of_point` for those of point_channels().
   const std::vector<std::uint32_t>& slots(nacre_entry entry) const { return slots_[entry]; }
+  static constexpr std::uint32_t of_point = ~std::uint32_t{0};
+  /// The channels of the one point of NACRE_EVALUATE_AT, which are slots of its kernel.
+  const std::vector<Channel>& point_channels() const { return point_channels_; }
 
  private:
   void add(nacre_entry entry, std::optional<BoundKernel> kernel);
@@ -54,6 +57,7 @@ class ShaderData {
 
   std::array<std::optional<BoundKernel>, NACRE_ENTRY_COUNT> kernels_;
   std::array<std::vector<std::uint32_t>, NACRE_ENTRY_COUNT> slots_;
+  std::vector<Channel> point_channels_;
   std::vector<std::uint32_t> state_;
   std::vector<LobeInfo> lobes_;
   std::vector<std::pair<std::string, bool>> left_out_;

@@ -129,9 +129,11 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   kernels.state.assign(state.begin(), state.end());
   if (wants(entry_evaluate_at) && !surface_kernels.evaluate.empty()) {
     const auto is_of_point = [](std::string_view channel) { return !channel.starts_with("wi."); };
-    add(&MaterialKernels::evaluate_at,
-        fix_inputs(slice(recorder_.program(), "evaluate_at", surface_kernels.evaluate, Keeps::load),
-                   is_of_point));
+    const Program evaluate =
+        slice(recorder_.program(), "evaluate_at", surface_kernels.evaluate, Keeps::load);
+    std::ranges::copy_if(evaluate.inputs, std::back_inserter(kernels.of_point),
+                         [&](const Channel& input) { return is_of_point(input.name); });
+    add(&MaterialKernels::evaluate_at, fix_inputs(evaluate, is_of_point));
   }
   add_entry(&MaterialKernels::albedo, "albedo", surface_kernels.albedo, Keeps::pass);
   add_entry(&MaterialKernels::emission, "emission", surface_kernels.emission, Keeps::pass);

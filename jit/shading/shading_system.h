@@ -134,6 +134,7 @@ struct MaterialKernels {
   /// wi.*; every other channel of evaluate, state and geometry, is a slot of the
   /// parameter block under the channel's name, for the host to fill from the point.
   std::optional<BoundKernel> evaluate_at;
+  std::vector<Channel> of_point;  ///< Those channels of evaluate that are its slots.
   /// Only if requested: all of a point at once, without a state. Reads what `begin` reads, wi and
   /// u; stores f and pdf of wi, "next.wi", "next.weight", "next.pdf", lobe and flags of the
   /// direction that u leads to, and what KernelRequest::with_begin names.

@@ -259,6 +259,51 @@ TEST_F(PointResults, OfShadeAreThoseOfOneKernelAfterAnother) {
   }
 }
 
+TEST_F(PointResults, OfOnePointAndManyDirectionsAreThoseOfEvaluate) {
+  CompileOptions options;
+  options.entries = 1u << NACRE_EVALUATE | 1u << NACRE_EVALUATE_AT;
+  options.live = {"S/*"};
+  options.varying = {"S/coat"};
+  const Shader shader = compile(noisy, options);
+  constexpr std::size_t directions = 37;
+  std::vector<float> wi(3 * directions), f(3 * directions, -1.0f), pdf(directions);
+  for (std::size_t i = 0; i < 3 * directions; ++i) wi[i] = points.points[i / 3].wo[i % 3];
+  std::vector<float> coats(count, 0.25f);
+  Binder binder = points.binder();
+  std::vector<void*> arrays = points.arrays();
+  const auto bind = [&](const char* name, std::vector<float>& numbers, std::ptrdiff_t stride) {
+    binder.array(name, {static_cast<std::uint32_t>(arrays.size()), 0, stride});
+    arrays.push_back(numbers.data());
+  };
+  bind("wi", wi, 12), bind("f", f, 12), bind("pdf", pdf, 4), bind("S/coat", coats, 4);
+  const Binding binding(binder, shader);
+  Batch batch;
+  batch.count = count;
+  binding.run(NACRE_BEGIN, arrays, batch);
+  batch.count = directions;
+  batch.point = 511;
+  binding.run(NACRE_EVALUATE_AT, arrays, batch);
+  const std::vector<float> found = f;
+  // Evaluate takes the state and geometry of its own point: that one again and again.
+  const std::vector<std::uint32_t> same(1, 511);
+  for (std::size_t i = 0; i < directions; ++i) {
+    Batch one;
+    one.count = 1;
+    one.points = same.data();
+    std::vector<float> at(3 * count), density(count), towards(3 * count);
+    for (std::size_t k = 0; k < 3; ++k) towards[3 * 511 + k] = wi[3 * i + k];
+    std::vector<void*> moved = arrays;
+    moved[arrays.size() - 4] = towards.data();
+    moved[arrays.size() - 3] = at.data();
+    moved[arrays.size() - 2] = density.data();
+    binding.run(NACRE_EVALUATE, moved, one);
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_NEAR(found[3 * i + k], at[3 * 511 + k], 1e-5f * at[3 * 511 + k] + 1e-7f) << i;
+    }
+    ASSERT_NEAR(pdf[i], density[511], 1e-5f * density[511]) << i;
+  }
+}
+
 TEST_F(PointResults, OnlyWhatARayAsksIsCompiled) {
   CompileOptions options;
   options.entries = 1u << NACRE_OPACITY;

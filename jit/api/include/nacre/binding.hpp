@@ -58,6 +58,7 @@ struct Batch {
   const std::uint32_t* points = nullptr;
   const std::uint32_t* instances = nullptr;
   const volatile std::uint32_t* stop = nullptr;
+  std::uint32_t point = 0;  ///< Of NACRE_EVALUATE_AT.
 };
 
 /// A shader's kernels on a host's arrays.
@@ -85,6 +86,7 @@ class Binding {
     asked.points = batch.points;
     asked.instances = batch.instances;
     asked.stop = batch.stop;
+    asked.point = batch.point;
     const nacre_status status =
         nacre_run(get(), entry, instance != nullptr ? instance->get() : nullptr, &asked);
     if (status == NACRE_STOPPED) return false;

@@ -396,6 +396,9 @@ typedef struct nacre_batch {
   const uint32_t* instances;
   /* Not 0: end within some milliseconds. May be written by any thread; NULL: never. */
   const volatile uint32_t* stop;
+  /* Of NACRE_EVALUATE_AT: the element whose point the directions belong to; all else but wi and the
+     results is read there. */
+  uint32_t point;
 } nacre_batch;
 
 /* `instance` NULL: the document's values. An entry that the shader lacks computes nothing, and is
