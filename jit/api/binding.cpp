@@ -183,7 +183,7 @@ nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
     Block block(binding->data->slots(entry),
                 instance != nullptr ? instance->block : binding->data->block(), bound.present);
     if (entry == NACRE_EVALUATE_AT && !take_point(*binding, batch, asked.point, block)) {
-      return NACRE_WRONG_ARGUMENTS;
+      return nacre_status{NACRE_WRONG_ARGUMENTS};
     }
     return status_of(kernel->run(bound, batch, block.get()));
   });

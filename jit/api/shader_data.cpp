@@ -135,9 +135,9 @@ void ShaderData::lay_out(std::vector<Parameter> parameters) {
   const auto left = uses;
   for (const auto& [name, use] : left) {
     const ChannelGroup* known = find_channel_group(parse_channel(name).group);
-    const bool is_of_point =
+    const bool is_channel =
         use.is_varying && (known == nullptr || known->role != ChannelRole::slot);
-    if (!is_of_point) place(parameter_of_slot(name, 1, use.number), {use.value}, use.number);
+    if (!is_channel) place(parameter_of_slot(name, 1, use.number), {use.value}, use.number);
   }
   for (std::size_t entry = 0; entry < kernels_.size(); ++entry) {
     if (!kernels_[entry]) continue;
