@@ -258,7 +258,7 @@ TEST(ApiShader, ThatLacksAnImageIsAnErrorUnlessTheHostLetsItPass) {
     shared_system().compile_outputs(Document::parse(text), {"out"});
     FAIL() << "nothing was said";
   } catch (const Error& error) {
-    EXPECT_EQ(error.diagnostics().front().path, "I/file") << error.what();
+    EXPECT_EQ(error.diagnostics().front().path, "I") << error.what();
   }
   CompileOptions options;
   options.missing_images_pass = true;
