@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
+#include <string>
 
 #include "runtime/node/geometry.h"
 #include "runtime/program/origin.h"
@@ -62,7 +64,7 @@ class SurfaceRecorder {
     }
     if (wants(entry_emission)) record_emission();
     if (wants(entry_opacity)) record_opacity();
-    if (wants(entry_begin | entry_shade)) record_point();
+    record_point();
     return std::move(kernels_);
   }
 
@@ -248,7 +250,8 @@ class SurfaceRecorder {
   }
 
   void record_point() {
-    for (const std::string& name : request_.with_begin) {
+    const std::set<std::string> names(request_.with_begin.begin(), request_.with_begin.end());
+    for (const std::string& name : names) {
       if (name == "albedo") add_color(kernels_.point, name, albedo());
       if (name == "emission") add_color(kernels_.point, name, emission());
       if (name == "normal") add_color(kernels_.point, name, mean_normal());

@@ -107,7 +107,9 @@ void nacre_binder_destroy(nacre_binder* binder) { delete binder; }
 
 nacre_status nacre_binder_array(nacre_binder* binder, const char* name,
                                 const nacre_layout* layout) {
-  if (binder == nullptr || name == nullptr || layout == nullptr) return NACRE_WRONG_ARGUMENTS;
+  if (binder == nullptr || name == nullptr || layout == nullptr || !has_size(layout)) {
+    return NACRE_WRONG_ARGUMENTS;
+  }
   const nacre_layout asked = options_of(layout);
   const bool is_known = asked.element >= 0 && asked.element < static_cast<int>(elements.size());
   if (!is_known || asked.array >= bound_constants) return NACRE_WRONG_ARGUMENTS;
@@ -138,7 +140,7 @@ nacre_status nacre_binding_create(const nacre_binder* binder, const nacre_shader
   if (binding == nullptr) return NACRE_WRONG_ARGUMENTS;
   *binding = nullptr;
   if (binder == nullptr || shader == nullptr) return NACRE_WRONG_ARGUMENTS;
-  return guarded([&] {
+  return guarded(report, [&] {
     Said said(report);
     auto made = std::make_unique<nacre_binding>();
     made->data = shader->data;
@@ -164,7 +166,7 @@ void nacre_binding_destroy(nacre_binding* binding) { delete binding; }
 
 nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
                        const nacre_instance* instance, const nacre_batch* given) {
-  if (binding == nullptr || given == nullptr) return NACRE_WRONG_ARGUMENTS;
+  if (binding == nullptr || given == nullptr || !has_size(given)) return NACRE_WRONG_ARGUMENTS;
   const BoundKernel* kernel = binding->data->kernel(entry);
   if (kernel == nullptr) return NACRE_OK;
   if (!binding->entries[entry]) return NACRE_WRONG_ARGUMENTS;

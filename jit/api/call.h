@@ -24,16 +24,26 @@ struct nacre_report {
 
 namespace nacre::api {
 
-/// Runs `body`, which gives a status.
+/// Says in a report, if there is one, what was thrown that nobody thought of.
+void say_thrown(nacre_report* report, const char* what) noexcept;
+
+/// Runs `body`, which gives a status. What it throws is said in `report`, which may be null.
 template <class Body>
-nacre_status guarded(Body&& body) noexcept {
+nacre_status guarded(nacre_report* report, Body&& body) noexcept {
   try {
     return body();
   } catch (const std::bad_alloc&) {
     return NACRE_OUT_OF_MEMORY;
-  } catch (const std::exception&) {
-    return NACRE_FAILED;
+  } catch (const std::exception& thrown) {
+    say_thrown(report, thrown.what());
+  } catch (...) {
+    say_thrown(report, "something that is no exception");
   }
+  return NACRE_FAILED;
+}
+template <class Body>
+nacre_status guarded(Body&& body) noexcept {
+  return guarded(nullptr, std::forward<Body>(body));
 }
 
 /// The diagnostics of a call, with or without somebody who reads them.
@@ -50,6 +60,12 @@ class Said {
   Diagnostics& said_;
   std::size_t errors_before_;
 };
+
+/// Whether a structure says how long it is; one that is not there need not.
+template <class Structure>
+bool has_size(const Structure* given) {
+  return given == nullptr || given->size >= sizeof given->size;
+}
 
 /// The host's options, with what its version of them does not have being 0.
 template <class Options>

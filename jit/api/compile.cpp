@@ -51,6 +51,7 @@ nacre_status hand_out(std::unique_ptr<Kernels> kernels, Said& said, nacre_shader
 }
 
 bool is_meant(const nacre_compile_options* given) {
+  if (!has_size(given)) return false;
   const nacre_compile_options asked = options_of(given);
   const auto is_one_of_three = [](int value) { return value >= 0 && value <= 2; };
   return is_one_of_three(asked.engine) && is_one_of_three(asked.accuracy);
@@ -66,7 +67,7 @@ nacre_status nacre_compile_material(nacre_system* system, const nacre_document* 
   if (system == nullptr || document == nullptr || material == nullptr || !is_meant(options)) {
     return NACRE_WRONG_ARGUMENTS;
   }
-  return guarded([&] {
+  return guarded(report, [&] {
     Said said(report);
     return hand_out(system->system->compile_material(*document->document, material,
                                                      shader_options(options), said.diagnostics()),
@@ -84,7 +85,7 @@ nacre_status nacre_compile_outputs(nacre_system* system, const nacre_document* d
       !is_meant(options)) {
     return NACRE_WRONG_ARGUMENTS;
   }
-  return guarded([&] {
+  return guarded(report, [&] {
     Said said(report);
     return hand_out(
         system->system->compile_outputs(*document->document, texts_of(outputs, output_count),

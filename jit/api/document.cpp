@@ -42,9 +42,9 @@ const char* name_at(const std::vector<std::string>& names, std::size_t index) {
 
 nacre_status nacre_document_read(const char* file, const nacre_read_options* options,
                                  nacre_report* report, nacre_document** document) {
-  if (file == nullptr || document == nullptr) return NACRE_WRONG_ARGUMENTS;
+  if (file == nullptr || document == nullptr || !has_size(options)) return NACRE_WRONG_ARGUMENTS;
   *document = nullptr;
-  return guarded([&] {
+  return guarded(report, [&] {
     Said said(report);
     return hand_out(read_document(file, read_options(options), said.diagnostics()), document);
   });
@@ -53,9 +53,9 @@ nacre_status nacre_document_read(const char* file, const nacre_read_options* opt
 nacre_status nacre_document_parse(const char* text, size_t length, const char* name,
                                   const nacre_read_options* options, nacre_report* report,
                                   nacre_document** document) {
-  if (text == nullptr || document == nullptr) return NACRE_WRONG_ARGUMENTS;
+  if (text == nullptr || document == nullptr || !has_size(options)) return NACRE_WRONG_ARGUMENTS;
   *document = nullptr;
-  return guarded([&] {
+  return guarded(report, [&] {
     Said said(report);
     return hand_out(read_document_text({text, length}, text_or_empty(name), read_options(options),
                                        said.diagnostics()),

@@ -12,6 +12,14 @@ std::vector<std::string> texts_of(const char* const* texts, std::size_t count) {
   return list;
 }
 
+void say_thrown(nacre_report* report, const char* what) noexcept {
+  if (report == nullptr) return;
+  try {
+    report->said.error("unexpected", {}, "the library could not do that", {}, what);
+  } catch (...) {  // There is no memory to say it in.
+  }
+}
+
 }  // namespace nacre::api
 
 using namespace nacre;

@@ -95,7 +95,7 @@ int nacre_shader_is_pending(const nacre_shader* shader) {
 
 nacre_status nacre_shader_wait(const nacre_shader* shader, nacre_report* report) {
   if (shader == nullptr) return NACRE_WRONG_ARGUMENTS;
-  return guarded([&] {
+  return guarded(report, [&] {
     Said said(report);
     const std::size_t before = said.diagnostics().error_count();
     bool is_compiled = true;

@@ -11,8 +11,11 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
                                  nacre_system** system) {
   if (system == nullptr) return NACRE_WRONG_ARGUMENTS;
   *system = nullptr;
-  return guarded([&] {
+  if (!has_size(given)) return NACRE_WRONG_ARGUMENTS;
+  return guarded(report, [&] {
     const nacre_system_options asked = options_of(given);
+    if (asked.body_count != 0 && !has_size(asked.bodies))
+      return nacre_status{NACRE_WRONG_ARGUMENTS};
     Said said(report);
     SystemOptions options;
     for (const std::string& path : texts_of(asked.libraries, asked.library_count)) {
@@ -24,7 +27,7 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
         said.diagnostics().error("no-data-library", {}, "the MaterialX data library is not there",
                                  "share/nacre/libraries beside the library's folder, or "
                                  "nacre_system_options::libraries");
-        return NACRE_FAILED;
+        return nacre_status{NACRE_FAILED};
       }
       options.libraries.emplace_back(own);
     }
@@ -40,9 +43,9 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
     }
     if (asked.texture_memory != 0) options.textures.budget = asked.texture_memory;
     std::shared_ptr<ShadingSystem> made = ShadingSystem::create(options, said.diagnostics());
-    if (made == nullptr) return NACRE_FAILED;
+    if (made == nullptr) return nacre_status{NACRE_FAILED};
     *system = new nacre_system{std::move(made)};
-    return NACRE_OK;
+    return nacre_status{NACRE_OK};
   });
 }
 

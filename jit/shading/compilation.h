@@ -59,9 +59,10 @@ class Compilation {
   /// The passes and machine code, all entry points side by side; nothing where the compiler
   /// refuses.
   std::vector<std::optional<BoundKernel>> compile(std::vector<Program> programs);
-  /// What KernelRequest::with_begin names, in that order.
+  /// What KernelRequest::with_begin names, each once; an error for what there is not.
   std::vector<SliceOutput> point_results(const Graph& graph, const std::vector<Recorded>& values,
-                                         const SurfaceKernels& kernels);
+                                         const SurfaceKernels& kernels,
+                                         const SourceLocation& where);
   RecordOptions record_options(const FileRoots& roots);
   std::vector<Parameter> live_parameters(const Graph& graph) const;
   /// Whether nothing was wrong since there were so many errors, but for images that are missing.

@@ -108,7 +108,9 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   kernels.lobes = surface_kernels.lobes;
   kernels.manifest = surface_kernels.manifest;
   kernels.not_modelled = surface_kernels.not_modelled;
-  const std::vector<SliceOutput> point = point_results(graph, *values, surface_kernels);
+  const std::size_t errors = diagnostics_.error_count();
+  const std::vector<SliceOutput> point = point_results(graph, *values, surface_kernels, where);
+  if (diagnostics_.error_count() != errors) return std::nullopt;
   std::set<std::uint32_t> state;
   const auto add = [&](std::optional<BoundKernel> MaterialKernels::* place, Program program) {
     for (const std::uint32_t k : state_channels(program)) state.insert(k);
@@ -153,29 +155,32 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
     add_entry(&MaterialKernels::shade, "shade", joined(shade_results(surface_kernels), point),
               Keeps::pass);
   }
-  const bool stores_point = wants(entry_begin) && !point.empty();
-  add_entry(&MaterialKernels::begin, "begin",
-            joined(state_outputs(recorder_, kernels.state),
-                   stores_point ? point : std::vector<SliceOutput>{}),
-            Keeps::pass);
+  std::vector<SliceOutput> begin = state_outputs(recorder_, kernels.state);
+  if (wants(entry_begin) || !begin.empty()) begin = joined(std::move(begin), point);
+  add_entry(&MaterialKernels::begin, "begin", begin, Keeps::pass);
   return recorded;
 }
 
 std::vector<SliceOutput> Compilation::point_results(const Graph& graph,
                                                     const std::vector<Recorded>& values,
-                                                    const SurfaceKernels& kernels) {
-  std::vector<SliceOutput> results;
-  const auto take = [&](const SliceOutput& result, const std::string& group) {
-    const std::string_view name = parse_channel(result.name).group;
-    if (name == group || (group == "opacity" && name == "transmission")) results.push_back(result);
+                                                    const SurfaceKernels& kernels,
+                                                    const SourceLocation& where) {
+  std::vector<SliceOutput> results = kernels.point;
+  const auto stores = [&](std::string_view name) {
+    return std::ranges::any_of(results, [&](const SliceOutput& result) {
+      return parse_channel(result.name).group == name;
+    });
   };
   for (const std::string& name : options_.kernels.with_begin) {
-    for (const SliceOutput& result : kernels.point) take(result, name);
+    if (stores(name)) continue;  // Of the surface, or named twice.
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (graph.outputs[i].name == name && is_numeric(values[i].type)) {
-        results = joined(std::move(results), channels_of(name, values[i]));
-      }
+      if (graph.outputs[i].name != name || !is_numeric(values[i].type)) continue;
+      results = joined(std::move(results), channels_of(name, values[i]));
+      break;
     }
+    if (stores(name)) continue;
+    diagnostics_.error("unknown-request", where, "the material has no such result of a point",
+                       "one of its surface, or a value of its graph", "'" + name + "'");
   }
   return results;
 }

@@ -72,6 +72,27 @@ TEST(ApiArguments, StructuresAreAsLongAsTheHostsVersionOfThem) {
   nacre_report_destroy(report);
 }
 
+TEST(ApiArguments, StructuresWithoutASizeAreRefused) {
+  nacre_system* system = nullptr;
+  const nacre_system_options no_options{};
+  EXPECT_EQ(nacre_system_create(&no_options, nullptr, &system), NACRE_WRONG_ARGUMENTS);
+  const nacre_body no_body{};
+  nacre_system_options options{};
+  options.size = sizeof options;
+  options.bodies = &no_body;
+  options.body_count = 2;
+  EXPECT_EQ(nacre_system_create(&options, nullptr, &system), NACRE_WRONG_ARGUMENTS);
+  nacre_document* document = nullptr;
+  const nacre_read_options no_reading{};
+  EXPECT_EQ(nacre_document_parse("", 0, "", &no_reading, nullptr, &document),
+            NACRE_WRONG_ARGUMENTS);
+  nacre_binder* binder = nullptr;
+  ASSERT_EQ(nacre_binder_create(&binder), NACRE_OK);
+  const nacre_layout no_layout{};
+  EXPECT_EQ(nacre_binder_array(binder, "P", &no_layout), NACRE_WRONG_ARGUMENTS);
+  nacre_binder_destroy(binder);
+}
+
 TEST(ApiArguments, TheVersionIsThatOfTheHeaders) {
   EXPECT_EQ(nacre_version(), NACRE_VERSION);
   EXPECT_EQ(nacre_version_text(), std::to_string(NACRE_VERSION_MAJOR) + "." +

@@ -155,6 +155,30 @@ TEST_F(PointResults, HaveValuesOfTheGraph) {
   EXPECT_EQ(results.at("NG/out.x"), expected.at("NG/out.x"));
 }
 
+TEST_F(PointResults, ComeOnceWithWhateverReadsTheState) {
+  CompileOptions options = with_begin({"albedo", "S/coat", "albedo", "S/coat"});
+  options.entries = 1u << NACRE_EVALUATE;
+  std::map<std::string, int> seen;
+  for (const Channel& each : compile(noisy, options).results(NACRE_BEGIN)) ++seen[each.name];
+  EXPECT_EQ(seen["albedo.x"], 1);
+  EXPECT_EQ(seen["S/coat"], 1);
+}
+
+TEST_F(PointResults, OfASurfaceAreErrorsWithoutOne) {
+  const char* const medium = R"(<materialx version="1.39">
+    <absorption_vdf name="v" type="VDF"/>
+    <volume name="V" type="volumeshader"><input name="vdf" type="VDF" nodename="v"/></volume>
+    <volumematerial name="M" type="material">
+      <input name="volumeshader" type="volumeshader" nodename="V"/></volumematerial></materialx>)";
+  try {
+    compile(medium, with_begin({"albedo"}));
+    FAIL() << "nothing was said";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.diagnostics().front().code, "unknown-request");
+    EXPECT_EQ(error.diagnostics().front().path, "M");
+  }
+}
+
 TEST_F(PointResults, ThatNobodyKnowsAreErrors) {
   const auto code_of = [&](const char* name) {
     try {
