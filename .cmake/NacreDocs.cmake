@@ -1,6 +1,7 @@
 # What `make docs` gives to Doxygen: the headers that are installed, and pages that lead to them.
 # Configuring needs no Doxygen.
-get_property(nacre_docs_input GLOBAL PROPERTY NACRE_PUBLIC_HEADERS)
+file(GLOB nacre_docs_input CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/jit/api/include/nacre/*.h*")
+list(FILTER nacre_docs_input EXCLUDE REGEX "\\.in$")
 list(APPEND nacre_docs_input
   "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/.docs/index.md")
 list(TRANSFORM nacre_docs_input REPLACE "(.+)" "\"\\1\"")

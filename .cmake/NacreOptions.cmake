@@ -37,13 +37,6 @@ function(nacre_library name)
   set_property(GLOBAL APPEND PROPERTY NACRE_ARCHIVES ${name})
 endfunction()
 
-# nacre_public_headers(HEADERS...): headers of this folder that a host may include.
-# A public header includes the C++ standard library and public headers, nothing else.
-function(nacre_public_headers)
-  list(TRANSFORM ARGN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
-  set_property(GLOBAL APPEND PROPERTY NACRE_PUBLIC_HEADERS ${ARGN})
-endfunction()
-
 # nacre_test(NAME [FULL] [CONCURRENT] SOURCES...): a GoogleTest program, one ctest entry per test.
 # FULL: too long for every day; left out by `make test`, run by `make test-full`.
 # CONCURRENT: threads of ours meet in it; `make test-full` runs it with the thread sanitizer too.

@@ -4,7 +4,6 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 get_property(nacre_archives GLOBAL PROPERTY NACRE_ARCHIVES)
-get_property(nacre_headers GLOBAL PROPERTY NACRE_PUBLIC_HEADERS)
 
 # Every object of every archive: node bodies and engines register themselves, so a linker
 # that takes only what is referred to would drop them. The archives are named as well for
@@ -14,13 +13,11 @@ add_library(nacre SHARED ${nacre_objects})
 add_library(nacre::nacre ALIAS nacre)
 target_link_libraries(nacre PRIVATE ${nacre_archives})
 add_dependencies(nacre nacre_compile_worker)
-target_sources(nacre PUBLIC FILE_SET HEADERS
-  BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${nacre_headers})
 target_include_directories(nacre INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/jit/api/include>"
   "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/jit/api/include>"
   "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
-target_compile_features(nacre INTERFACE cxx_std_20)
+target_compile_features(nacre INTERFACE cxx_std_17)
 set_target_properties(nacre PROPERTIES
   LINKER_LANGUAGE CXX
   VERSION ${PROJECT_VERSION}
@@ -36,8 +33,7 @@ target_link_options(nacre PRIVATE
   $<$<NOT:$<BOOL:${NACRE_SANITIZED}>>:LINKER:--no-undefined>)
 
 install(TARGETS nacre EXPORT nacre
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre)
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/jit/api/include/nacre"
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN "*.in" EXCLUDE)
 install(FILES "${PROJECT_BINARY_DIR}/jit/api/include/nacre/version.h"

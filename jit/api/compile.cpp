@@ -2,6 +2,7 @@
 
 #include "jit/api/call.h"
 #include "jit/api/handles.h"
+#include "jit/graph/look/look.h"
 
 using namespace nacre;
 using namespace nacre::api;
@@ -11,7 +12,32 @@ namespace {
 static_assert(entry_begin == 1u << NACRE_BEGIN && entry_evaluate_at == 1u << NACRE_EVALUATE_AT &&
               entry_opacity == 1u << NACRE_OPACITY && entry_shade == 1u << NACRE_SHADE);
 
-ShaderOptions shader_options(const nacre_compile_options* given) {
+GraphOptions graph_options(const nacre_compile_options& asked, const Document& document) {
+  constexpr std::array preferences{Preference::body, Preference::graph, Preference::source};
+  GraphOptions options;
+  options.lenient = asked.lenient != 0;
+  if (asked.working_space != nullptr) options.working_space = asked.working_space;
+  options.output_space = text_or_empty(asked.output_space);
+  if (asked.distance_unit != nullptr) options.distance_unit = asked.distance_unit;
+  if (asked.has_frame != 0) options.frame = asked.frame;
+  options.prefer = preferences.at(static_cast<std::size_t>(asked.prefer));
+  for (std::size_t i = 0; asked.names != nullptr && i < asked.name_count; ++i) {
+    options.host_attributes[text_or_empty(asked.names[i].name)] =
+        text_or_empty(asked.names[i].text);
+  }
+  for (std::size_t i = 0; asked.variants != nullptr && i < asked.variant_count; ++i) {
+    options.variants.push_back(
+        {text_or_empty(asked.variants[i].set), text_or_empty(asked.variants[i].variant)});
+  }
+  if (asked.max_nodes != 0) options.max_nodes = asked.max_nodes;
+  if (asked.geometry != nullptr) {
+    Diagnostics of_the_document;  // nacre_check says them.
+    options.geometry_tokens = GeometryRules(document, of_the_document).tokens_of(asked.geometry);
+  }
+  return options;
+}
+
+ShaderOptions shader_options(const nacre_compile_options* given, const Document& document) {
   const nacre_compile_options asked = options_of(given);
   ShaderOptions options;
   constexpr std::array backends{Backend::jit, Backend::interpreter, Backend::reference};
@@ -20,6 +46,8 @@ ShaderOptions shader_options(const nacre_compile_options* given) {
   options.compile.accuracy = accuracies.at(static_cast<std::size_t>(asked.accuracy));
   options.compile.lanes = asked.lanes;
   options.compile.asynchronous = asked.background != 0;
+  options.compile.stop = stop_of(asked.stop);
+  if (asked.max_instructions != 0) options.compile.max_instructions = asked.max_instructions;
   if (asked.max_seconds > 0) options.compile.max_seconds = asked.max_seconds;
   options.live = texts_of(asked.live, asked.live_count);
   options.varying = texts_of(asked.varying, asked.varying_count);
@@ -38,7 +66,7 @@ ShaderOptions shader_options(const nacre_compile_options* given) {
   options.footprints = asked.no_footprints == 0;
   options.files_anywhere = asked.files_anywhere != 0;
   if (asked.missing_images_pass != 0) options.missing_images = MissingImages::use_default;
-  options.graph.lenient = asked.lenient != 0;
+  options.graph = graph_options(asked, document);
   return options;
 }
 
@@ -54,7 +82,8 @@ bool is_meant(const nacre_compile_options* given) {
   if (!has_size(given)) return false;
   const nacre_compile_options asked = options_of(given);
   const auto is_one_of_three = [](int value) { return value >= 0 && value <= 2; };
-  return is_one_of_three(asked.engine) && is_one_of_three(asked.accuracy);
+  return is_one_of_three(asked.engine) && is_one_of_three(asked.accuracy) &&
+         is_one_of_three(asked.prefer);
 }
 
 }  // namespace
@@ -69,8 +98,9 @@ nacre_status nacre_compile_material(nacre_system* system, const nacre_document* 
   }
   return guarded(report, [&] {
     Said said(report);
-    return hand_out(system->system->compile_material(*document->document, material,
-                                                     shader_options(options), said.diagnostics()),
+    const Document& from = *document->document;
+    return hand_out(system->system->compile_material(from, material, shader_options(options, from),
+                                                     said.diagnostics()),
                     said, shader);
   });
 }
@@ -87,10 +117,22 @@ nacre_status nacre_compile_outputs(nacre_system* system, const nacre_document* d
   }
   return guarded(report, [&] {
     Said said(report);
+    const Document& from = *document->document;
     return hand_out(
-        system->system->compile_outputs(*document->document, texts_of(outputs, output_count),
-                                        shader_options(options), said.diagnostics()),
+        system->system->compile_outputs(from, texts_of(outputs, output_count),
+                                        shader_options(options, from), said.diagnostics()),
         said, shader);
+  });
+}
+
+nacre_status nacre_check(nacre_system* system, const nacre_document* document,
+                         const nacre_compile_options* options, nacre_report* report) {
+  if (system == nullptr || document == nullptr || !is_meant(options)) return NACRE_WRONG_ARGUMENTS;
+  return guarded(report, [&] {
+    Said said(report);
+    system->system->check(*document->document, shader_options(options, *document->document),
+                          said.diagnostics());
+    return nacre_status{said.has_errors() ? NACRE_FAILED : NACRE_OK};
   });
 }
 

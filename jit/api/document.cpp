@@ -17,6 +17,9 @@ ReadOptions read_options(const nacre_read_options* given) {
     options.search_paths.emplace_back(path);
   }
   options.includes_anywhere = asked.includes_anywhere != 0;
+  if (asked.max_file_bytes != 0) options.limits.file_bytes = asked.max_file_bytes;
+  if (asked.max_total_bytes != 0) options.limits.total_bytes = asked.max_total_bytes;
+  options.stop = stop_of(asked.stop);
   return options;
 }
 

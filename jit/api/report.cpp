@@ -1,6 +1,7 @@
-// Versions and reports.
+// Versions, stops and reports.
 
 #include "jit/api/call.h"
+#include "jit/api/handles.h"
 
 namespace nacre::api {
 
@@ -34,6 +35,21 @@ const char* nacre_version_text(void) {
       NACRE_VERSION_PATCH);
 #undef NACRE_TEXT
 #undef NACRE_TEXT_OF
+}
+
+nacre_status nacre_stop_create(nacre_stop** stop) {
+  if (stop == nullptr) return NACRE_WRONG_ARGUMENTS;
+  *stop = nullptr;
+  return guarded([&] {
+    *stop = new nacre_stop;
+    return nacre_status{NACRE_OK};
+  });
+}
+
+void nacre_stop_destroy(nacre_stop* stop) { delete stop; }
+
+void nacre_stop_request(nacre_stop* stop) {
+  if (stop != nullptr) stop->source.request_stop();
 }
 
 nacre_status nacre_report_create(nacre_report** report) {

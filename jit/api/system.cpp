@@ -1,11 +1,26 @@
 #include <cstddef>
 
 #include "jit/api/call.h"
+#include "jit/api/colors.h"
 #include "jit/api/handles.h"
 #include "jit/api/node.h"
 
 using namespace nacre;
 using namespace nacre::api;
+
+namespace {
+
+TextureOptions texture_options(const nacre_system_options& asked) {
+  TextureOptions options;
+  if (asked.texture_memory != 0) options.budget = asked.texture_memory;
+  if (asked.tile_memory != 0) options.host_cache = asked.tile_memory;
+  if (asked.max_image_size != 0) options.limits.max_size = asked.max_image_size;
+  if (asked.max_image_bytes != 0) options.limits.max_bytes = asked.max_image_bytes;
+  if (asked.max_image_file_bytes != 0) options.limits.max_file_bytes = asked.max_image_file_bytes;
+  return options;
+}
+
+}  // namespace
 
 nacre_status nacre_system_create(const nacre_system_options* given, nacre_report* report,
                                  nacre_system** system) {
@@ -14,8 +29,9 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
   if (!has_size(given)) return NACRE_WRONG_ARGUMENTS;
   return guarded(report, [&] {
     const nacre_system_options asked = options_of(given);
-    if (asked.body_count != 0 && !has_size(asked.bodies))
+    if ((asked.body_count != 0 && !has_size(asked.bodies)) || !has_size(asked.colors)) {
       return nacre_status{NACRE_WRONG_ARGUMENTS};
+    }
     Said said(report);
     SystemOptions options;
     for (const std::string& path : texts_of(asked.libraries, asked.library_count)) {
@@ -32,6 +48,7 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
       options.libraries.emplace_back(own);
     }
     options.ocio_config = text_or_empty(asked.ocio_config);
+    if (asked.colors != nullptr) options.colors = host_colors(*asked.colors);
     options.cache = text_or_empty(asked.cache);
     options.compile_threads = asked.compile_threads;
     options.compile_apart = asked.compile_apart != 0;
@@ -41,12 +58,34 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
       options.bodies.push_back(
           host_body(*reinterpret_cast<const nacre_body*>(bodies + i * asked.bodies->size)));
     }
-    if (asked.texture_memory != 0) options.textures.budget = asked.texture_memory;
+    options.standard_texts = asked.standard_texts != 0;
+    options.textures = texture_options(asked);
     std::shared_ptr<ShadingSystem> made = ShadingSystem::create(options, said.diagnostics());
     if (made == nullptr) return nacre_status{NACRE_FAILED};
-    *system = new nacre_system{std::move(made)};
+    *system = new nacre_system{std::move(made), {}};
     return nacre_status{NACRE_OK};
   });
 }
 
 void nacre_system_destroy(nacre_system* system) { delete system; }
+
+nacre_status nacre_system_texture_statistics(const nacre_system* system,
+                                             nacre_texture_statistics* statistics) {
+  if (system == nullptr) return NACRE_WRONG_ARGUMENTS;
+  const TextureStatistics now = system->system->textures().statistics();
+  return give(statistics, nacre_texture_statistics{.size = 0,
+                                                   .resident_bytes = now.resident_bytes,
+                                                   .peak_resident_bytes = now.peak_resident_bytes,
+                                                   .resident_textures = now.resident_textures,
+                                                   .tiled_textures = now.host_textures,
+                                                   .missing_textures = now.missing_textures,
+                                                   .loads = now.loads,
+                                                   .hits = now.hits,
+                                                   .evictions = now.evictions,
+                                                   .replaced_texels = now.replaced_texels,
+                                                   .read_failures = now.read_failures});
+}
+
+void nacre_system_drop_textures(nacre_system* system) {
+  if (system != nullptr) system->system->textures().drop_unused();
+}

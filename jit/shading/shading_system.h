@@ -38,9 +38,10 @@ struct SystemOptions {
   /// it. Node packs' texts are always read.
   bool standard_texts = false;
   /// An OpenColorIO configuration, whose colour spaces documents may name (see
-  /// load_ocio_config); empty: none. A host with colour spaces of its own gives
-  /// GraphOptions::colors instead, which counts before this.
+  /// load_ocio_config); empty: none. GraphOptions::colors counts before this.
   std::filesystem::path ocio_config = {};
+  /// Colour spaces of the host's own, in place of a configuration; null: none.
+  std::shared_ptr<const ColorConfig> colors = nullptr;
   TextureOptions textures = {};  ///< Limits of the one store that all kernels share.
   /// Where compiled kernels are kept between runs; empty: nowhere.
   std::filesystem::path cache = {};

@@ -46,7 +46,8 @@ std::unique_ptr<SystemParts> SystemParts::create(const SystemOptions& options,
     return nullptr;
   }
   parts->texts = std::make_unique<TextBodies>(text_roots(options.libraries));
-  if (!options.ocio_config.empty()) {
+  parts->colors = options.colors;
+  if (parts->colors == nullptr && !options.ocio_config.empty()) {
     parts->colors = load_ocio_config(options.ocio_config, diagnostics);
     if (parts->colors == nullptr) return nullptr;
   }

@@ -1,33 +1,35 @@
 #!/usr/bin/env python3
-"""usage: check_exports.py LIBRARY
+"""usage: check_exports.py LIBRARY INCLUDE
 
-Fails unless every symbol that LIBRARY defines for others is of namespace nacre (or nacre_* in C),
-and there is at least one.
+Fails unless what LIBRARY exports is just what the headers in INCLUDE/nacre declare, and no more than
+600 symbols.
 """
 
+import pathlib
 import re
 import subprocess
 import sys
 
-OURS = re.compile(
-    r"nacre::|nacre_\w+$|"
-    r"(typeinfo|typeinfo name|vtable|VTT|construction vtable) for nacre::|"
-    r"(non-)?virtual thunk to nacre::")
+MOST_SYMBOLS = 600
+# "NACRE_API nacre_status nacre_report_create(" and "NACRE_API const char* nacre_version_text(".
+DECLARED = re.compile(r"^NACRE_API\b[^;(]*?\b(nacre_\w+)\(", re.MULTILINE)
 
 
 def main() -> int:
-    listing = subprocess.run(["nm", "--dynamic", "--demangle", "--defined-only", "--extern-only",
-                              sys.argv[1]],
+    library, include = sys.argv[1:]
+    listing = subprocess.run(["nm", "--dynamic", "--defined-only", "--extern-only", library],
                              capture_output=True, text=True, check=True).stdout
-    # "0000000000003cd0 T nacre::is_closure(nacre::Type)"; version names have type A.
+    # "0000000000003cd0 T nacre_run"; version names have type A.
     symbols = [line.split(maxsplit=2) for line in listing.splitlines()]
-    names = [symbol[2] for symbol in symbols if symbol[1] != "A"]
-    foreign = [name for name in names if not OURS.match(name)]
-    for name in foreign:
-        print(f"exported, but not ours: {name}")
-    if not names:
-        print(f"{sys.argv[1]} exports nothing")
-    return 1 if foreign or not names else 0
+    exported = {symbol[2] for symbol in symbols if symbol[1] != "A"}
+    declared = {name for header in pathlib.Path(include, "nacre").glob("*.h")
+                for name in DECLARED.findall(header.read_text(encoding="utf-8"))}
+    for name in sorted(exported - declared):
+        print(f"exported, but in no header: {name}")
+    for name in sorted(declared - exported):
+        print(f"declared, but not exported: {name}")
+    print(f"{len(exported)} symbols")
+    return 0 if exported and exported == declared and len(exported) <= MOST_SYMBOLS else 1
 
 
 if __name__ == "__main__":

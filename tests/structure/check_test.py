@@ -17,8 +17,9 @@ class Checks(unittest.TestCase):
         self.write(".packages.txt", "# Comment\ncmake\nmake\n")
         self.write("runtime/type.h", "#include <string>\n")
         self.write("runtime/CMakeLists.txt",
-                   "nacre_library(nacre_runtime\n  b.cpp  # why\n  z.cpp)\n"
-                   "nacre_public_headers(type.h)\n")
+                   "nacre_library(nacre_runtime\n  b.cpp  # why\n  z.cpp)\n")
+        self.write("jit/api/include/nacre/nacre.h",
+                   "#include <nacre/report.h>\n#include <stddef.h>\n")
         self.write("jit/document/read.cpp", '#include <pugixml.hpp>\n#include "runtime/type.h"\n')
         self.write("jit/llvm/emit.cpp", "#include <llvm/IR/Module.h>\n")
         self.write("jit/graph/resolve.h", '#include "jit/document/read.cpp"\n')
@@ -83,18 +84,13 @@ class Checks(unittest.TestCase):
         self.write("runtime/bad.cpp", "#include <embree3/rtcore.h>\n")
         self.assert_finds(dependencies.quarantine, "runtime/bad.cpp:1:")
 
-    def test_public_header_includes_private_one(self):
-        self.write("runtime/private.h", "")
-        self.write("runtime/type.h", '#include "runtime/private.h"\n')
-        self.assert_finds(dependencies.public, "runtime/type.h:1:")
+    def test_interface_includes_what_is_not_installed(self):
+        self.write("jit/api/include/nacre/bad.h", '#include "runtime/type.h"\n')
+        self.assert_finds(dependencies.public, "jit/api/include/nacre/bad.h:1:")
 
-    def test_public_header_includes_fmt(self):
-        self.write("runtime/type.h", "#include <fmt/format.h>\n")
-        self.assert_finds(dependencies.public, "runtime/type.h:1:")
-
-    def test_public_header_is_missing(self):
-        self.write("jit/CMakeLists.txt", "nacre_public_headers(\n  compile.h)\n")
-        self.assert_finds(dependencies.public, "jit/CMakeLists.txt:")
+    def test_interface_includes_fmt(self):
+        self.write("jit/api/include/nacre/bad.hpp", "#include <fmt/format.h>\n")
+        self.assert_finds(dependencies.public, "jit/api/include/nacre/bad.hpp:1:")
 
     def test_long_file(self):
         self.write("runtime/good.cpp", "\n" * 500)

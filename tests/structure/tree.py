@@ -38,15 +38,3 @@ def includes(root: pathlib.Path) -> Iterator[Include]:
 
 def inside(name: str, folder: str) -> bool:
     return name == folder or name.startswith(folder + "/")
-
-
-def public_headers(root: pathlib.Path) -> dict[str, str]:
-    """Header from the root -> the CMakeLists.txt that declares it public."""
-    headers = {}
-    for file in files(root, {"CMakeLists.txt"}):
-        text = (root / file).read_text(encoding="utf-8")
-        for call in re.finditer(r"^\s*nacre_public_headers\(([^)]*)\)", text, re.MULTILINE):
-            folder = pathlib.PurePosixPath(file).parent
-            for name in re.sub(r"#.*", "", call[1]).split():
-                headers[(folder / name).as_posix()] = file
-    return headers

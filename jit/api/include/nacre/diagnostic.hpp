@@ -55,6 +55,10 @@ class Error : public std::runtime_error {
 
 namespace detail {
 
+inline const char* text_or_null(const std::string& text) {
+  return text.empty() ? nullptr : text.c_str();
+}
+
 /// An object of the library, destroyed with its last owner.
 template <class T, void (*destroy)(T*)>
 struct Destroy {
@@ -80,10 +84,6 @@ class TextList {
  private:
   std::vector<const char*> list_;
 };
-
-inline const char* text_or_null(const std::string& text) {
-  return text.empty() ? nullptr : text.c_str();
-}
 
 /// The report of one call: errors are thrown, warnings and notes go to the host's list.
 class Said {
@@ -121,6 +121,21 @@ class Said {
 };
 
 }  // namespace detail
+
+/// Ends long calls early: requested by any thread, once and for all.
+class StopSource {
+ public:
+  StopSource() {
+    nacre_stop* made = nullptr;
+    detail::check(nacre_stop_create(&made));
+    stop_.reset(made);
+  }
+  void request() { nacre_stop_request(get()); }
+  nacre_stop* get() const { return stop_.get(); }
+
+ private:
+  detail::Owned<nacre_stop, nacre_stop_destroy> stop_;
+};
 
 }  // namespace v0
 }  // namespace nacre

@@ -4,6 +4,7 @@
 #define NACRE_DOCUMENT_HPP
 
 #include <cstddef>
+#include <cstdint>
 #include <nacre/diagnostic.hpp>
 #include <string>
 #include <string_view>
@@ -13,12 +14,33 @@
 namespace nacre {
 inline namespace v0 {
 
-/// The folder of the installed MaterialX data library; "" if it is not there.
-inline std::string data_library() { return nacre_data_library(); }
-
 struct ReadOptions {
   std::vector<std::string> search_paths;  ///< Of includes, after the including file's own folder.
   bool includes_anywhere = false;
+  std::uint64_t max_file_bytes = 0;   ///< 0: 64 MiB.
+  std::uint64_t max_total_bytes = 0;  ///< 0: 256 MiB.
+  const StopSource* stop = nullptr;
+};
+
+/// What a document says in one place; see nacre_element. Lives as long as the document.
+struct Element {
+  std::string_view category, name;
+  std::size_t parent = SIZE_MAX;  ///< SIZE_MAX for the root.
+  std::size_t end = 0;            ///< Behind the last element within it.
+  std::vector<std::pair<std::string_view, std::string_view>> attributes;  ///< Name and value.
+  std::string_view file;
+  int line = 0, column = 0;
+};
+
+/// A variant of a set.
+struct Variant {
+  std::string set, variant;
+};
+
+/// What a look assigns to a geometry.
+struct Assignment {
+  std::string material;  ///< "": nothing.
+  std::vector<Variant> variants;
 };
 
 /// A MaterialX document.
@@ -57,6 +79,55 @@ class Document {
     }
     return names;
   }
+
+  /// Elements are numbered in the document's order, 0 being the root; their children are the one
+  /// behind them, the `end` of that, and so on up to their own `end`.
+  /// @{
+  std::size_t element_count() const { return nacre_document_element_count(get()); }
+  Element element(std::size_t index) const {
+    nacre_element one{};
+    one.size = sizeof one;
+    detail::check(nacre_document_element(get(), index, &one));
+    Element made{one.category, one.name, one.parent, one.end, {}, one.file, one.line, one.column};
+    for (std::size_t i = 0; i < one.attribute_count; ++i) {
+      const char* name = nullptr;
+      const char* value = nullptr;
+      detail::check(nacre_document_attribute(get(), index, i, &name, &value));
+      made.attributes.emplace_back(name, value);
+    }
+    return made;
+  }
+  /// Of a path, "NG_marble/mix1/fg"; SIZE_MAX: none.
+  std::size_t find_element(const std::string& path) const {
+    return nacre_document_find_element(get(), path.c_str());
+  }
+  /// @}
+
+  std::vector<std::string> looks() const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < nacre_document_look_count(get()); ++i) {
+      names.emplace_back(nacre_document_look(get(), i));
+    }
+    return names;
+  }
+  /// What a look assigns to the geometry of a full path, "/house/door".
+  Assignment assignment(std::size_t look, const std::string& geometry) const {
+    nacre_assignment one{};
+    one.size = sizeof one;
+    detail::check(nacre_document_assignment(get(), look, geometry.c_str(), &one));
+    Assignment made{one.material, {}};
+    for (std::size_t i = 0; i < one.variant_count; ++i) {
+      made.variants.push_back({one.variants[i].set, one.variants[i].variant});
+    }
+    return made;
+  }
+  /// Whether rays of a kind ("camera", "illumination", "shadow", "secondary"; "": any) that come
+  /// from the geometry `viewer`, see it.
+  bool is_visible(std::size_t look, const std::string& geometry, const std::string& rays = {},
+                  const std::string& viewer = {}) const {
+    return nacre_document_is_visible(get(), look, geometry.c_str(), rays.c_str(), viewer.c_str()) !=
+           0;
+  }
   nacre_document* get() const { return document_.get(); }
 
  private:
@@ -68,6 +139,9 @@ class Document {
     asked.search_paths = paths.data();
     asked.search_path_count = paths.size();
     asked.includes_anywhere = options.includes_anywhere;
+    asked.max_file_bytes = options.max_file_bytes;
+    asked.max_total_bytes = options.max_total_bytes;
+    asked.stop = options.stop != nullptr ? options.stop->get() : nullptr;
     const detail::Said report;
     nacre_document* made = nullptr;
     report.finish(call(&asked, report.get(), &made), said);

@@ -20,111 +20,21 @@
 #ifndef NACRE_NACRE_H
 #define NACRE_NACRE_H
 
+#include <nacre/channel.h>
+#include <nacre/colors.h>
+#include <nacre/document.h>
+#include <nacre/library.h>
 #include <nacre/record.h>
+#include <nacre/report.h>
 #include <nacre/version.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#define NACRE_API __attribute__((visibility("default")))
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* -- Status and version ----------------------------------------------------------------- */
-
-typedef int nacre_status;
-enum {
-  NACRE_OK = 0,
-  NACRE_FAILED = 1,          /* The report says why. */
-  NACRE_WRONG_ARGUMENTS = 2, /* A call that cannot be meant: an object that is NULL, a size of 0,
-                                fewer arrays than were bound. Nothing was done. */
-  NACRE_OUT_OF_MEMORY = 3,
-  NACRE_STOPPED = 4,       /* nacre_batch::stop was not 0. The outputs hold anything. */
-  NACRE_TOO_MANY_STEPS = 5 /* A loop of the document does not end. The outputs hold anything. */
-};
-
-/* NACRE_VERSION of the library that is running. */
-NACRE_API uint32_t nacre_version(void);
-/* "0.1.0" */
-NACRE_API const char* nacre_version_text(void);
-/* The folder of the MaterialX data library that was installed with libnacre.so; "" if it is not
-   there. The environment variable NACRE_MATERIALX_LIBRARIES counts before it. */
-NACRE_API const char* nacre_data_library(void);
-
-/* -- Reports: what there is to say ------------------------------------------------------- */
-
-typedef struct nacre_report nacre_report;
-
-enum { NACRE_NOTE = 0, NACRE_WARNING = 1, NACRE_ERROR = 2 };
-
-typedef struct nacre_diagnostic {
-  size_t size;
-  int severity;         /* NACRE_ERROR: something is not there, or not right. */
-  const char* code;     /* Stable, "unknown-node". */
-  const char* file;     /* "" where no place is known. */
-  int line;             /* 1-based; 0: unknown. */
-  int column;           /* 1-based; 0: unknown. */
-  const char* path;     /* Of the element: "NG_marble/mix1/fg". */
-  const char* message;  /* One sentence. */
-  const char* expected; /* What would have been right; may be "". */
-  const char* found;    /* What was there; may be "". */
-  const char* text;     /* All of it in one printable line. */
-} nacre_diagnostic;
-
-NACRE_API nacre_status nacre_report_create(nacre_report** report);
-NACRE_API void nacre_report_destroy(nacre_report* report);
-/* How many there are to get. */
-NACRE_API size_t nacre_report_count(const nacre_report* report);
-/* Errors of all that was said, those included that a long report no longer has. */
-NACRE_API size_t nacre_report_error_count(const nacre_report* report);
-NACRE_API nacre_status nacre_report_get(const nacre_report* report, size_t index,
-                                        nacre_diagnostic* diagnostic);
-NACRE_API void nacre_report_clear(nacre_report* report);
-
-/* -- Channels: what kernels read and store ------------------------------------------------ */
-
-/* Of a channel's numbers, four bytes each: float, int32, or int32 that is 0 or 1. */
-enum { NACRE_FLOAT = 0, NACRE_INT = 1, NACRE_BOOL = 2 };
-
-/* Who gives a channel its numbers. */
-enum {
-  NACRE_POINT = 0,     /* The host, of the shading point. */
-  NACRE_DIRECTION = 1, /* The host, of what it asks about the point: wi, u. */
-  NACRE_STATE = 2,     /* NACRE_BEGIN, for the other entries of a material. */
-  NACRE_RESULT = 3,    /* A kernel, for the host. */
-  NACRE_SLOT = 4,      /* An instance, for all points; or the host, if it is varying. */
-  NACRE_VALUE = 5      /* A kernel: an output of a node graph. */
-};
-
-/* Channels of one meaning, "<name>.x", "<name>.y", ... */
-typedef struct nacre_channel_group {
-  size_t size;
-  const char* name; /* "P"; "uv*", where * is a number, "geomprop.*", where it is a name. */
-  int role;
-  int components; /* 1: the name alone. */
-  int type;
-  const char* unit;    /* "scene units", "unit vector"; "": a bare number. */
-  const char* meaning; /* One phrase. */
-} nacre_channel_group;
-
-NACRE_API size_t nacre_channel_group_count(void);
-NACRE_API nacre_status nacre_channel_group_get(size_t index, nacre_channel_group* group);
-
-/* A channel of one kernel. */
-typedef struct nacre_channel {
-  size_t size;
-  const char* name; /* "P.x" */
-  int component;    /* 0 to 3 for .x to .w; -1: none; of "state.<k>" its place in the state. */
-  int type;
-  int role;
-  const char* unit;    /* Of the group, or "". */
-  const char* meaning; /* Of the group, or "". */
-} nacre_channel;
-
 /* -- Systems: what documents share -------------------------------------------------------- */
-
-typedef struct nacre_system nacre_system;
 
 typedef struct nacre_system_options {
   size_t size;
@@ -142,37 +52,37 @@ typedef struct nacre_system_options {
    */
   const nacre_body* bodies;
   size_t body_count;
+  const nacre_colors* colors;    /* In place of ocio_config, or NULL. */
+  int standard_texts;            /* 1: also the data library's own GLSL, for NACRE_TEXT. */
+  uint64_t tile_memory;          /* Bytes of tiles of images that do not fit. 0: 256 MiB. */
+  int max_image_size;            /* Of either side. 0: 16384, which is also the most. */
+  uint64_t max_image_bytes;      /* Of decoded pixels. 0: 2 GiB. */
+  uint64_t max_image_file_bytes; /* 0: 2 GiB. */
 } nacre_system_options;
 
 NACRE_API nacre_status nacre_system_create(const nacre_system_options* options,
                                            nacre_report* report, nacre_system** system);
 NACRE_API void nacre_system_destroy(nacre_system* system);
 
-/* -- Documents ------------------------------------------------------------------------------ */
-
-typedef struct nacre_document nacre_document;
-
-typedef struct nacre_read_options {
+/* What a system's textures take, and have done since it was made. */
+typedef struct nacre_texture_statistics {
   size_t size;
-  const char* const* search_paths; /* Of includes, after the including file's own folder. */
-  size_t search_path_count;
-  int includes_anywhere; /* 1: also outside the main file's folder and the search paths. */
-} nacre_read_options;
+  uint64_t resident_bytes;      /* Of texels in memory, used or not. */
+  uint64_t peak_resident_bytes; /* The most that there were at once. */
+  uint64_t resident_textures;
+  uint64_t tiled_textures; /* Those that did not fit, and are read by tiles. */
+  uint64_t missing_textures;
+  uint64_t loads;           /* Times an image was opened. */
+  uint64_t hits;            /* Requests that found theirs loaded. */
+  uint64_t evictions;       /* Unused ones dropped for room. */
+  uint64_t replaced_texels; /* NaN and infinite samples, over all loads. */
+  uint64_t read_failures;   /* Lookups of tiles that read 0 instead. */
+} nacre_texture_statistics;
 
-NACRE_API nacre_status nacre_document_read(const char* file, const nacre_read_options* options,
-                                           nacre_report* report, nacre_document** document);
-/* Of text in memory, which need not end with 0. `name` stands for the file in diagnostics, and its
-   folder is where includes and images are looked for. */
-NACRE_API nacre_status nacre_document_parse(const char* text, size_t length, const char* name,
-                                            const nacre_read_options* options, nacre_report* report,
-                                            nacre_document** document);
-NACRE_API void nacre_document_destroy(nacre_document* document);
-/* Material nodes, in the document's order. */
-NACRE_API size_t nacre_document_material_count(const nacre_document* document);
-NACRE_API const char* nacre_document_material(const nacre_document* document, size_t index);
-/* Outputs of the document and its node graphs that can be kernels: "NG_marble/out". */
-NACRE_API size_t nacre_document_output_count(const nacre_document* document);
-NACRE_API const char* nacre_document_output(const nacre_document* document, size_t index);
+NACRE_API nacre_status nacre_system_texture_statistics(const nacre_system* system,
+                                                       nacre_texture_statistics* statistics);
+/* Forgets all that no shader has. */
+NACRE_API void nacre_system_drop_textures(nacre_system* system);
 
 /* -- Shaders: compiled kernels ---------------------------------------------------------------- */
 
@@ -213,6 +123,13 @@ enum {
 enum { NACRE_JIT = 0, NACRE_INTERPRETER = 1, NACRE_REFERENCE = 2 };
 enum { NACRE_STANDARD = 0, NACRE_PRECISE = 1, NACRE_FAST = 2 };
 enum { NACRE_FRONT = 0, NACRE_BACK = 1 };
+enum { NACRE_BODY = 0, NACRE_GRAPH = 1, NACRE_TEXT = 2 };
+
+/* Replaces "{name}" in the file names of images. */
+typedef struct nacre_file_name_part {
+  const char* name;
+  const char* text;
+} nacre_file_name_part;
 
 typedef struct nacre_compile_options {
   size_t size;
@@ -255,6 +172,26 @@ typedef struct nacre_compile_options {
   int files_anywhere;      /* 1: images also from outside those folders. */
   int missing_images_pass; /* 1: an image that cannot be had is a warning and no error. */
   int lenient;             /* 1: take what other programs' exporters get wrong. */
+  /* Of colours: the space that kernels compute in, NULL: what the document says, else lin_rec709;
+     "none": nothing is converted. And the one that outputs are given in, NULL: the same. */
+  const char* working_space;
+  const char* output_space;
+  const char* distance_unit; /* What one unit of scene length is. NULL: "meter". */
+  /* What file names of images depend on. `geometry`: the full path of what is shaded, for its
+     tokens; frame: of "{frame}", where has_frame is 1; `names`: values of other "{NAME}". */
+  const char* geometry;
+  int frame;
+  int has_frame;
+  const nacre_file_name_part* names;
+  size_t name_count;
+  /* Applied in order: where two set the same input, the last one counts. */
+  const nacre_variant* variants;
+  size_t variant_count;
+  uint64_t max_nodes;        /* Of a graph; more are an error. 0: 250,000. */
+  uint64_t max_instructions; /* Of a kernel; more are an error. 0: 500,000. */
+  const nacre_stop* stop;    /* NULL: never. */
+  int prefer; /* Where a nodedef has several implementations: NACRE_BODY, NACRE_GRAPH, NACRE_TEXT.
+               */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;
@@ -268,6 +205,10 @@ NACRE_API nacre_status nacre_compile_outputs(nacre_system* system, const nacre_d
                                              const nacre_compile_options* options,
                                              nacre_report* report, nacre_shader** shader);
 NACRE_API void nacre_shader_destroy(nacre_shader* shader);
+/* Says all that is wrong with a document: what has no errors compiles, every material and every
+   output. `max_seconds` and others that say how kernels are made count as for compiling. */
+NACRE_API nacre_status nacre_check(nacre_system* system, const nacre_document* document,
+                                   const nacre_compile_options* options, nacre_report* report);
 
 /* 1 if there is something to compute. A material that does not emit has no NACRE_EMISSION. */
 NACRE_API int nacre_shader_has(const nacre_shader* shader, nacre_entry entry);

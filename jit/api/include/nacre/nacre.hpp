@@ -7,6 +7,7 @@
 #define NACRE_NACRE_HPP
 
 #include <nacre/binding.hpp>
+#include <nacre/colors.hpp>
 #include <nacre/diagnostic.hpp>
 #include <nacre/document.hpp>
 #include <nacre/record.hpp>

@@ -11,12 +11,9 @@
 #ifndef NACRE_RECORD_H
 #define NACRE_RECORD_H
 
+#include <nacre/report.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#ifndef NACRE_API
-#define NACRE_API __attribute__((visibility("default")))
-#endif
 
 #ifdef __cplusplus
 extern "C" {

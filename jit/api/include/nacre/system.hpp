@@ -5,9 +5,12 @@
 
 #include <cstdint>
 #include <exception>
+#include <memory>
+#include <nacre/colors.hpp>
 #include <nacre/document.hpp>
 #include <nacre/record.hpp>
 #include <nacre/shader.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,8 +50,30 @@ struct SystemOptions {
   int compile_threads = 0;
   bool compile_apart = false;
   std::uint64_t texture_memory = 0;
-  std::vector<Body> bodies = {};  ///< Nodedefs that the host implements.
+  std::vector<Body> bodies = {};                   ///< Nodedefs that the host implements.
+  std::shared_ptr<const Colors> colors = nullptr;  ///< In place of ocio_config.
+  bool standard_texts = false;
+  std::uint64_t tile_memory = 0;
+  int max_image_size = 0;
+  std::uint64_t max_image_bytes = 0;
+  std::uint64_t max_image_file_bytes = 0;
 };
+
+/// An input or output of a nodedef; see nacre_port.
+struct Port {
+  std::string name, type, value, geomprop, label, folder, unit, document;
+  bool is_uniform = false;
+};
+
+/// A node that documents may use; see nacre_nodedef.
+struct NodeDef {
+  std::string name, category, group, version, document;
+  std::vector<Port> inputs, outputs;
+  bool has_body = false;
+};
+
+/// The folder of the installed MaterialX data library; "" if it is not there.
+inline std::string data_library() { return nacre_data_library(); }
 
 /// How a shader is compiled; see nacre_compile_options.
 struct CompileOptions {
@@ -73,6 +98,16 @@ struct CompileOptions {
   bool files_anywhere = false;
   bool missing_images_pass = false;
   bool lenient = false;
+  std::string working_space, output_space;                 ///< Of colours.
+  std::string distance_unit;                               ///< "": "meter".
+  std::string geometry;                                    ///< Full path of what is shaded.
+  std::optional<int> frame;                                ///< Of "{frame}" in file names.
+  std::vector<std::pair<std::string, std::string>> names;  ///< Of "{NAME}" in them.
+  std::vector<Variant> variants;
+  int prefer = NACRE_BODY;
+  std::uint64_t max_nodes = 0;
+  std::uint64_t max_instructions = 0;
+  const StopSource* stop = nullptr;
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -93,6 +128,17 @@ class System {
     for (const Body& body : options.bodies) bodies.push_back(detail::body_of(body));
     asked.bodies = bodies.data();
     asked.body_count = bodies.size();
+    const std::string name_of_colors = options.colors ? options.colors->name() : "";
+    nacre_colors colors{};
+    if (options.colors) {
+      colors = detail::colors_of(options.colors, name_of_colors);
+      asked.colors = &colors;
+    }
+    asked.standard_texts = options.standard_texts;
+    asked.tile_memory = options.tile_memory;
+    asked.max_image_size = options.max_image_size;
+    asked.max_image_bytes = options.max_image_bytes;
+    asked.max_image_file_bytes = options.max_image_file_bytes;
     const detail::Said report;
     nacre_system* made = nullptr;
     report.finish(nacre_system_create(&asked, report.get(), &made), said);
@@ -120,11 +166,59 @@ class System {
                                        report, made);
         });
   }
+  /// All that is wrong with a document, errors too.
+  std::vector<Diagnostic> check(const Document& document, const CompileOptions& options = {}) {
+    const detail::Said report;
+    nacre_status status = NACRE_OK;
+    with_options(options, [&](const nacre_compile_options& asked) {
+      status = nacre_check(get(), document.get(), &asked, report.get());
+    });
+    if (status != NACRE_FAILED) detail::check(status);
+    return report.all();
+  }
+
+  /// Those of the libraries.
+  std::vector<NodeDef> nodedefs() const {
+    std::vector<NodeDef> list;
+    for (std::size_t i = 0; i < nacre_system_nodedef_count(get()); ++i) {
+      nacre_nodedef one{};
+      one.size = sizeof one;
+      detail::check(nacre_system_nodedef(get(), i, &one));
+      list.push_back({one.name, one.category, one.group, one.version, one.document,
+                      ports(i, one.input_count, nacre_system_input),
+                      ports(i, one.output_count, nacre_system_output), one.has_body != 0});
+    }
+    return list;
+  }
+
+  nacre_texture_statistics texture_statistics() const {
+    nacre_texture_statistics now{};
+    now.size = sizeof now;
+    detail::check(nacre_system_texture_statistics(get(), &now));
+    return now;
+  }
+  /// Forgets textures that no shader has.
+  void drop_textures() { nacre_system_drop_textures(get()); }
+
   nacre_system* get() const { return system_.get(); }
 
  private:
-  template <class Make>
-  static Shader compile(const CompileOptions& options, std::vector<Diagnostic>* said, Make&& call) {
+  template <class Get>
+  std::vector<Port> ports(std::size_t nodedef, std::size_t count, Get&& port) const {
+    std::vector<Port> list;
+    for (std::size_t k = 0; k < count; ++k) {
+      nacre_port one{};
+      one.size = sizeof one;
+      detail::check(port(get(), nodedef, k, &one));
+      list.push_back({one.name, one.type, one.value, one.geomprop, one.label, one.folder, one.unit,
+                      one.document, one.is_uniform != 0});
+    }
+    return list;
+  }
+
+  /// Calls with the options as the C interface takes them.
+  template <class Call>
+  static void with_options(const CompileOptions& options, Call&& call) {
     const detail::TextList live(options.live);
     const detail::TextList varying(options.varying);
     const detail::TextList with_begin(options.with_begin);
@@ -156,9 +250,36 @@ class System {
     asked.files_anywhere = options.files_anywhere;
     asked.missing_images_pass = options.missing_images_pass;
     asked.lenient = options.lenient;
+    asked.working_space = detail::text_or_null(options.working_space);
+    asked.output_space = detail::text_or_null(options.output_space);
+    asked.distance_unit = detail::text_or_null(options.distance_unit);
+    asked.geometry = detail::text_or_null(options.geometry);
+    asked.frame = options.frame.value_or(0);
+    asked.has_frame = options.frame.has_value();
+    std::vector<nacre_file_name_part> names;
+    for (const auto& [name, text] : options.names) names.push_back({name.c_str(), text.c_str()});
+    asked.names = names.data();
+    asked.name_count = names.size();
+    std::vector<nacre_variant> variants;
+    for (const Variant& one : options.variants) {
+      variants.push_back({one.set.c_str(), one.variant.c_str()});
+    }
+    asked.variants = variants.data();
+    asked.variant_count = variants.size();
+    asked.prefer = options.prefer;
+    asked.max_nodes = options.max_nodes;
+    asked.max_instructions = options.max_instructions;
+    asked.stop = options.stop != nullptr ? options.stop->get() : nullptr;
+    call(asked);
+  }
+
+  template <class Make>
+  static Shader compile(const CompileOptions& options, std::vector<Diagnostic>* said, Make&& call) {
     const detail::Said report;
     nacre_shader* made = nullptr;
-    report.finish(call(&asked, report.get(), &made), said);
+    with_options(options, [&](const nacre_compile_options& asked) {
+      report.finish(call(&asked, report.get(), &made), said);
+    });
     return Shader(made);
   }
 

@@ -1,0 +1,111 @@
+// What a host may say of how documents are read and compiled.
+#include <gtest/gtest.h>
+
+#include <nacre/nacre.hpp>
+#include <string>
+#include <vector>
+
+namespace nacre {
+namespace {
+
+/// Why there is no kernel for the output "out"; "" if there is one.
+std::string fault_of(const std::string& text, const CompileOptions& options) {
+  try {
+    System().compile_outputs(Document::parse(text), {"out"}, options);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+std::string image_of(const std::string& file, const std::string& more = "") {
+  return R"(<materialx version="1.39">)" + more +
+         R"(<image name="i" type="color3"><input name="file" type="filename" value=")" + file +
+         R"("/></image><output name="out" type="color3" nodename="i"/></materialx>)";
+}
+
+TEST(ApiOptions, PartsOfFileNamesAreTheHosts) {
+  CompileOptions options;
+  options.names = {{"SHOT", "s12"}};
+  EXPECT_NE(fault_of(image_of("a_{SHOT}_{TAKE}.png"), options).find("a_s12_{TAKE}.png"),
+            std::string::npos);
+}
+
+TEST(ApiOptions, TokensAreThoseOfTheGeometry) {
+  const std::string tokens = R"(<geominfo name="g" geom="/house/door">
+    <token name="asset" type="string" value="oak"/></geominfo>)";
+  CompileOptions options;
+  options.geometry = "/house/door/knob";
+  EXPECT_NE(fault_of(image_of("&lt;asset&gt;.png", tokens), options).find("oak.png"),
+            std::string::npos);
+  options.geometry = "/garden";
+  EXPECT_EQ(fault_of(image_of("&lt;asset&gt;.png", tokens), options).find("oak.png"),
+            std::string::npos);
+}
+
+TEST(ApiOptions, VariantsReplaceInputs) {
+  const Document document = Document::parse(R"(<materialx version="1.39">
+  <standard_surface name="S" type="surfaceshader">
+    <input name="emission" type="float" value="1"/></standard_surface>
+  <surfacematerial name="M" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  <variantset name="lamp">
+    <variant name="off"><input name="emission" type="float" value="0"/></variant></variantset>
+</materialx>)");
+  System system;
+  CompileOptions options;
+  options.engine = NACRE_INTERPRETER;
+  EXPECT_TRUE(system.compile_material(document, "M", options).has(NACRE_EMISSION));
+  options.variants = {{"lamp", "off"}};
+  EXPECT_FALSE(system.compile_material(document, "M", options).has(NACRE_EMISSION));
+}
+
+TEST(ApiOptions, LimitsAreErrors) {
+  std::string chain = R"(<materialx version="1.39"><constant name="n0" type="float"/>)";
+  for (int i = 1; i < 20; ++i) {
+    chain += "<sin name=\"n" + std::to_string(i) + "\" type=\"float\"><input name=\"in\" " +
+             "type=\"float\" nodename=\"n" + std::to_string(i - 1) + "\"/></sin>";
+  }
+  chain += R"(<output name="out" type="float" nodename="n19"/></materialx>)";
+  CompileOptions options;
+  options.engine = NACRE_INTERPRETER;
+  EXPECT_EQ(fault_of(chain, options), "");
+  options.max_nodes = 10;
+  EXPECT_NE(fault_of(chain, options), "");
+  ReadOptions reading;
+  reading.max_file_bytes = 100;
+  EXPECT_THROW(Document::parse(chain, "chain.mtlx", reading), Error);
+}
+
+TEST(ApiOptions, WhatIsStoppedFails) {
+  StopSource stop;
+  CompileOptions options;
+  options.stop = &stop;
+  ReadOptions reading;
+  reading.stop = &stop;
+  const std::string text = R"(<materialx version="1.39"><constant name="c" type="float"/>
+    <output name="out" type="float" nodename="c"/></materialx>)";
+  EXPECT_EQ(fault_of(text, options), "");
+  stop.request();
+  EXPECT_NE(fault_of(text, options), "");
+  EXPECT_THROW(Document::parse(text, "c.mtlx", reading), Error);
+}
+
+TEST(ApiOptions, ChoicesThatThereAreNotAreRefused) {
+  const Document document = Document::parse(R"(<materialx version="1.39"/>)");
+  System system;
+  for (int nacre_compile_options::* choice :
+       {&nacre_compile_options::engine, &nacre_compile_options::accuracy,
+        &nacre_compile_options::prefer}) {
+    for (const int value : {-1, 3}) {
+      nacre_compile_options options{};
+      options.size = sizeof options;
+      options.*choice = value;
+      EXPECT_EQ(nacre_check(system.get(), document.get(), &options, nullptr),
+                NACRE_WRONG_ARGUMENTS);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nacre
