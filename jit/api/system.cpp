@@ -13,7 +13,7 @@ namespace {
 TextureOptions texture_options(const nacre_system_options& asked) {
   TextureOptions options;
   if (asked.texture_memory != 0) options.budget = asked.texture_memory;
-  if (asked.tile_memory != 0) options.host_cache = asked.tile_memory;
+  if (asked.tile_memory != 0) options.tile_memory = asked.tile_memory;
   if (asked.max_image_size != 0) options.limits.max_size = asked.max_image_size;
   if (asked.max_image_bytes != 0) options.limits.max_bytes = asked.max_image_bytes;
   if (asked.max_image_file_bytes != 0) options.limits.max_file_bytes = asked.max_image_file_bytes;
@@ -77,7 +77,7 @@ nacre_status nacre_system_texture_statistics(const nacre_system* system,
                                                    .resident_bytes = now.resident_bytes,
                                                    .peak_resident_bytes = now.peak_resident_bytes,
                                                    .resident_textures = now.resident_textures,
-                                                   .tiled_textures = now.host_textures,
+                                                   .tiled_textures = now.tiled_textures,
                                                    .missing_textures = now.missing_textures,
                                                    .loads = now.loads,
                                                    .hits = now.hits,

@@ -19,7 +19,7 @@ TextureSource RecordedTextures::add(const TextureHandle& texture, const std::str
   const auto words = texture->words();
   source.state = texture->missing()    ? TextureSource::State::missing
                  : texture->resident() ? TextureSource::State::resident
-                                       : TextureSource::State::on_host;
+                                       : TextureSource::State::by_call;
   source.format = static_cast<texture_layout::TexelFormat>(words[texture_layout::word_format]);
   source.channels = static_cast<int>(words[texture_layout::word_channels]);
   source.single = words[texture_layout::word_level_count] == 1;
@@ -103,10 +103,10 @@ std::vector<TextureBinding> RecordedTextures::bindings() const {
 
 void RecordedTextures::look_up(void* user, const TextureCall* call) {
   const auto* self = static_cast<const RecordedTextures*>(user);
-  if (call->slot >= self->slots_.size() || self->slots_[call->slot]->host() == nullptr) return;
+  if (call->slot >= self->slots_.size() || self->slots_[call->slot]->sampler() == nullptr) return;
   const auto lanes = static_cast<std::size_t>(call->lanes);
   const TextureModes modes = unpack_modes(call->modes);
-  const HostLookup lookup{.count = static_cast<int>(call->lanes),
+  const TextureLookup lookup{.count = static_cast<int>(call->lanes),
                           .u = call->u,
                           .v = call->v,
                           .dudx = call->dudx,
@@ -117,7 +117,7 @@ void RecordedTextures::look_up(void* user, const TextureCall* call) {
                           .u_mode = modes.u,
                           .v_mode = modes.v,
                           .max_anisotropy = modes.max_anisotropy};
-  self->slots_[call->slot]->host()->lookup(
+  self->slots_[call->slot]->sampler()->lookup(
       lookup, {call->rgba, call->rgba + lanes, call->rgba + 2 * lanes, call->rgba + 3 * lanes});
 }
 

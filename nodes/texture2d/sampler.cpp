@@ -107,7 +107,7 @@ Float4 sample_resident(const TexelFetch& fetch, const TextureSource& source,
   return if_any(!near, found, [&] { return filter_probes(fetch, lookup.uv, probes, modes); });
 }
 
-Float4 sample_on_host(Recorder& recorder, const TextureSource& source, const ImageLookup& lookup) {
+Float4 sample_by_call(Recorder& recorder, const TextureSource& source, const ImageLookup& lookup) {
   Float2 dx;
   Float2 dy;
   if (lookup.modes.filter != TextureFilter::closest) {
@@ -126,8 +126,8 @@ Float4 sample_on_host(Recorder& recorder, const TextureSource& source, const Ima
 Float4 sample_image(Recorder& recorder, const TextureSource& source, const ImageLookup& lookup) {
   if (source.state == TextureSource::State::missing) return lookup.otherwise;
   Float4 found;
-  if (source.state == TextureSource::State::on_host) {
-    found = sample_on_host(recorder, source, lookup);
+  if (source.state == TextureSource::State::by_call) {
+    found = sample_by_call(recorder, source, lookup);
   } else {
     const TexelFetch fetch{recorder, source.slot, source.format, source.channels, lookup.channels};
     found = fetch.scaled(sample_resident(fetch, source, lookup));

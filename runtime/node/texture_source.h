@@ -15,7 +15,7 @@ struct TextureSource {
   /// How a kernel gets its texels.
   enum class State {
     resident,  ///< Texels through Op::texel, laid out as runtime/texture/layout.h says.
-    on_host,   ///< Too large: look up through Op::texture_call.
+    by_call,   ///< Look up through Op::texture_call: too large, or the host's.
     missing,   ///< No image: the node's default colour.
   };
   State state = State::missing;          ///< Decided while recording.

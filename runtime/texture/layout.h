@@ -14,7 +14,7 @@
 ///   word   type   meaning
 ///   0      u32    magic_and_version
 ///   1      u32    TexelFormat
-///   2      u32    flags: texture_missing | texture_on_host
+///   2      u32    flags: texture_missing | texture_by_call
 ///   3      i32    channels of the image that the store kept, 1..4
 ///   4      i32    width of level 0, 1..16384
 ///   5      i32    height of level 0
@@ -25,7 +25,7 @@
 ///   10     i32    log2 of the tile side, always tile_log2 in this version
 ///   11     i32    log2 of the words of one texel: 0, 1 or 2
 ///   12     i32    words of the whole array, header included; below 2^31
-///   13     i32    width of the image in the file: word 4, except when on the host
+///   13     i32    width of the image in the file: word 4, except when looked up by calls
 ///   14     i32    height of the image in the file
 ///   15     0      reserved
 ///   16+l   i32    level l: index of its first word, a multiple of 16
@@ -107,10 +107,10 @@ inline constexpr int alignment = 64;    ///< Bytes, of the array.
 /// Flag: no image could be read. The array then is one 1x1 r32f level holding 0;
 /// the sampler returns the node's default.
 inline constexpr std::uint32_t texture_missing = 1u << 0;
-/// Flag: texels are not here (a 1x1 placeholder is); look up through HostTexture.
+/// Flag: texels are not here (a 1x1 placeholder is); look up through its TextureSampler.
 /// Everything but words 13 and 14 describes the placeholder, so a stray fetch stays
 /// inside the array.
-inline constexpr std::uint32_t texture_on_host = 1u << 1;
+inline constexpr std::uint32_t texture_by_call = 1u << 1;
 
 /// Indices of header words.
 enum Word : int {

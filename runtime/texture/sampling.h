@@ -3,7 +3,7 @@
 #include <cstdint>
 
 /// @file
-/// What a texture lookup means: the recorded sampler, the host path and the tests'
+/// What a texture lookup means: the recorded sampler, the tiled one and the tests'
 /// oracle all implement this page.
 ///
 /// Coordinates. uv (0,0) is the lower left corner of the image, (1,1) the upper right

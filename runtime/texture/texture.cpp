@@ -25,8 +25,8 @@ AlignedWords placeholder(std::uint32_t flags, int image_width, int image_height)
 Texture::Texture(AlignedWords words, std::uint64_t replaced_texels)
     : words_(std::move(words)), replaced_texels_(replaced_texels) {}
 
-Texture::Texture(std::unique_ptr<HostTexture> host, const ImageInfo& info)
-    : words_(placeholder(texture_on_host, info.width, info.height)), host_(std::move(host)) {}
+Texture::Texture(std::unique_ptr<TextureSampler> sampler, int width, int height)
+    : words_(placeholder(texture_by_call, width, height)), sampler_(std::move(sampler)) {}
 
 Texture::Texture(Diagnostic problem)
     : words_(placeholder(texture_missing, 1, 1)), problem_(std::move(problem)) {}

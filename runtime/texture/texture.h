@@ -7,8 +7,8 @@
 
 #include "runtime/diagnostic.h"
 #include "runtime/texture/aligned_words.h"
-#include "runtime/texture/host_texture.h"
 #include "runtime/texture/layout.h"
+#include "runtime/texture/texture_sampler.h"
 
 namespace nacre {
 
@@ -18,14 +18,14 @@ class Texture {
  public:
   /// A resident image: the array with all its levels.
   Texture(AlignedWords words, std::uint64_t replaced_texels);
-  /// An image that is looked up through the host.
-  Texture(std::unique_ptr<HostTexture> host, const ImageInfo& info);
+  /// An image that is looked up by calls, of that size.
+  Texture(std::unique_ptr<TextureSampler> sampler, int width, int height);
   /// An image that could not be read, and why.
   explicit Texture(Diagnostic problem);
 
   /// As layout.h describes them, the header first.
   std::span<const std::uint32_t> words() const { return words_.span(); }
-  /// texture_missing, texture_on_host or 0.
+  /// texture_missing, texture_by_call or 0.
   std::uint32_t flags() const { return words()[texture_layout::word_flags]; }
   /// The image could not be read.
   bool missing() const { return (flags() & texture_layout::texture_missing) != 0; }
@@ -36,7 +36,7 @@ class Texture {
   /// Of the image in the file; 1 if it is missing.
   int height() const { return static_cast<int>(words()[texture_layout::word_image_height]); }
 
-  const HostTexture* host() const { return host_.get(); }  ///< Null unless on the host.
+  const TextureSampler* sampler() const { return sampler_.get(); }  ///< Null unless by calls.
   /// Why it is missing.
   const std::optional<Diagnostic>& problem() const { return problem_; }
   /// NaN and infinite samples of level 0 that became 0.
@@ -44,7 +44,7 @@ class Texture {
 
  private:
   AlignedWords words_;
-  std::unique_ptr<HostTexture> host_;
+  std::unique_ptr<TextureSampler> sampler_;
   std::optional<Diagnostic> problem_;
   std::uint64_t replaced_texels_ = 0;
 };

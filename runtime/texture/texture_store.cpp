@@ -97,7 +97,7 @@ TextureStore::Loaded TextureStore::load_image(const TextureKey& key, const Stop&
     return {std::make_shared<Texture>(std::move(*problem)), 0};
   }
   const texture_layout::Plan plan = plan_texture(reader.info(), key.policy);
-  if (!reserve(plan.bytes())) return {open_on_host(key, reader.info()), 0};
+  if (!reserve(plan.bytes())) return {open_tiled(key, reader.info()), 0};
 
   struct Reservation {
     TextureStore& store;
@@ -107,7 +107,7 @@ TextureStore::Loaded TextureStore::load_image(const TextureKey& key, const Stop&
     }
   } reservation{*this, plan.bytes()};
   AlignedWords words = AlignedWords::allocate(plan.total_words);
-  if (words.empty()) return {open_on_host(key, reader.info()), 0};
+  if (words.empty()) return {open_tiled(key, reader.info()), 0};
   std::uint64_t replaced = 0;
   if (auto problem = load_texture(reader, plan, words, replaced)) {
     return {std::make_shared<Texture>(std::move(*problem)), 0};
@@ -116,12 +116,12 @@ TextureStore::Loaded TextureStore::load_image(const TextureKey& key, const Stop&
   return {std::move(texture), std::exchange(reservation.bytes, 0)};
 }
 
-TextureHandle TextureStore::open_on_host(const TextureKey& key, const ImageInfo& info) {
+TextureHandle TextureStore::open_tiled(const TextureKey& key, const ImageInfo& info) {
   std::shared_ptr<TileCache> cache;
   {
     const std::lock_guard lock(mutex_);
     if (!tile_cache_)
-      tile_cache_ = std::make_shared<TileCache>(options_.host_cache, options_.limits);
+      tile_cache_ = std::make_shared<TileCache>(options_.tile_memory, options_.limits);
     cache = tile_cache_;
   }
   auto file = cache->open(key.path, info);
@@ -130,7 +130,8 @@ TextureHandle TextureStore::open_on_host(const TextureKey& key, const ImageInfo&
         image_error("broken-image", key.path, "the image cannot be opened in the tile cache"));
   }
   return std::make_shared<Texture>(
-      std::make_unique<HostTexture>(std::move(cache), std::move(file), info), info);
+      std::make_unique<TiledTexture>(std::move(cache), std::move(file), info), info.width,
+      info.height);
 }
 
 bool TextureStore::reserve(std::uint64_t bytes) {
@@ -197,7 +198,7 @@ TextureStatistics TextureStore::statistics() const {
     } else if (entry.texture->resident()) {
       ++result.resident_textures;
     } else {
-      ++result.host_textures;
+      ++result.tiled_textures;
     }
   }
   return result;

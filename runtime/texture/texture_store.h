@@ -38,7 +38,7 @@ struct TextureOptions {
   /// Bytes of texels kept in memory, unused textures included.
   std::uint64_t budget = std::uint64_t{2} << 30;
   /// Bytes of tiles kept for images that are not resident, by all of them together.
-  std::uint64_t host_cache = std::uint64_t{256} << 20;
+  std::uint64_t tile_memory = std::uint64_t{256} << 20;
   /// Of every image. The store keeps to sides of 16384, which its layout can hold.
   ImageLimits limits;
   TileLimits tiles;  ///< Of what a name with `<UDIM>` or `<UVTILE>` stands for.
@@ -49,13 +49,13 @@ struct TextureStatistics {
   std::uint64_t resident_bytes = 0;       ///< Of the arrays of all resident textures, used or not.
   std::uint64_t peak_resident_bytes = 0;  ///< The most that there were at once.
   std::uint64_t resident_textures = 0;    ///< Known to the store now, texels in memory.
-  std::uint64_t host_textures = 0;        ///< Known to the store now, looked up through the host.
+  std::uint64_t tiled_textures = 0;        ///< Known to the store now, read by tiles.
   std::uint64_t missing_textures = 0;     ///< Known to the store now, with a problem.
   std::uint64_t loads = 0;                ///< Times an image was opened.
   std::uint64_t hits = 0;                 ///< Requests that found their texture loaded.
   std::uint64_t evictions = 0;            ///< Unused textures dropped for room.
   std::uint64_t replaced_texels = 0;      ///< NaN and infinite samples, over all loads.
-  std::uint64_t read_failures = 0;        ///< Lookups through the host that read 0 instead.
+  std::uint64_t read_failures = 0;        ///< Lookups of tiles that read 0 instead.
 };
 
 /// Textures by file, shared by all that ask for the same key. A texture lives while a
@@ -64,7 +64,7 @@ struct TextureStatistics {
 /// pixels, who holds the old ones keeps them.
 ///
 /// Over the budget, unused textures go first, the least recently asked for before others;
-/// if there still is no room the image is served by the host (Texture::host) for as long
+/// if there still is no room the image is read by tiles (TiledTexture) for as long
 /// as someone holds it, and considered anew afterwards. Nothing in use is ever moved.
 ///
 /// Building the pyramid takes, for the time of loading, up to 4 bytes a texel more.
@@ -107,7 +107,7 @@ class TextureStore {
   };
   Loaded load(const TextureKey& key, const Stop& stop);
   Loaded load_image(const TextureKey& key, const Stop& stop);
-  TextureHandle open_on_host(const TextureKey& key, const ImageInfo& info);
+  TextureHandle open_tiled(const TextureKey& key, const ImageInfo& info);
   bool reserve(std::uint64_t bytes);
   void release(std::uint64_t bytes);
   Entries::iterator forget(Entries::iterator entry);

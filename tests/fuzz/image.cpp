@@ -18,11 +18,11 @@ const fuzz::MemoryFile& file() {
   return file;
 }
 
-void look_up(const HostTexture& texture) {
+void look_up(const TiledTexture& texture) {
   const std::vector<float> u{-0.5f, 0.1f, 0.5f, 0.99f};
   const std::vector<float> zero(u.size());
   std::vector<std::vector<float>> rgba(4, std::vector<float>(u.size()));
-  HostLookup lookup{};
+  TextureLookup lookup{};
   lookup.count = static_cast<int>(u.size());
   lookup.u = lookup.v = u.data();
   lookup.dudx = lookup.dvdx = lookup.dudy = lookup.dvdy = zero.data();
@@ -32,7 +32,7 @@ void look_up(const HostTexture& texture) {
 void load(std::uint64_t budget, const std::string& layer) {
   TextureOptions options;
   options.budget = budget;
-  options.host_cache = 1 << 20;
+  options.tile_memory = 1 << 20;
   options.limits.max_size = 512;
   options.limits.max_bytes = 4 << 20;
   TextureStore store(options);
@@ -42,7 +42,7 @@ void load(std::uint64_t budget, const std::string& layer) {
     fuzz::fail("an image is missing without a reason, or there with an error");
   }
   if (texture->words().empty()) fuzz::fail("a texture without a header");
-  if (texture->host() != nullptr) look_up(*texture->host());
+  if (texture->sampler() != nullptr) look_up(*texture->sampler());
 }
 
 }  // namespace

@@ -257,9 +257,9 @@ TEST_F(SamplerTest, HostGivesWhatIsResident) {
         TextureStore host(none_resident);
         const TextureModes both{filter, mode, mode, 8};
         const auto a = record(resident, both).run(points);
-        const RecordedLookup on_host = record(host, both);
-        const auto b = on_host.run(points);
-        ASSERT_EQ(host.statistics().host_textures, 1u) << on_host.diagnostics().to_string();
+        const RecordedLookup tiled = record(host, both);
+        const auto b = tiled.run(points);
+        ASSERT_EQ(host.statistics().tiled_textures, 1u) << tiled.diagnostics().to_string();
         for (std::size_t i = 0; i < points.size(); ++i) {
           for (std::size_t c = 0; c < 4; ++c) {
             ASSERT_NEAR(a[i][c], b[i][c], 2e-6)

@@ -102,7 +102,7 @@ TEST_F(TilesTest, TilesOnTheHostGiveTheSame) {
   }
   const auto a = record(resident, "t.<UDIM>.png").run(points);
   const auto b = record(host, "t.<UDIM>.png").run(points);
-  EXPECT_EQ(host.statistics().host_textures, 3u);
+  EXPECT_EQ(host.statistics().tiled_textures, 3u);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(a[i][c], b[i][c], 1e-6);
   }

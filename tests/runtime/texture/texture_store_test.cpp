@@ -170,12 +170,12 @@ TEST_F(TextureStoreTest, OverTheBudgetTheHostServesUntilThereIsRoom) {
   TextureHandle second = store.acquire(b, diagnostics_);
   EXPECT_TRUE(first->resident());
   ASSERT_FALSE(second->resident());
-  ASSERT_NE(second->host(), nullptr);
+  ASSERT_NE(second->sampler(), nullptr);
   EXPECT_FALSE(second->missing());
   EXPECT_EQ(second->width(), 32);
-  EXPECT_EQ(second->words()[word_flags], texture_on_host);
+  EXPECT_EQ(second->words()[word_flags], texture_by_call);
   EXPECT_EQ(second->words()[word_width], 1u);
-  EXPECT_EQ(store.statistics().host_textures, 1u);
+  EXPECT_EQ(store.statistics().tiled_textures, 1u);
   EXPECT_EQ(diagnostics_.all().size(), 0u);
 
   first.reset();
@@ -190,7 +190,7 @@ TEST_F(TextureStoreTest, ImageLargerThanTheBudgetDoesNotEmptyTheStore) {
   store.acquire(write("a.png", random_image(32, 32, 3, 255)), diagnostics_);
   const TextureHandle large =
       store.acquire(write("b.png", random_image(64, 64, 3, 255)), diagnostics_);
-  EXPECT_NE(large->host(), nullptr);
+  EXPECT_NE(large->sampler(), nullptr);
   EXPECT_EQ(store.statistics().evictions, 0u);
   EXPECT_EQ(store.statistics().resident_textures, 1u);
 }
@@ -237,7 +237,7 @@ TEST_F(TextureStoreTest, AChangedFileOnTheHostIsAnotherTexture) {
   const auto look_up = [](const Texture& texture) {
     const float u = 3.5f / 200, v = 4.5f / 200;
     std::array<float, 4> value{};
-    HostLookup lookup;
+    TextureLookup lookup;
     lookup.count = 1;
     lookup.u = &u;
     lookup.v = &v;
@@ -246,13 +246,13 @@ TEST_F(TextureStoreTest, AChangedFileOnTheHostIsAnotherTexture) {
     return value[0];
   };
   const TextureHandle seen = store.acquire(key, diagnostics_);
-  ASSERT_NE(seen->host(), nullptr);
+  ASSERT_NE(seen->sampler(), nullptr);
   EXPECT_NEAR(look_up(*seen), first.at(3, 4, 0), 1e-6);
   const TestImage second = random_image(200, 200, 1, 255, 2);
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   write("a.tif", second);
   const TextureHandle fresh = store.acquire(key, diagnostics_);
-  ASSERT_NE(fresh->host(), nullptr);
+  ASSERT_NE(fresh->sampler(), nullptr);
   EXPECT_NEAR(look_up(*fresh), second.at(3, 4, 0), 1e-6);
   EXPECT_NEAR(look_up(*seen), first.at(3, 4, 0), 1e-6);
 }
@@ -264,30 +264,30 @@ TEST_F(TextureStoreTest, TheHostReadsByContentsNotByName) {
   write("a.tif", image);
   std::filesystem::rename(folder_.file("a.tif"), folder_.file("a.dds"));
   const TextureHandle texture = store.acquire({folder_.file("a.dds"), "", {}}, diagnostics_);
-  ASSERT_NE(texture->host(), nullptr);
+  ASSERT_NE(texture->sampler(), nullptr);
   EXPECT_EQ(store.statistics().read_failures, 0u);
 }
 
 TEST_F(TextureStoreTest, HandlesOutliveTheStore) {
   const TestImage image = random_image(32, 32, 3, 255);
   TextureHandle resident;
-  TextureHandle on_host;
+  TextureHandle tiled;
   {
     TextureStore store(budget_of(bytes(32, 32, TexelFormat::rgba8)));
     resident = store.acquire(write("a.png", image), diagnostics_);
-    on_host = store.acquire(write("b.png", image), diagnostics_);
+    tiled = store.acquire(write("b.png", image), diagnostics_);
   }
   EXPECT_NEAR(texel(*resident, 0, 3, 4)[1], image.at(3, 4, 1), 1e-7);
-  ASSERT_NE(on_host->host(), nullptr);
+  ASSERT_NE(tiled->sampler(), nullptr);
   const float u = 3.5f / 32;
   const float v = 4.5f / 32;
   std::array<float, 4> value{};
-  HostLookup lookup;
+  TextureLookup lookup;
   lookup.count = 1;
   lookup.u = &u;
   lookup.v = &v;
   lookup.filter = TextureFilter::closest;
-  on_host->host()->lookup(lookup, {&value[0], &value[1], &value[2], &value[3]});
+  tiled->sampler()->lookup(lookup, {&value[0], &value[1], &value[2], &value[3]});
   EXPECT_NEAR(value[1], image.at(3, 4, 1), 1e-7);
 }
 
@@ -346,16 +346,16 @@ TEST_F(TextureStoreTest, ThreadsOverABudgetAlwaysSeeTheirOwnImage) {
         float value = 0;
         if (texture->resident()) {
           value = texel(*texture, 0, 5, 11)[1];
-        } else if (texture->host()) {
+        } else if (texture->sampler()) {
           const float u = 5.5f / 16;
           const float v = 11.5f / 16;
           std::array<float, 4> out{};
-          HostLookup lookup;
+          TextureLookup lookup;
           lookup.count = 1;
           lookup.u = &u;
           lookup.v = &v;
           lookup.filter = TextureFilter::closest;
-          texture->host()->lookup(lookup, {&out[0], &out[1], &out[2], &out[3]});
+          texture->sampler()->lookup(lookup, {&out[0], &out[1], &out[2], &out[3]});
           value = out[1];
         }
         if (std::abs(value - images[i].at(5, 11, 1)) > 1e-6f) ++wrong[t];

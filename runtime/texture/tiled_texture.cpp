@@ -1,4 +1,4 @@
-#include "runtime/texture/host_texture.h"
+#include "runtime/texture/tiled_texture.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,14 +7,14 @@
 namespace nacre {
 
 /// The texels and weights of one axis: at most four, in the order of the filter.
-struct HostTexture::Taps {
+struct TiledTexture::Taps {
   int count = 0;
   std::array<int, 4> texel{};
   std::array<float, 4> weight{};
 };
 
 /// See Footprint in sampling.h.
-struct HostTexture::Probes {
+struct TiledTexture::Probes {
   int level = 0;
   float blend = 0.f;
   int count = 1;
@@ -78,21 +78,21 @@ std::array<float, 4> b_spline(float t) {
 
 }  // namespace
 
-HostTexture::HostTexture(std::shared_ptr<TileCache> cache, std::shared_ptr<TileCache::File> file,
+TiledTexture::TiledTexture(std::shared_ptr<TileCache> cache, std::shared_ptr<TileCache::File> file,
                          const ImageInfo& info)
     : cache_(std::move(cache)),
       file_(std::move(file)),
       info_(info),
       levels_(TileCache::level_count(*file_)) {}
 
-void HostTexture::lookup(const HostLookup& points, const std::array<float*, 4>& rgba) const {
+void TiledTexture::lookup(const TextureLookup& points, const std::array<float*, 4>& rgba) const {
   for (int lane = 0; lane < points.count; ++lane) {
     const Rgba value = sample(points, lane);
     for (std::size_t c = 0; c < 4; ++c) rgba[c][lane] = value[c];
   }
 }
 
-Rgba HostTexture::sample(const HostLookup& points, int lane) const {
+Rgba TiledTexture::sample(const TextureLookup& points, int lane) const {
   if (points.filter == TextureFilter::closest) {
     return filter_level(address(points.u[lane], points.u_mode),
                         address(points.v[lane], points.v_mode), 0, points);
@@ -116,7 +116,7 @@ Rgba HostTexture::sample(const HostLookup& points, int lane) const {
   return mean;
 }
 
-HostTexture::Probes HostTexture::find_probes(const HostLookup& points, int lane) const {
+TiledTexture::Probes TiledTexture::find_probes(const TextureLookup& points, int lane) const {
   const auto width = static_cast<float>(info_.width);
   const auto height = static_cast<float>(info_.height);
   const auto texels = [&](const float* values, float size) {
@@ -151,7 +151,7 @@ HostTexture::Probes HostTexture::find_probes(const HostLookup& points, int lane)
   return probes;
 }
 
-Rgba HostTexture::filter_level(float u, float v, int level, const HostLookup& points) const {
+Rgba TiledTexture::filter_level(float u, float v, int level, const TextureLookup& points) const {
   const auto taps = [&](float coordinate, int size, AddressMode mode) {
     Taps result;
     const float scaled = coordinate * static_cast<float>(size);
@@ -179,7 +179,7 @@ Rgba HostTexture::filter_level(float u, float v, int level, const HostLookup& po
 
 /// One read for the whole footprint when it is a rectangle of the image, which it is
 /// everywhere but at a seam.
-Rgba HostTexture::gather(const Taps& across, const Taps& up, int level) const {
+Rgba TiledTexture::gather(const Taps& across, const Taps& up, int level) const {
   const auto count_x = static_cast<std::size_t>(across.count);
   const auto count_y = static_cast<std::size_t>(up.count);
   const auto consecutive = [](const Taps& taps, std::size_t count) {
@@ -209,7 +209,7 @@ Rgba HostTexture::gather(const Taps& across, const Taps& up, int level) const {
 }
 
 /// Rows counted from the bottom, as everywhere but in the file; `out` holds them upwards.
-void HostTexture::read_texels(int level, int x0, int x1, int y0, int y1, Rgba* out) const {
+void TiledTexture::read_texels(int level, int x0, int x1, int y0, int y1, Rgba* out) const {
   const int height = TileCache::height(*file_, level);
   const int columns = x1 - x0;
   const int rows = y1 - y0;

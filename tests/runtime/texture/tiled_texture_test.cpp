@@ -1,4 +1,4 @@
-#include "runtime/texture/host_texture.h"
+#include "runtime/texture/tiled_texture.h"
 
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ struct Lookups {
   std::vector<float> u, v, dudx, dvdx, dudy, dvdy;
   std::array<std::vector<float>, 4> rgba;
 
-  void run(const HostTexture& texture, const ReferenceModes& modes) {
-    HostLookup lookup{static_cast<int>(u.size()),
+  void run(const TiledTexture& texture, const ReferenceModes& modes) {
+    TextureLookup lookup{static_cast<int>(u.size()),
                       u.data(),
                       v.data(),
                       nullptr,
@@ -50,7 +50,7 @@ struct Lookups {
   }
 };
 
-class HostTextureTest : public testing::Test {
+class TiledTextureTest : public testing::Test {
  protected:
   TextureHandle open(const std::string& name, const TestImage& image, const char* type) {
     WriteOptions options;
@@ -59,11 +59,11 @@ class HostTextureTest : public testing::Test {
     reference_ = ReferenceSampler::open(folder_.file(name));
     TextureStore store(budget_of(0));
     const TextureHandle texture = store.acquire({folder_.file(name), "", {}}, diagnostics_);
-    EXPECT_NE(texture->host(), nullptr) << diagnostics_.to_string();
+    EXPECT_NE(texture->sampler(), nullptr) << diagnostics_.to_string();
     return texture;
   }
 
-  double worst(const HostTexture& texture, Lookups& lookups, const ReferenceModes& modes) const {
+  double worst(const TiledTexture& texture, Lookups& lookups, const ReferenceModes& modes) const {
     lookups.run(texture, modes);
     double result = 0;
     for (std::size_t i = 0; i < lookups.u.size(); ++i) {
@@ -96,7 +96,7 @@ Lookups random_lookups(int count) {
   return lookups;
 }
 
-TEST_F(HostTextureTest, AgreesWithTheOracleForEveryFilterAndAddressMode) {
+TEST_F(TiledTextureTest, AgreesWithTheOracleForEveryFilterAndAddressMode) {
   for (const auto& [name, type] : {std::pair{"a.png", "uint8"}, std::pair{"b.exr", "float"}}) {
     for (const int channels : {1, 3, 4}) {
       const TextureHandle texture =
@@ -106,7 +106,7 @@ TEST_F(HostTextureTest, AgreesWithTheOracleForEveryFilterAndAddressMode) {
         for (const AddressMode u : address_modes) {
           for (const AddressMode v : address_modes) {
             // Coordinates carry 40 * 2^-23 texels of rounding, on a slope of at most 1.
-            EXPECT_LT(worst(*texture->host(), lookups, {filter, u, v}), 2e-5);
+            EXPECT_LT(worst(*texture->sampler(), lookups, {filter, u, v}), 2e-5);
           }
         }
       }
@@ -114,19 +114,19 @@ TEST_F(HostTextureTest, AgreesWithTheOracleForEveryFilterAndAddressMode) {
   }
 }
 
-TEST_F(HostTextureTest, TinyImagesWrapSeveralTimesUnderOneFilter) {
+TEST_F(TiledTextureTest, TinyImagesWrapSeveralTimesUnderOneFilter) {
   for (const auto& [width, height] :
        std::initializer_list<std::pair<int, int>>{{1, 1}, {1, 3}, {2, 2}, {3, 1}}) {
     const std::string name = std::to_string(width) + "x" + std::to_string(height) + ".exr";
     const TextureHandle texture = open(name, random_image(width, height, 3, 255), "float");
     Lookups lookups = random_lookups(100);
     for (const AddressMode mode : address_modes) {
-      EXPECT_LT(worst(*texture->host(), lookups, {TextureFilter::cubic, mode, mode}), 2e-5);
+      EXPECT_LT(worst(*texture->sampler(), lookups, {TextureFilter::cubic, mode, mode}), 2e-5);
     }
   }
 }
 
-TEST_F(HostTextureTest, FootprintSelectsAndBlendsLevels) {
+TEST_F(TiledTextureTest, FootprintSelectsAndBlendsLevels) {
   const TextureHandle texture = open("a.exr", random_image(64, 64, 3, 255), "float");
   Lookups lookups = random_lookups(80);
   std::mt19937 random(5);
@@ -142,12 +142,12 @@ TEST_F(HostTextureTest, FootprintSelectsAndBlendsLevels) {
   for (const TextureFilter filter : filters) {
     for (const int most : {1, 8}) {
       const ReferenceModes modes{filter, AddressMode::periodic, AddressMode::periodic, most};
-      EXPECT_LT(worst(*texture->host(), lookups, modes), 1e-4);
+      EXPECT_LT(worst(*texture->sampler(), lookups, modes), 1e-4);
     }
   }
 }
 
-TEST_F(HostTextureTest, CoordinatesThatAreNotFiniteGiveFiniteTexels) {
+TEST_F(TiledTextureTest, CoordinatesThatAreNotFiniteGiveFiniteTexels) {
   const TextureHandle texture = open("a.png", random_image(40, 23, 3, 255), "uint8");
   constexpr float inf = std::numeric_limits<float>::infinity();
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -164,7 +164,7 @@ TEST_F(HostTextureTest, CoordinatesThatAreNotFiniteGiveFiniteTexels) {
   }
   for (const TextureFilter filter : filters) {
     for (const AddressMode mode : address_modes) {
-      lookups.run(*texture->host(), {filter, mode, mode});
+      lookups.run(*texture->sampler(), {filter, mode, mode});
       for (const auto& channel : lookups.rgba) {
         for (const float value : channel) {
           EXPECT_TRUE(value >= 0 && value <= 1.0001f) << value;
@@ -174,28 +174,28 @@ TEST_F(HostTextureTest, CoordinatesThatAreNotFiniteGiveFiniteTexels) {
   }
 }
 
-TEST_F(HostTextureTest, TexelsThatAreNotFiniteAreZero) {
+TEST_F(TiledTextureTest, TexelsThatAreNotFiniteAreZero) {
   TestImage image = random_image(4, 4, 3, 255);
   for (float& sample : image.samples) sample = std::numeric_limits<float>::quiet_NaN();
   const TextureHandle texture = open("a.exr", image, "float");
   Lookups lookups = random_lookups(10);
-  lookups.run(*texture->host(), {});
+  lookups.run(*texture->sampler(), {});
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(lookups.rgba[0][i], 0.f);
     EXPECT_EQ(lookups.rgba[3][i], 1.f);
   }
 }
 
-TEST_F(HostTextureTest, FileThatVanishesGivesZeroAndIsCounted) {
+TEST_F(TiledTextureTest, FileThatVanishesGivesZeroAndIsCounted) {
   const TextureHandle texture = open("a.exr", random_image(64, 64, 3, 255), "float");
   write_file(folder_.file("a.exr"), "gone");
   Lookups lookups = random_lookups(1);
-  lookups.run(*texture->host(), {TextureFilter::closest});
+  lookups.run(*texture->sampler(), {TextureFilter::closest});
   // The cache may hold the file open or have the tile already; if not, it is an event.
-  if (texture->host()->read_failures() > 0) {
+  if (texture->sampler()->read_failures() > 0) {
     EXPECT_EQ(lookups.rgba[0][0], 0.f);
   } else {
-    EXPECT_LT(worst(*texture->host(), lookups, {TextureFilter::closest}), 1e-6);
+    EXPECT_LT(worst(*texture->sampler(), lookups, {TextureFilter::closest}), 1e-6);
   }
 }
 
