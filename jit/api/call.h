@@ -19,10 +19,15 @@
 /// Diagnostics and their one-line texts, which the host may look at.
 struct nacre_report {
   nacre::Diagnostics said;
+  void (*listener)(void* user, const nacre_diagnostic* diagnostic) = nullptr;
+  void* listener_user = nullptr;
   mutable std::vector<std::string> lines;  ///< Made when asked for; of `said`, in its order.
 };
 
 namespace nacre::api {
+
+/// Tells who listens to a report of its diagnostics from the one with this index on.
+void tell_listener(const nacre_report* report, std::size_t first) noexcept;
 
 /// Says in a report, if there is one, what was thrown that nobody thought of.
 void say_thrown(nacre_report* report, const char* what) noexcept;
@@ -50,14 +55,22 @@ nacre_status guarded(Body&& body) noexcept {
 class Said {
  public:
   explicit Said(nacre_report* report)
-      : said_(report != nullptr ? report->said : own_), errors_before_(said_.error_count()) {}
+      : report_(report),
+        said_(report != nullptr ? report->said : own_),
+        before_(said_.all().size()),
+        errors_before_(said_.error_count()) {}
+  ~Said() { tell_listener(report_, before_); }
+  Said(const Said&) = delete;
+  Said& operator=(const Said&) = delete;
   Diagnostics& diagnostics() { return said_; }
   /// Whether there are errors of this call.
   bool has_errors() const { return said_.error_count() != errors_before_; }
 
  private:
+  nacre_report* report_;
   Diagnostics own_;
   Diagnostics& said_;
+  std::size_t before_;
   std::size_t errors_before_;
 };
 

@@ -46,6 +46,7 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   options.compile.accuracy = accuracies.at(static_cast<std::size_t>(asked.accuracy));
   options.compile.lanes = asked.lanes;
   options.compile.asynchronous = asked.background != 0;
+  options.compile.priority = asked.priority;
   options.compile.stop = stop_of(asked.stop);
   if (asked.max_instructions != 0) options.compile.max_instructions = asked.max_instructions;
   if (asked.max_seconds > 0) options.compile.max_seconds = asked.max_seconds;

@@ -2,6 +2,7 @@
 
 #include "jit/api/call.h"
 #include "jit/api/handles.h"
+#include "jit/api/hooks.h"
 #include "jit/document/read.h"
 #include "jit/graph/find.h"
 
@@ -20,7 +21,16 @@ ReadOptions read_options(const nacre_read_options* given) {
   if (asked.max_file_bytes != 0) options.limits.file_bytes = asked.max_file_bytes;
   if (asked.max_total_bytes != 0) options.limits.total_bytes = asked.max_total_bytes;
   options.stop = stop_of(asked.stop);
+  if (asked.resolver != nullptr) {
+    nacre_file_resolver resolver = options_of(asked.resolver);
+    resolver.destroy = nullptr;
+    options.resolver = host_resolver(resolver);
+  }
   return options;
+}
+
+bool is_meant(const nacre_read_options* given) {
+  return has_size(given) && has_size(options_of(given).resolver);
 }
 
 nacre_status hand_out(std::unique_ptr<Document> read, nacre_document** document) {
@@ -45,7 +55,7 @@ const char* name_at(const std::vector<std::string>& names, std::size_t index) {
 
 nacre_status nacre_document_read(const char* file, const nacre_read_options* options,
                                  nacre_report* report, nacre_document** document) {
-  if (file == nullptr || document == nullptr || !has_size(options)) return NACRE_WRONG_ARGUMENTS;
+  if (file == nullptr || document == nullptr || !is_meant(options)) return NACRE_WRONG_ARGUMENTS;
   *document = nullptr;
   return guarded(report, [&] {
     Said said(report);
@@ -56,7 +66,7 @@ nacre_status nacre_document_read(const char* file, const nacre_read_options* opt
 nacre_status nacre_document_parse(const char* text, size_t length, const char* name,
                                   const nacre_read_options* options, nacre_report* report,
                                   nacre_document** document) {
-  if (text == nullptr || document == nullptr || !has_size(options)) return NACRE_WRONG_ARGUMENTS;
+  if (text == nullptr || document == nullptr || !is_meant(options)) return NACRE_WRONG_ARGUMENTS;
   *document = nullptr;
   return guarded(report, [&] {
     Said said(report);

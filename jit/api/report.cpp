@@ -13,10 +13,42 @@ std::vector<std::string> texts_of(const char* const* texts, std::size_t count) {
   return list;
 }
 
+namespace {
+
+nacre_diagnostic diagnostic_of(const Diagnostic& one, const std::string& line) {
+  return {.size = sizeof(nacre_diagnostic),
+          .severity = static_cast<int>(one.severity),
+          .code = one.code.c_str(),
+          .file = one.where.file.c_str(),
+          .line = one.where.line,
+          .column = one.where.column,
+          .path = one.where.path.c_str(),
+          .message = one.message.c_str(),
+          .expected = one.expected.c_str(),
+          .found = one.found.c_str(),
+          .text = line.c_str()};
+}
+
+}  // namespace
+
+void tell_listener(const nacre_report* report, std::size_t first) noexcept {
+  if (report == nullptr || report->listener == nullptr) return;
+  try {
+    const std::vector<Diagnostic>& all = report->said.all();
+    for (std::size_t i = first; i < all.size(); ++i) {
+      const std::string line = all[i].to_string();
+      const nacre_diagnostic given = diagnostic_of(all[i], line);
+      report->listener(report->listener_user, &given);
+    }
+  } catch (...) {  // There is no memory to say it in.
+  }
+}
+
 void say_thrown(nacre_report* report, const char* what) noexcept {
   if (report == nullptr) return;
   try {
-    report->said.error("unexpected", {}, "the library could not do that", {}, what);
+    Said said(report);
+    said.diagnostics().error("unexpected", {}, "the library could not do that", {}, what);
   } catch (...) {  // There is no memory to say it in.
   }
 }
@@ -77,17 +109,7 @@ nacre_status nacre_report_get(const nacre_report* report, size_t index,
     const Diagnostic& one = all[index];
     std::string& line = report->lines[index];
     if (line.empty()) line = one.to_string();
-    return give(diagnostic, {.size = 0,
-                             .severity = static_cast<int>(one.severity),
-                             .code = one.code.c_str(),
-                             .file = one.where.file.c_str(),
-                             .line = one.where.line,
-                             .column = one.where.column,
-                             .path = one.where.path.c_str(),
-                             .message = one.message.c_str(),
-                             .expected = one.expected.c_str(),
-                             .found = one.found.c_str(),
-                             .text = line.c_str()});
+    return give(diagnostic, diagnostic_of(one, line));
   });
 }
 
@@ -95,4 +117,11 @@ void nacre_report_clear(nacre_report* report) {
   if (report == nullptr) return;
   report->said = {};
   report->lines.clear();
+}
+
+void nacre_report_listen(nacre_report* report,
+                         void (*said)(void* user, const nacre_diagnostic* diagnostic), void* user) {
+  if (report == nullptr) return;
+  report->listener = said;
+  report->listener_user = user;
 }

@@ -1,4 +1,7 @@
 // What a host asks of a shader.
+#include <atomic>
+#include <memory>
+
 #include "jit/api/call.h"
 #include "jit/api/channels.h"
 #include "jit/api/handles.h"
@@ -91,6 +94,33 @@ int nacre_shader_is_pending(const nacre_shader* shader) {
     if (kernel != nullptr && kernel->is_pending()) return 1;
   }
   return 0;
+}
+
+void nacre_shader_cancel(const nacre_shader* shader) {
+  for (int entry = 0; entry < NACRE_ENTRY_COUNT; ++entry) {
+    const BoundKernel* kernel = kernel_of(shader, static_cast<nacre_entry>(entry));
+    if (kernel != nullptr) kernel->cancel();
+  }
+}
+
+nacre_status nacre_shader_when_ready(const nacre_shader* shader, void (*call)(void* user),
+                                     void* user) {
+  if (shader == nullptr || call == nullptr) return NACRE_WRONG_ARGUMENTS;
+  return guarded([&] {
+    // One more than there are kernels, so that none of them is the last while they are asked.
+    auto left = std::make_shared<std::atomic<int>>(1);
+    const auto one_less = [left, call, user] {
+      if (--*left == 0) call(user);
+    };
+    for (int entry = 0; entry < NACRE_ENTRY_COUNT; ++entry) {
+      const BoundKernel* kernel = kernel_of(shader, static_cast<nacre_entry>(entry));
+      if (kernel == nullptr) continue;
+      ++*left;
+      kernel->when_ended(one_less);
+    }
+    one_less();
+    return nacre_status{NACRE_OK};
+  });
 }
 
 nacre_status nacre_shader_wait(const nacre_shader* shader, nacre_report* report) {

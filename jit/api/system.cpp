@@ -3,12 +3,22 @@
 #include "jit/api/call.h"
 #include "jit/api/colors.h"
 #include "jit/api/handles.h"
+#include "jit/api/hooks.h"
 #include "jit/api/node.h"
 
 using namespace nacre;
 using namespace nacre::api;
 
 namespace {
+
+/// Whether what it refers to says how long it is, and has the functions that are called unasked.
+bool is_meant(const nacre_system_options& asked) {
+  if (asked.body_count != 0 && !has_size(asked.bodies)) return false;
+  if (asked.executor != nullptr && options_of(asked.executor).submit == nullptr) return false;
+  if (asked.allocator != nullptr && options_of(asked.allocator).allocate == nullptr) return false;
+  return has_size(asked.colors) && has_size(asked.resolver) && has_size(asked.textures) &&
+         has_size(asked.executor) && has_size(asked.allocator);
+}
 
 TextureOptions texture_options(const nacre_system_options& asked) {
   TextureOptions options;
@@ -17,6 +27,8 @@ TextureOptions texture_options(const nacre_system_options& asked) {
   if (asked.max_image_size != 0) options.limits.max_size = asked.max_image_size;
   if (asked.max_image_bytes != 0) options.limits.max_bytes = asked.max_image_bytes;
   if (asked.max_image_file_bytes != 0) options.limits.max_file_bytes = asked.max_image_file_bytes;
+  if (asked.textures != nullptr) options.system = host_texture_system(*asked.textures);
+  if (asked.allocator != nullptr) options.memory = host_memory(*asked.allocator);
   return options;
 }
 
@@ -29,9 +41,7 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
   if (!has_size(given)) return NACRE_WRONG_ARGUMENTS;
   return guarded(report, [&] {
     const nacre_system_options asked = options_of(given);
-    if ((asked.body_count != 0 && !has_size(asked.bodies)) || !has_size(asked.colors)) {
-      return nacre_status{NACRE_WRONG_ARGUMENTS};
-    }
+    if (!is_meant(asked)) return nacre_status{NACRE_WRONG_ARGUMENTS};
     Said said(report);
     SystemOptions options;
     for (const std::string& path : texts_of(asked.libraries, asked.library_count)) {
@@ -60,6 +70,8 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
     }
     options.standard_texts = asked.standard_texts != 0;
     options.textures = texture_options(asked);
+    if (asked.resolver != nullptr) options.resolver = host_resolver(*asked.resolver);
+    if (asked.executor != nullptr) options.executor = host_executor(*asked.executor);
     std::shared_ptr<ShadingSystem> made = ShadingSystem::create(options, said.diagnostics());
     if (made == nullptr) return nacre_status{NACRE_FAILED};
     *system = new nacre_system{std::move(made), {}};
@@ -68,24 +80,3 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
 }
 
 void nacre_system_destroy(nacre_system* system) { delete system; }
-
-nacre_status nacre_system_texture_statistics(const nacre_system* system,
-                                             nacre_texture_statistics* statistics) {
-  if (system == nullptr) return NACRE_WRONG_ARGUMENTS;
-  const TextureStatistics now = system->system->textures().statistics();
-  return give(statistics, nacre_texture_statistics{.size = 0,
-                                                   .resident_bytes = now.resident_bytes,
-                                                   .peak_resident_bytes = now.peak_resident_bytes,
-                                                   .resident_textures = now.resident_textures,
-                                                   .tiled_textures = now.tiled_textures,
-                                                   .missing_textures = now.missing_textures,
-                                                   .loads = now.loads,
-                                                   .hits = now.hits,
-                                                   .evictions = now.evictions,
-                                                   .replaced_texels = now.replaced_texels,
-                                                   .read_failures = now.read_failures});
-}
-
-void nacre_system_drop_textures(nacre_system* system) {
-  if (system != nullptr) system->system->textures().drop_unused();
-}

@@ -115,7 +115,7 @@ class Kernels {
     }
     List kernels;
     for (CodeRequest& request : requests_) {
-      kernels.push_back(service_->request_async(std::move(request), codegen_));
+      kernels.push_back(service_->request_async(std::move(request), codegen_, options_.priority));
     }
     return kernels;
   }

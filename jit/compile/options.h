@@ -26,6 +26,7 @@ struct CompileOptions {
   bool all_varying = false;
   /// Answer through the interpreter while the JIT compiles in the background.
   bool asynchronous = false;
+  int priority = 0;  ///< Of that: higher ones are compiled first.
   /// A Program with more instructions, before or after any stage, is refused.
   std::size_t max_instructions = 500'000;
   /// Steps that a pass of points may take. A Program that takes more whatever its loops do

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -106,20 +107,7 @@ class FileReader {
       return std::nullopt;
     }
     const std::size_t size = fs::file_size(path, error);
-    if (error || size > options_.limits.file_bytes) {
-      diagnostics_.error("file-too-large", where, "the file is too large",
-                         fmt::format("at most {} bytes", options_.limits.file_bytes),
-                         fmt::format("{} bytes", size));
-      return std::nullopt;
-    }
-    if (report_if_due(options_.stop, "reading", where, diagnostics_)) return std::nullopt;
-    total_bytes_ += size;
-    if (++file_count_ > options_.limits.files || total_bytes_ > options_.limits.total_bytes) {
-      diagnostics_.error("too-many-includes", where, "the document includes too much",
-                         fmt::format("at most {} files and {} bytes", options_.limits.files,
-                                     options_.limits.total_bytes));
-      return std::nullopt;
-    }
+    if (!count(error ? SIZE_MAX : size, where)) return std::nullopt;
     std::string text(size, '\0');
     std::ifstream stream(path, std::ios::binary);
     if (!stream || !stream.read(text.data(), static_cast<std::streamsize>(size))) {
@@ -127,6 +115,25 @@ class FileReader {
       return std::nullopt;
     }
     return text;
+  }
+
+  /// One more file of that size; false, with an error, where that is beyond a limit.
+  bool count(std::size_t size, const SourceLocation& where) {
+    if (size > options_.limits.file_bytes) {
+      diagnostics_.error("file-too-large", where, "the file is too large",
+                         fmt::format("at most {} bytes", options_.limits.file_bytes),
+                         fmt::format("{} bytes", size));
+      return false;
+    }
+    if (report_if_due(options_.stop, "reading", where, diagnostics_)) return false;
+    total_bytes_ += size;
+    if (++file_count_ > options_.limits.files || total_bytes_ > options_.limits.total_bytes) {
+      diagnostics_.error("too-many-includes", where, "the document includes too much",
+                         fmt::format("at most {} files and {} bytes", options_.limits.files,
+                                     options_.limits.total_bytes));
+      return false;
+    }
+    return true;
   }
 
   void merge_includes(Element& root, const fs::path& folder) {
@@ -181,6 +188,11 @@ class FileReader {
       diagnostics_.error("bad-include", where, "the include names no file", "href=\"FILE.mtlx\"");
       return nullptr;
     }
+    if (options_.resolver) {
+      const auto given =
+          options_.resolver(std::string(href), document_.file_of(element), FileKind::include);
+      if (given) return include_given(*given, href, where);
+    }
     const std::optional<fs::path> file = find(href, folder);
     // The same for files that are there and that are not: a document is not to learn it.
     if (!file && !is_allowed(folder / fs::path(href))) {
@@ -194,18 +206,36 @@ class FileReader {
                          "a file beside this one or in a search path", fmt::format("'{}'", href));
       return nullptr;
     }
-    const fs::path canonical = canonical_path(*file);
+    return may_open(canonical_path(*file), href, where) ? read(*file, where) : nullptr;
+  }
+
+  /// Neither one that is being read, nor too deep.
+  bool may_open(const fs::path& canonical, std::string_view href, const SourceLocation& where) {
     if (std::find(open_.begin(), open_.end(), canonical) != open_.end()) {
       diagnostics_.error("include-cycle", where, "the file includes itself, directly or not", "",
                          fmt::format("'{}'", href));
-      return nullptr;
+      return false;
     }
     if (open_.size() >= static_cast<std::size_t>(options_.limits.include_depth)) {
       diagnostics_.error("include-depth", where, "includes are nested too deeply",
                          fmt::format("at most {} levels", options_.limits.include_depth));
-      return nullptr;
+      return false;
     }
-    return read(*file, where);
+    return true;
+  }
+
+  /// What the host's resolver gave for an include.
+  Element* include_given(const ResolvedFile& file, std::string_view href,
+                         const SourceLocation& where) {
+    const fs::path path(file.path);
+    if (file.bytes == nullptr) {
+      return may_open(canonical_path(path), href, where) ? read(path, where) : nullptr;
+    }
+    if (!may_open(path, href, where) || !count(file.bytes->size(), where)) return nullptr;
+    open_.push_back(path);
+    Element* root = parse(*file.bytes, file.path, path.parent_path());
+    open_.pop_back();
+    return root;
   }
 
   /// The first that is there of those that may be read, without "..": it is opened by the

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "jit/document/document.h"
+#include "jit/document/file_resolver.h"
 #include "runtime/diagnostic.h"
 #include "runtime/stop.h"
 
@@ -37,8 +38,9 @@ struct ReadOptions {
   /// Keep comments, processing instructions, text and blank lines for
   /// `write_document`. Elements are the same without.
   bool keep_comments = false;
-  ReadLimits limits;  ///< Exceeding one is an error.
-  Stop stop;          ///< Ends reading early, as an error.
+  ReadLimits limits;      ///< Exceeding one is an error.
+  FileResolver resolver;  ///< Asked for includes before they are looked for; null: none.
+  Stop stop;              ///< Ends reading early, as an error.
 };
 
 /// Reads a document and all it includes. Nothing if there was an error; the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "runtime/texture/similar_name.h"
@@ -10,12 +11,29 @@
 
 namespace nacre {
 
-TextureSource RecordedTextures::add(const TextureHandle& texture, const std::string& key) {
+std::string RecordedTextures::accept(const ResolvedFile& file) {
+  if (file.bytes == nullptr) {
+    given_[file.path] = {file.path, nullptr};
+    return file.path;
+  }
+  auto contents = store_.keep_file(*file.bytes);
+  if (contents == nullptr) return file.path;  // There is no such file.
+  const std::string path = contents->path();
+  given_[path] = {file.path, std::move(contents)};
+  return path;
+}
+
+bool RecordedTextures::may_read(const std::string& path) const {
+  return !access_.may_read || given_.contains(path) || access_.may_read(path);
+}
+
+TextureSource RecordedTextures::add(Slot bound, const std::string& key) {
+  const TextureHandle texture = bound.image != nullptr ? bound.image->get() : bound.texture;
   TextureSource source;
   source.slot = Int(recorder_.texture(key));
   const auto slot = static_cast<std::size_t>(source.slot.constant());
   if (slots_.size() <= slot) slots_.resize(slot + 1);
-  slots_[slot] = texture;
+  slots_[slot] = std::move(bound);
   const auto words = texture->words();
   source.state = texture->missing()    ? TextureSource::State::missing
                  : texture->resident() ? TextureSource::State::resident
@@ -34,7 +52,7 @@ void RecordedTextures::complain(const Diagnostics& problems) {
     problem.message += "; the node's default is used";
     if (problem.code == "missing-image" && !has_tile_token(problem.where.file)) {
       const std::string other = find_other_case(problem.where.file);
-      const bool may_say = !other.empty() && (!access_.may_read || access_.may_read(other));
+      const bool may_say = !other.empty() && may_read(other);
       if (may_say) problem.expected = "a file of this name; there is '" + other + "'";
     }
     if (!where_.file.empty() || !where_.path.empty()) {
@@ -49,9 +67,7 @@ void RecordedTextures::complain(const Diagnostics& problems) {
 
 /// A file outside is refused in the same words whether it is there or not.
 TextureHandle RecordedTextures::acquire(const TextureKey& key, Diagnostics& problems) {
-  if (!access_.may_read || access_.may_read(key.path)) {
-    return store_.acquire(key, problems, access_.stop);
-  }
+  if (may_read(key.path)) return acquire_allowed(key, problems);
   Diagnostic problem;
   problem.code = "image-outside";
   problem.where.file = key.path;
@@ -63,12 +79,34 @@ TextureHandle RecordedTextures::acquire(const TextureKey& key, Diagnostics& prob
 
 TextureSet RecordedTextures::acquire_tiles(const TextureKey& pattern, Diagnostics& problems) {
   // Nothing is listed outside, and a link in a folder may lead there.
-  if (access_.may_read && !access_.may_read(pattern.path)) {
+  if (!may_read(pattern.path)) {
     acquire(pattern, problems);
     return {};
   }
-  return acquire_set(store_, pattern, problems,
-                     [&](const TextureKey& tile) { return acquire(tile, problems); });
+  const bool is_given = given_.contains(pattern.path);
+  return acquire_set(store_, pattern, problems, [&](const TextureKey& tile) {
+    return is_given ? acquire_allowed(tile, problems) : acquire(tile, problems);
+  });
+}
+
+/// What is called otherwise is complained of by that name.
+TextureHandle RecordedTextures::acquire_allowed(const TextureKey& key, Diagnostics& problems) {
+  const auto given = given_.find(key.path);
+  if (given == given_.end()) return store_.acquire(key, problems, access_.stop);
+  Diagnostics said;
+  TextureHandle texture = store_.acquire(key, said, access_.stop);
+  for (Diagnostic problem : said.all()) {
+    problem.where.file = given->second.name;
+    problems.add(std::move(problem));
+  }
+  return texture;
+}
+
+/// Of the host's images in memory, of its texture system, or a file.
+TextureSource RecordedTextures::find_image(const std::string& name, const std::string& layer,
+                                           const std::string& key, Diagnostics& problems) {
+  if (auto image = store_.image(name)) return add({nullptr, std::move(image)}, key);
+  return add({acquire({.path = name, .layer = layer}, problems), nullptr}, key);
 }
 
 TextureSources RecordedTextures::find(const std::string& name, const std::string& layer) {
@@ -77,47 +115,63 @@ TextureSources RecordedTextures::find(const std::string& name, const std::string
   TextureSources sources;
   sources.max_anisotropy = max_anisotropy_;
   Diagnostics problems;
+  TextureSystem* const system = store_.options().system.get();
+  std::optional<TextureSystem::Opened> opened;
+  if (system != nullptr && !name.empty()) opened = system->open(name, layer);
   if (name.empty()) {
     // No file named: the node's default, without a complaint.
+  } else if (opened) {
+    sources.images.push_back(add(
+        {std::make_shared<Texture>(std::move(opened->sampler), opened->width, opened->height), {}},
+        key));
   } else if (has_tile_token(name)) {
     const TextureSet set = acquire_tiles({.path = name, .layer = layer}, problems);
     sources.directory = set.directory;
     for (std::size_t i = 0; i < set.textures.size(); ++i) {
-      sources.images.push_back(add(set.textures[i], key + '#' + std::to_string(i)));
+      sources.images.push_back(add({set.textures[i], nullptr}, key + '#' + std::to_string(i)));
     }
   } else {
-    sources.images.push_back(add(acquire({.path = name, .layer = layer}, problems), key));
+    sources.images.push_back(find_image(name, layer, key, problems));
   }
   complain(problems);
   found_.emplace(key, sources);
   return sources;
 }
 
-std::vector<TextureBinding> RecordedTextures::bindings() const {
-  std::vector<TextureBinding> bindings;
-  for (const TextureHandle& texture : slots_) {
-    bindings.push_back({texture->words().data(), texture->words().size()});
+RecordedTextures::Snapshot RecordedTextures::snapshot() const {
+  Snapshot now;
+  for (const Slot& slot : slots_) {
+    const TextureHandle& texture =
+        now.textures.emplace_back(slot.image != nullptr ? slot.image->get() : slot.texture);
+    now.bindings.push_back({texture->words().data(), texture->words().size()});
   }
-  return bindings;
+  return now;
+}
+
+bool RecordedTextures::may_change() const {
+  return std::ranges::any_of(slots_, [](const Slot& slot) { return slot.image != nullptr; });
 }
 
 void RecordedTextures::look_up(void* user, const TextureCall* call) {
   const auto* self = static_cast<const RecordedTextures*>(user);
-  if (call->slot >= self->slots_.size() || self->slots_[call->slot]->sampler() == nullptr) return;
+  if (call->slot >= self->slots_.size()) return;
+  // What is looked up by calls is never replaced.
+  const Texture* texture = self->slots_[call->slot].texture.get();
+  if (texture == nullptr || texture->sampler() == nullptr) return;
   const auto lanes = static_cast<std::size_t>(call->lanes);
   const TextureModes modes = unpack_modes(call->modes);
   const TextureLookup lookup{.count = static_cast<int>(call->lanes),
-                          .u = call->u,
-                          .v = call->v,
-                          .dudx = call->dudx,
-                          .dvdx = call->dvdx,
-                          .dudy = call->dudy,
-                          .dvdy = call->dvdy,
-                          .filter = modes.filter,
-                          .u_mode = modes.u,
-                          .v_mode = modes.v,
-                          .max_anisotropy = modes.max_anisotropy};
-  self->slots_[call->slot]->sampler()->lookup(
+                             .u = call->u,
+                             .v = call->v,
+                             .dudx = call->dudx,
+                             .dvdx = call->dvdx,
+                             .dudy = call->dudy,
+                             .dvdy = call->dvdy,
+                             .filter = modes.filter,
+                             .u_mode = modes.u,
+                             .v_mode = modes.v,
+                             .max_anisotropy = modes.max_anisotropy};
+  texture->sampler()->lookup(
       lookup, {call->rgba, call->rgba + lanes, call->rgba + 2 * lanes, call->rgba + 3 * lanes});
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "jit/document/file_resolver.h"
 #include "runtime/kernel.h"
 #include "runtime/node/texture_source.h"
 #include "runtime/program/recorder.h"
@@ -38,6 +39,9 @@ class RecordedTextures final : public TextureProvider {
 
   TextureSources find(const std::string& name, const std::string& layer) override;
 
+  /// What a resolver gave: the path under which find() will have it, wherever it lies. Contents in
+  /// memory that there is no room for are a missing image.
+  std::string accept(const ResolvedFile& file);
   /// Of what is found from now on; without it all may be read, and what is missing is an error.
   void give_access(ImageAccess access) { access_ = std::move(access); }
   /// How many of its complaints were errors: of images, with which kernels are made all the same.
@@ -45,16 +49,36 @@ class RecordedTextures final : public TextureProvider {
   /// Who asks for what is found from now on: complaints are made there.
   void asked_by(const SourceLocation& where) { where_ = where; }
 
-  /// For KernelArguments::textures: one binding a slot of the recording.
-  std::vector<TextureBinding> bindings() const;
+  /// What the slots of the recording are bound to at some time.
+  struct Snapshot {
+    std::vector<TextureHandle> textures;   ///< Hold what is bound.
+    std::vector<TextureBinding> bindings;  ///< For KernelArguments::textures.
+  };
+  Snapshot snapshot() const;
+  /// Whether the next snapshot may be another.
+  bool may_change() const;
   /// For KernelArguments::texture_callback; `user` is the RecordedTextures.
   static void look_up(void* user, const TextureCall* call);
 
  private:
   void complain(const Diagnostics& problems);
   TextureHandle acquire(const TextureKey& key, Diagnostics& problems);
+  TextureHandle acquire_allowed(const TextureKey& key, Diagnostics& problems);
   TextureSet acquire_tiles(const TextureKey& pattern, Diagnostics& problems);
-  TextureSource add(const TextureHandle& texture, const std::string& key);
+  /// What a slot is bound to.
+  struct Slot {
+    TextureHandle texture;
+    std::shared_ptr<const NamedImage> image;  ///< Then not `texture`, but what that is by then.
+  };
+  /// A file that a resolver gave.
+  struct Given {
+    std::string name;  ///< For complaints.
+    std::shared_ptr<const MemoryFile> contents;
+  };
+  TextureSource add(Slot slot, const std::string& key);
+  TextureSource find_image(const std::string& name, const std::string& layer,
+                           const std::string& key, Diagnostics& problems);
+  bool may_read(const std::string& path) const;
 
   TextureStore& store_;
   Recorder& recorder_;
@@ -63,7 +87,8 @@ class RecordedTextures final : public TextureProvider {
   ImageAccess access_;
   SourceLocation where_;
   std::size_t errors_ = 0;
-  std::vector<TextureHandle> slots_;
+  std::vector<Slot> slots_;
+  std::map<std::string, Given> given_;  ///< By path.
   std::map<std::string, TextureSources> found_;
 };
 

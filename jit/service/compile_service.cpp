@@ -30,13 +30,18 @@ class Workshop {
         compiler_(std::move(compiler)),
         cache_(std::move(cache)),
         no_session_(std::move(no_session)),
-        threads_(session_ == nullptr ? 1 : options.threads) {}
+        threads_(session_ == nullptr ? 1 : options.threads, options.executor) {}
 
   ~Workshop() {
-    const std::scoped_lock lock(mutex_);
-    for (const auto& [key, weak] : jobs_) {
-      if (const auto job = weak.lock()) job->give_up();
+    std::vector<std::shared_ptr<CompileJob>> jobs;
+    {
+      const std::scoped_lock lock(mutex_);
+      for (const auto& [key, weak] : jobs_) {
+        if (auto job = weak.lock()) jobs.push_back(std::move(job));
+      }
     }
+    // Without the lock: who is told may be a host.
+    for (const std::shared_ptr<CompileJob>& job : jobs) job->give_up();
   }
 
   bool is_of_this_process() const { return process_.is_this(); }
@@ -89,7 +94,7 @@ class Workshop {
         continue;
       }
       auto shared = std::make_shared<const Program>(std::move(program));
-      const std::shared_ptr<CompileJob> job = joined_job(key, shared, options, true);
+      const std::shared_ptr<CompileJob> job = joined_job(key, shared, options, 0, true);
       kernels.push_back(std::make_shared<ServiceKernel>(shared, options, job, nullptr));
       jobs.push_back(job);
     }
@@ -111,15 +116,16 @@ class Workshop {
     return kernels;
   }
 
-  std::shared_ptr<CompiledKernel> request_async(CodeRequest request,
-                                                const CodegenOptions& options) {
+  std::shared_ptr<CompiledKernel> request_async(CodeRequest request, const CodegenOptions& options,
+                                                int priority) {
     Program& program = request.program;
     if (session_ == nullptr) {  // Said when the service was made.
       return interpreting_kernel(std::move(program), options.max_steps, {});
     }
     auto interpreter = make_interpreter(program, options.max_steps);
     auto shared = std::make_shared<const Program>(std::move(program));
-    const std::shared_ptr<CompileJob> job = joined_job(request.key, shared, options, false);
+    const std::shared_ptr<CompileJob> job =
+        joined_job(request.key, shared, options, priority, false);
     return std::make_shared<ServiceKernel>(shared, options, job, std::move(interpreter));
   }
 
@@ -143,7 +149,7 @@ class Workshop {
   /// The job for this code, new and begun or one that is under way or done.
   std::shared_ptr<CompileJob> joined_job(const std::string& key,
                                          const std::shared_ptr<const Program>& program,
-                                         const CodegenOptions& options, bool urgent) {
+                                         const CodegenOptions& options, int priority, bool urgent) {
     std::shared_ptr<CompileJob> job;
     {
       const std::scoped_lock lock(mutex_);
@@ -156,7 +162,7 @@ class Workshop {
       forget_dead();
     }
     threads_.add([this, job] { job->run(*session_, *compiler_, cache_.get(), compiling_); },
-                 urgent);
+                 priority, urgent);
     return job;
   }
 
@@ -222,9 +228,9 @@ class Service final : public CompileService {
     return workshop().request_all(std::move(requests), options, diagnostics, stop);
   }
 
-  std::shared_ptr<CompiledKernel> request_async(CodeRequest request,
-                                                const CodegenOptions& options) override {
-    return workshop().request_async(std::move(request), options);
+  std::shared_ptr<CompiledKernel> request_async(CodeRequest request, const CodegenOptions& options,
+                                                int priority) override {
+    return workshop().request_async(std::move(request), options, priority);
   }
 
  private:
@@ -278,9 +284,10 @@ std::shared_ptr<CompiledKernel> CompileService::request(Program program,
 }
 
 std::shared_ptr<CompiledKernel> CompileService::request_async(Program program,
-                                                              const CodegenOptions& options) {
+                                                              const CodegenOptions& options,
+                                                              int priority) {
   std::string key = code_key(program, options);
-  return request_async(CodeRequest{std::move(program), std::move(key)}, options);
+  return request_async(CodeRequest{std::move(program), std::move(key)}, options, priority);
 }
 
 }  // namespace nacre

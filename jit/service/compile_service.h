@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "jit/llvm/codegen.h"
 #include "jit/llvm/session.h"
+#include "jit/service/threads.h"
 #include "jit/worker/compiler.h"
 #include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
@@ -26,6 +28,8 @@ class CompiledKernel : public Kernel {
   /// Withdraws the request: if no other kernel wants the same code, compiling
   /// ends at the next stage or does not begin. The kernel stays usable.
   virtual void cancel() = 0;
+  /// Calls once when it is no longer waiting: at once, or from the thread that compiles.
+  virtual void when_ended(std::function<void()> call) = 0;
   /// Where the time went. Zeros until ready.
   virtual CompileStats stats() const = 0;
   /// Why it failed, and warnings about the cache. Empty until ready or failed.
@@ -46,6 +50,7 @@ struct ServiceOptions {
   /// nacre-compile-worker, which compiles in processes of its own; empty: in this one.
   std::filesystem::path worker = {};
   WorkerLimits worker_limits = {};
+  std::shared_ptr<Executor> executor = nullptr;  ///< In place of threads of our own.
 };
 
 /// Compiles Programs on its own threads (with stacks of 16 MiB). Programs that
@@ -78,10 +83,12 @@ class CompileService {
       const Stop& stop = {}) = 0;
   std::shared_ptr<CompiledKernel> request(Program program, const CodegenOptions& options,
                                           Diagnostics& diagnostics);
-  /// Returns at once.
+  /// Returns at once. Higher priorities are compiled first.
   virtual std::shared_ptr<CompiledKernel> request_async(CodeRequest request,
-                                                        const CodegenOptions& options) = 0;
-  std::shared_ptr<CompiledKernel> request_async(Program program, const CodegenOptions& options);
+                                                        const CodegenOptions& options,
+                                                        int priority = 0) = 0;
+  std::shared_ptr<CompiledKernel> request_async(Program program, const CodegenOptions& options,
+                                                int priority = 0);
 };
 
 }  // namespace nacre

@@ -40,8 +40,29 @@ bool CompileJob::unwanted() {
     if (state_ == State::waiting && interested_ == 0) state_ = State::cancelled;
     if (state_ == State::waiting) return false;
   }
-  ended_.notify_all();
+  tell();
   return true;
+}
+
+void CompileJob::tell() {
+  ended_.notify_all();
+  std::vector<std::function<void()>> calls;
+  {
+    const std::scoped_lock lock(mutex_);
+    calls.swap(calls_);
+  }
+  for (const std::function<void()>& call : calls) call();
+}
+
+void CompileJob::when_ended(std::function<void()> call) {
+  if (process_.is_this()) {
+    const std::scoped_lock lock(mutex_);
+    if (state_ == State::waiting) {
+      calls_.push_back(std::move(call));
+      return;
+    }
+  }
+  call();
 }
 
 bool CompileJob::find(JitSession& session, KernelCache& cache) {
@@ -79,7 +100,7 @@ void CompileJob::end_with(std::shared_ptr<const LoadedCode> code, const CompileS
     diagnostics_ = std::move(said);
     if (code_ != nullptr) entry_.store(code_->entry(), std::memory_order_release);
   }
-  ended_.notify_all();
+  tell();
 }
 
 std::shared_ptr<const LoadedCode> CompileJob::load_cached(JitSession& session, KernelCache& cache,
@@ -125,7 +146,7 @@ void CompileJob::give_up() {
     if (state_ != State::waiting) return;
     state_ = State::cancelled;
   }
-  ended_.notify_all();
+  tell();
 }
 
 bool CompileJob::wait() const {

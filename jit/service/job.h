@@ -2,9 +2,11 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "jit/cache/kernel_cache.h"
 #include "jit/service/compile_service.h"
@@ -41,6 +43,9 @@ class CompileJob {
   /// False if it has not ended when `stop` is due.
   bool wait(const Stop& stop) const;
 
+  /// Calls once when it has ended; at once if it has.
+  void when_ended(std::function<void()> call);
+
   State state() const;
   /// The code to run, or null. Once not null it stays the same.
   LoadedCode::Entry entry() const { return entry_.load(std::memory_order_acquire); }
@@ -59,6 +64,8 @@ class CompileJob {
                                          CompileStats& stats);
   /// Given up, now or before, because nobody waits for it.
   bool unwanted();
+  /// Tells everybody. Not under the lock.
+  void tell();
 
   const std::string key_;
   const std::shared_ptr<const Program> program_;
@@ -69,7 +76,8 @@ class CompileJob {
   mutable std::mutex mutex_;
   mutable std::condition_variable_any ended_;
   State state_ = State::waiting;
-  int interested_ = 0;  ///< Kernels that were not cancelled.
+  int interested_ = 0;                        ///< Kernels that were not cancelled.
+  std::vector<std::function<void()>> calls_;  ///< Of when_ended.
   std::shared_ptr<const LoadedCode> code_;
   CompileStats stats_;
   Diagnostics diagnostics_;

@@ -23,6 +23,7 @@ class InterpretingKernel final : public CompiledKernel {
   State state() const override { return State::failed; }
   bool wait() const override { return false; }
   void cancel() override {}
+  void when_ended(std::function<void()> call) override { call(); }
   CompileStats stats() const override { return {}; }
   Diagnostics diagnostics() const override { return why_; }
 

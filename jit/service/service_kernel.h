@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "jit/service/compile_service.h"
 #include "jit/service/job.h"
@@ -26,6 +28,7 @@ class ServiceKernel final : public CompiledKernel {
   State state() const override { return job_->state(); }
   bool wait() const override { return job_->wait(); }
   void cancel() override;
+  void when_ended(std::function<void()> call) override { job_->when_ended(std::move(call)); }
   CompileStats stats() const override { return job_->stats(); }
   Diagnostics diagnostics() const override { return job_->diagnostics(); }
 

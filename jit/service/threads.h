@@ -2,36 +2,41 @@
 
 #include <pthread.h>
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <vector>
 
 namespace nacre {
 
-/// Threads with stacks large enough for LLVM, whatever the host's limits are;
-/// std::thread can't choose. Tasks run in order of arrival, urgent ones first.
+/// Threads of a host's, which run what they are given, soon and in any order.
+class Executor {
+ public:
+  virtual ~Executor() = default;
+  virtual void submit(std::function<void()> task) = 0;
+};
+
+/// Who runs the tasks that compile: threads with stacks large enough for LLVM, whatever the host's
+/// limits are, which std::thread can't choose; or the host's own. Higher priorities go first; of
+/// equal ones urgent tasks, then others in order of arrival.
 class CompileThreads {
  public:
   /// `count` 0: one a core; never more than 64, or four a core. Threads that can't be had
-  /// are done without; with none at all, add() runs the task itself.
-  explicit CompileThreads(int count);
+  /// are done without; with none at all, add() runs the task itself. With an `executor` there are
+  /// none of ours.
+  explicit CompileThreads(int count, std::shared_ptr<Executor> executor = nullptr);
   /// Ends the running tasks, drops the others.
   ~CompileThreads();
   CompileThreads(const CompileThreads&) = delete;
   CompileThreads& operator=(const CompileThreads&) = delete;
 
-  void add(std::function<void()> task, bool urgent);
+  void add(std::function<void()> task, int priority, bool urgent);
 
  private:
-  static void* enter(void* self);
-  void work();
+  class Queue;
+  static void* enter(void* queue);
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<std::function<void()>> tasks_;
-  bool ending_ = false;
+  std::shared_ptr<Executor> executor_;
+  std::shared_ptr<Queue> queue_;  ///< What was submitted may still come when this is gone.
   std::vector<pthread_t> threads_;
 };
 

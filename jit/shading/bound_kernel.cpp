@@ -11,23 +11,35 @@ namespace nacre {
 BoundKernel::BoundKernel(std::shared_ptr<const Kernel> kernel,
                          std::shared_ptr<const RecordedTextures> textures)
     : kernel_(std::move(kernel)), textures_(std::move(textures)) {
-  if (textures_ != nullptr) bindings_ = textures_->bindings();
+  if (textures_ != nullptr) {
+    bindings_ = textures_->snapshot().bindings;
+    may_change_ = textures_->may_change();
+  }
   for (const ParameterSlot& slot : program().parameters) parameters_.push_back(slot.value);
 }
 
-bool BoundKernel::is_pending() const {
-  const auto* made = dynamic_cast<const CompiledKernel*>(kernel_.get());
-  return made != nullptr && made->state() == CompiledKernel::State::waiting;
+CompiledKernel* BoundKernel::made() const {
+  // What it computes stays the same, whoever cancels or waits.
+  return dynamic_cast<CompiledKernel*>(const_cast<Kernel*>(kernel_.get()));
 }
 
-bool BoundKernel::wait() const {
-  const auto* made = dynamic_cast<const CompiledKernel*>(kernel_.get());
-  return made == nullptr || made->wait();
+bool BoundKernel::is_pending() const {
+  return made() != nullptr && made()->state() == CompiledKernel::State::waiting;
+}
+
+bool BoundKernel::wait() const { return made() == nullptr || made()->wait(); }
+
+void BoundKernel::cancel() const {
+  if (made() != nullptr) made()->cancel();
+}
+
+void BoundKernel::when_ended(std::function<void()> call) const {
+  if (made() == nullptr) return call();
+  made()->when_ended(std::move(call));
 }
 
 Diagnostics BoundKernel::diagnostics() const {
-  const auto* made = dynamic_cast<const CompiledKernel*>(kernel_.get());
-  return made != nullptr ? made->diagnostics() : Diagnostics();
+  return made() != nullptr ? made()->diagnostics() : Diagnostics();
 }
 
 std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) const {
@@ -38,13 +50,18 @@ std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) c
   return std::nullopt;
 }
 
-KernelArguments BoundKernel::arguments(std::span<const std::uint32_t> parameters,
-                                       const std::atomic<std::uint32_t>* stop) const {
-  return {.parameters = parameters.empty() ? parameters_.data() : parameters.data(),
-          .textures = bindings_.data(),
-          .texture_callback = &RecordedTextures::look_up,
-          .texture_user = const_cast<RecordedTextures*>(textures_.get()),
-          .stop = stop};
+template <class Run>
+RunStatus BoundKernel::with_arguments(std::span<const std::uint32_t> parameters,
+                                      const std::atomic<std::uint32_t>* stop, Run&& run) const {
+  KernelArguments all{.parameters = parameters.empty() ? parameters_.data() : parameters.data(),
+                      .textures = bindings_.data(),
+                      .texture_callback = &RecordedTextures::look_up,
+                      .texture_user = const_cast<RecordedTextures*>(textures_.get()),
+                      .stop = stop};
+  if (!may_change_) return run(all);
+  const RecordedTextures::Snapshot now = textures_->snapshot();
+  all.textures = now.bindings.data();
+  return run(all);
 }
 
 RunStatus BoundKernel::run(std::span<const void* const> inputs, std::span<void* const> outputs,
@@ -54,11 +71,12 @@ RunStatus BoundKernel::run(std::span<const void* const> inputs, std::span<void* 
                     outputs.size() == program().outputs.size() &&
                     (parameters.empty() || parameters.size() == parameters_.size());
   if (!fits) return RunStatus::wrong_arguments;
-  KernelArguments all = arguments(parameters, stop);
-  all.inputs = inputs.data();
-  all.outputs = outputs.data();
-  all.count = count;
-  return kernel_->run(all);
+  return with_arguments(parameters, stop, [&](KernelArguments& all) {
+    all.inputs = inputs.data();
+    all.outputs = outputs.data();
+    all.count = count;
+    return kernel_->run(all);
+  });
 }
 
 RunStatus BoundKernel::run(const Binding& binding, const Batch& batch,
@@ -67,15 +85,16 @@ RunStatus BoundKernel::run(const Binding& binding, const Batch& batch,
                     binding.outputs.size() == program().outputs.size() &&
                     (parameters.empty() || parameters.size() == parameters_.size());
   if (!fits) return RunStatus::wrong_arguments;
-  KernelArguments all = arguments(parameters, batch.stop);
-  return run_bound(
-      binding, batch,
-      [this, &all](const void* const* inputs, void* const* outputs, std::uint64_t count) {
-        all.inputs = inputs;
-        all.outputs = outputs;
-        all.count = count;
-        return kernel_->run(all);
-      });
+  return with_arguments(parameters, batch.stop, [&](KernelArguments& all) {
+    return run_bound(
+        binding, batch,
+        [this, &all](const void* const* inputs, void* const* outputs, std::uint64_t count) {
+          all.inputs = inputs;
+          all.outputs = outputs;
+          all.count = count;
+          return kernel_->run(all);
+        });
+  });
 }
 
 }  // namespace nacre

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +17,7 @@
 
 namespace nacre {
 
+class CompiledKernel;
 class RecordedTextures;
 
 /// A kernel with its textures and the parameter values of its document. Shared
@@ -42,6 +44,10 @@ class BoundKernel {
   /// Waits until nothing is pending. Whether it runs as it was asked to: false where it stays
   /// interpreted though machine code was wanted.
   bool wait() const;
+  /// Withdraws what is pending: it stays interpreted, unless another kernel wants the same code.
+  void cancel() const;
+  /// Calls once when nothing is pending: at once, or from a thread that compiles.
+  void when_ended(std::function<void()> call) const;
   /// What there is to say of making it, once nothing is pending: why it stays interpreted,
   /// say. Without `asynchronous`, compiling has said that already.
   Diagnostics diagnostics() const;
@@ -63,13 +69,17 @@ class BoundKernel {
                               std::span<const std::uint32_t> parameters = {}) const;
 
  private:
-  /// All but the arrays.
-  KernelArguments arguments(std::span<const std::uint32_t> parameters,
-                            const std::atomic<std::uint32_t>* stop) const;
+  /// Null for what is not machine code.
+  CompiledKernel* made() const;
+  /// All but the arrays; `run` runs the kernel with them.
+  template <class Run>
+  RunStatus with_arguments(std::span<const std::uint32_t> parameters,
+                           const std::atomic<std::uint32_t>* stop, Run&& run) const;
 
   std::shared_ptr<const Kernel> kernel_;
   std::shared_ptr<const RecordedTextures> textures_;
   std::vector<TextureBinding> bindings_;
+  bool may_change_ = false;  ///< Then `bindings_` are those of the time when it was made.
   std::vector<std::uint32_t> parameters_;
 };
 

@@ -100,9 +100,19 @@ RecordOptions Compilation::record_options(const FileRoots& roots) {
           .max_steps = options_.compile.max_steps,
           .resolve_file =
               [this, roots](const std::string& name, const std::string& document) {
-                return find_image(name, document, options_.search_paths, roots);
+                return resolve_image(name, document, roots);
               },
           .stop = options_.compile.stop};
+}
+
+std::string Compilation::resolve_image(const std::string& name, const std::string& document,
+                                       const FileRoots& roots) {
+  if (parts_.textures->image(name) != nullptr) return name;
+  if (parts_.resolver) {
+    const auto given = parts_.resolver(name, document, FileKind::image);
+    if (given) return textures_->accept(*given);
+  }
+  return find_image(name, document, options_.search_paths, roots);
 }
 
 std::vector<Parameter> Compilation::live_parameters(const Graph& graph) const {

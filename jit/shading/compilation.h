@@ -64,6 +64,9 @@ class Compilation {
                                          const SurfaceKernels& kernels,
                                          const SourceLocation& where);
   RecordOptions record_options(const FileRoots& roots);
+  /// What the textures know an image by: the host's name for it, or a path.
+  std::string resolve_image(const std::string& name, const std::string& document,
+                            const FileRoots& roots);
   std::vector<Parameter> live_parameters(const Graph& graph) const;
   /// Whether nothing was wrong since there were so many errors, but for images that are missing.
   bool is_complete(std::size_t errors_before) const;

@@ -9,9 +9,11 @@
 
 #include "jit/compile/options.h"
 #include "jit/compile/stage_report.h"
+#include "jit/document/file_resolver.h"
 #include "jit/document/library.h"
 #include "jit/graph/build/build.h"
 #include "jit/record/record.h"
+#include "jit/service/threads.h"
 #include "jit/shading/bound_kernel.h"
 #include "pbs/kernels.h"
 #include "runtime/texture/texture_store.h"
@@ -43,9 +45,13 @@ struct SystemOptions {
   /// Colour spaces of the host's own, in place of a configuration; null: none.
   std::shared_ptr<const ColorConfig> colors = nullptr;
   TextureOptions textures = {};  ///< Limits of the one store that all kernels share.
+  FileResolver resolver = {};    ///< Asked for images before they are looked for; null: none.
   /// Where compiled kernels are kept between runs; empty: nowhere.
   std::filesystem::path cache = {};
   int compile_threads = 0;  ///< 0: one a core.
+  /// Runs what compiles, in place of threads of ours. Its threads need stacks of 16 MiB, or
+  /// `compile_apart`; calls that compile wait for it, so they are not made by the last of them.
+  std::shared_ptr<Executor> executor = nullptr;
   /// Compile in processes of their own, so that a fault of LLVM's (a crash, a hang, no
   /// memory) costs a kernel its speed and not the host its life; with a warning if there is
   /// no nacre-compile-worker.

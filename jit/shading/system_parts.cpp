@@ -52,7 +52,9 @@ std::unique_ptr<SystemParts> SystemParts::create(const SystemOptions& options,
     if (parts->colors == nullptr) return nullptr;
   }
   parts->textures = std::make_unique<TextureStore>(options.textures);
+  parts->resolver = options.resolver;
   ServiceOptions service{.threads = options.compile_threads, .cache = options.cache, .session = {}};
+  service.executor = options.executor;
   if (options.compile_apart) {
     service.worker = find_worker();
     if (service.worker.empty()) {

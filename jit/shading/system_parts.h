@@ -22,6 +22,7 @@ struct SystemParts {
   std::unique_ptr<TextBodies> texts;
   std::shared_ptr<const ColorConfig> colors;
   std::unique_ptr<TextureStore> textures;
+  FileResolver resolver;
   std::unique_ptr<CompileService> service;
 
   /// Null, with diagnostics, if the library or the colour configuration cannot be read.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace nacre {
 
@@ -9,18 +10,24 @@ namespace {
 constexpr std::align_val_t cache_line{64};
 }
 
-AlignedWords AlignedWords::allocate(std::size_t count) {
+AlignedWords AlignedWords::allocate(std::size_t count, std::shared_ptr<BlockMemory> memory) {
   AlignedWords result;
-  void* memory = ::operator new(count * sizeof(std::uint32_t), cache_line, std::nothrow);
-  if (!memory) return result;
-  result.words_.reset(static_cast<std::uint32_t*>(memory));
+  const std::size_t bytes = count * sizeof(std::uint32_t);
+  void* block =
+      memory != nullptr ? memory->allocate(bytes) : ::operator new(bytes, cache_line, std::nothrow);
+  if (block == nullptr) return result;
+  result.words_ = {static_cast<std::uint32_t*>(block), Free{std::move(memory), bytes}};
   result.count_ = count;
   std::fill_n(result.words_.get(), count, 0u);
   return result;
 }
 
 void AlignedWords::Free::operator()(std::uint32_t* words) const {
-  ::operator delete(words, cache_line);
+  if (memory != nullptr) {
+    memory->release(words, bytes);
+  } else {
+    ::operator delete(words, cache_line);
+  }
 }
 
 }  // namespace nacre

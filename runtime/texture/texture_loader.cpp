@@ -1,5 +1,7 @@
 #include "runtime/texture/texture_loader.h"
 
+#include <vector>
+
 #include "runtime/texture/pyramid.h"
 #include "runtime/texture/texel.h"
 
@@ -23,21 +25,53 @@ Plan plan_texture(const ImageInfo& info, TexelPolicy policy) {
   return plan(texel_format(info, policy), info.width, info.height, info.channels);
 }
 
+namespace {
+
+/// Writes rows of samples as texels of level 0.
+class RowEncoder {
+ public:
+  RowEncoder(const Plan& plan, AlignedWords& words, std::uint64_t& replaced)
+      : plan_(plan), words_(words.span().data()), replaced_(replaced) {
+    write_header(plan, 0, words.span());
+  }
+
+  void add(int from_top, const float* samples) {
+    const auto channels = static_cast<std::size_t>(plan_.channels);
+    const int y = plan_.height - 1 - from_top;
+    for (int x = 0; x < plan_.width; ++x, samples += channels) {
+      Rgba texel{0.f, 0.f, 0.f, 1.f};
+      for (std::size_t c = 0; c < channels; ++c) texel[c] = sanitised(samples[c], replaced_);
+      encode_texel(plan_.format, texel, words_ + texel_index(plan_, 0, x, y));
+    }
+  }
+
+ private:
+  const Plan& plan_;
+  std::uint32_t* words_;
+  std::uint64_t& replaced_;
+};
+
+}  // namespace
+
 std::optional<Diagnostic> load_texture(ImageReader& reader, const Plan& plan, AlignedWords& words,
                                        std::uint64_t& replaced) {
-  write_header(plan, 0, words.span());
-  std::uint32_t* const base = words.span().data();
-  const auto channels = static_cast<std::size_t>(plan.channels);
-  auto problem = reader.read([&](int from_top, const float* samples) {
-    const int y = plan.height - 1 - from_top;
-    for (int x = 0; x < plan.width; ++x, samples += channels) {
-      Rgba texel{0.f, 0.f, 0.f, 1.f};
-      for (std::size_t c = 0; c < channels; ++c) texel[c] = sanitised(samples[c], replaced);
-      encode_texel(plan.format, texel, base + texel_index(plan, 0, x, y));
-    }
-  });
+  RowEncoder encoder(plan, words, replaced);
+  auto problem =
+      reader.read([&](int from_top, const float* samples) { encoder.add(from_top, samples); });
   if (!problem) build_pyramid(plan, words.span());
   return problem;
+}
+
+void load_texture(const Pixels& pixels, const Plan& plan, AlignedWords& words,
+                  std::uint64_t& replaced) {
+  RowEncoder encoder(plan, words, replaced);
+  std::vector<float> row(static_cast<std::size_t>(plan.width) *
+                         static_cast<std::size_t>(plan.channels));
+  for (int y = 0; y < plan.height; ++y) {
+    read_row(pixels, y, row.data());
+    encoder.add(y, row.data());
+  }
+  build_pyramid(plan, words.span());
 }
 
 }  // namespace nacre

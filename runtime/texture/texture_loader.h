@@ -6,6 +6,7 @@
 #include "runtime/texture/aligned_words.h"
 #include "runtime/texture/image_io.h"
 #include "runtime/texture/layout.h"
+#include "runtime/texture/pixels.h"
 
 namespace nacre {
 
@@ -30,5 +31,9 @@ texture_layout::Plan plan_texture(const ImageInfo& info, TexelPolicy policy);
 /// builds header and pyramid. Counts NaN and infinite samples into `replaced`.
 std::optional<Diagnostic> load_texture(ImageReader& reader, const texture_layout::Plan& plan,
                                        AlignedWords& words, std::uint64_t& replaced);
+
+/// The same of an image in memory.
+void load_texture(const Pixels& pixels, const texture_layout::Plan& plan, AlignedWords& words,
+                  std::uint64_t& replaced);
 
 }  // namespace nacre

@@ -1,5 +1,7 @@
 #include "runtime/texture/texture_store.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <iterator>
@@ -7,6 +9,7 @@
 
 #include "runtime/texture/file_identity.h"
 #include "runtime/texture/image_format.h"
+#include "runtime/texture/tiled_texture.h"
 
 namespace nacre {
 
@@ -106,7 +109,7 @@ TextureStore::Loaded TextureStore::load_image(const TextureKey& key, const Stop&
       if (bytes != 0) store.release(bytes);
     }
   } reservation{*this, plan.bytes()};
-  AlignedWords words = AlignedWords::allocate(plan.total_words);
+  AlignedWords words = AlignedWords::allocate(plan.total_words, options_.memory);
   if (words.empty()) return {open_tiled(key, reader.info()), 0};
   std::uint64_t replaced = 0;
   if (auto problem = load_texture(reader, plan, words, replaced)) {
@@ -157,6 +160,79 @@ bool TextureStore::reserve(std::uint64_t bytes) {
   statistics_.peak_resident_bytes =
       std::max(statistics_.peak_resident_bytes, statistics_.resident_bytes);
   return true;
+}
+
+namespace {
+
+/// Whether kernels that were made for one texture can read the other.
+bool can_replace(const texture_layout::Plan& plan, const Texture& old) {
+  const auto words = old.words();
+  const bool was_single = words[texture_layout::word_level_count] == 1;
+  const bool is_single = plan.levels == 1;
+  return static_cast<std::uint32_t>(plan.channels) == words[texture_layout::word_channels] &&
+         (is_single || !was_single);
+}
+
+}  // namespace
+
+bool TextureStore::set_image(const std::string& name, const Pixels& pixels,
+                             Diagnostics& diagnostics) {
+  if (auto fault = fault_of(pixels, name, options_.limits)) {
+    diagnostics.add(std::move(*fault));
+    return false;
+  }
+  const std::shared_ptr<const NamedImage> known = image(name);
+  const TextureHandle old = known != nullptr ? known->get() : nullptr;
+  const texture_layout::TexelFormat format =
+      old != nullptr
+          ? static_cast<texture_layout::TexelFormat>(old->words()[texture_layout::word_format])
+          : texel_format(info_of(pixels), TexelPolicy::automatic);
+  const texture_layout::Plan plan =
+      texture_layout::plan(format, pixels.width, pixels.height, pixels.channels);
+  if (old != nullptr && !can_replace(plan, *old)) {
+    diagnostics.add(image_error("bad-image", name, "the image cannot take the other's place",
+                                "as many channels, and more than one pixel only where the first "
+                                "image had more"));
+    return false;
+  }
+  AlignedWords words;
+  const bool has_room = reserve(plan.bytes());
+  if (has_room) words = AlignedWords::allocate(plan.total_words, options_.memory);
+  if (words.empty()) {
+    if (has_room) release(plan.bytes());
+    diagnostics.add(image_error("texture-memory", name, "there is no memory for the image",
+                                fmt::format("{} bytes", plan.bytes())));
+    return false;
+  }
+  std::uint64_t replaced = 0;
+  load_texture(pixels, plan, words, replaced);
+  const auto texture = std::make_shared<Texture>(std::move(words), replaced);
+
+  const std::scoped_lock lock(mutex_);
+  statistics_.replaced_texels += replaced;
+  Named& named = named_[name];
+  if (named.image != nullptr) {
+    named.image->set(texture);
+  } else {
+    named.image = std::make_shared<NamedImage>(texture);
+  }
+  statistics_.resident_bytes -= named.bytes;
+  named.bytes = plan.bytes();
+  return true;
+}
+
+void TextureStore::remove_image(const std::string& name) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = named_.find(name);
+  if (found == named_.end()) return;
+  statistics_.resident_bytes -= found->second.bytes;
+  named_.erase(found);
+}
+
+std::shared_ptr<const NamedImage> TextureStore::image(const std::string& name) const {
+  const std::scoped_lock lock(mutex_);
+  const auto found = named_.find(name);
+  return found != named_.end() ? found->second.image : nullptr;
 }
 
 void TextureStore::release(std::uint64_t bytes) {

@@ -7,12 +7,18 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "runtime/diagnostic.h"
 #include "runtime/texture/image_io.h"
+#include "runtime/texture/memory_files.h"
+#include "runtime/texture/named_image.h"
+#include "runtime/texture/pixels.h"
 #include "runtime/texture/texture.h"
 #include "runtime/texture/texture_loader.h"
+#include "runtime/texture/texture_system.h"
+#include "runtime/texture/tile_cache.h"
 #include "runtime/texture/tile_set.h"
 
 namespace nacre {
@@ -42,6 +48,8 @@ struct TextureOptions {
   /// Of every image. The store keeps to sides of 16384, which its layout can hold.
   ImageLimits limits;
   TileLimits tiles;  ///< Of what a name with `<UDIM>` or `<UVTILE>` stands for.
+  std::shared_ptr<BlockMemory> memory = nullptr;    ///< For texels; null: the process's own.
+  std::shared_ptr<TextureSystem> system = nullptr;  ///< Asked before files; null: none.
 };
 
 /// What a store has, and has done since it was made.
@@ -49,7 +57,7 @@ struct TextureStatistics {
   std::uint64_t resident_bytes = 0;       ///< Of the arrays of all resident textures, used or not.
   std::uint64_t peak_resident_bytes = 0;  ///< The most that there were at once.
   std::uint64_t resident_textures = 0;    ///< Known to the store now, texels in memory.
-  std::uint64_t tiled_textures = 0;        ///< Known to the store now, read by tiles.
+  std::uint64_t tiled_textures = 0;       ///< Known to the store now, read by tiles.
   std::uint64_t missing_textures = 0;     ///< Known to the store now, with a problem.
   std::uint64_t loads = 0;                ///< Times an image was opened.
   std::uint64_t hits = 0;                 ///< Requests that found their texture loaded.
@@ -83,6 +91,19 @@ class TextureStore {
   /// image that failed is tried again once nobody holds the failed texture.
   TextureHandle acquire(const TextureKey& key, Diagnostics& diagnostics, const Stop& stop = {});
 
+  /// Images in memory, by names of the host's: documents that name one get it in place of a file.
+  /// Set again, it is replaced in all kernels that have it, by an image of as many channels that is
+  /// kept as the first one was. False, with a diagnostic, for what cannot be meant, does not fit
+  /// into the budget, or cannot take the other's place.
+  bool set_image(const std::string& name, const Pixels& pixels, Diagnostics& diagnostics);
+  /// Kernels that have it keep it.
+  void remove_image(const std::string& name);
+  /// Null if there is none of that name.
+  std::shared_ptr<const NamedImage> image(const std::string& name) const;
+
+  /// Of contents in memory, a file to give acquire(); see MemoryFiles::keep.
+  std::shared_ptr<const MemoryFile> keep_file(std::string_view bytes) { return files_.keep(bytes); }
+
   /// Forgets every texture that no handle refers to.
   void drop_unused();
 
@@ -110,6 +131,10 @@ class TextureStore {
   TextureHandle open_tiled(const TextureKey& key, const ImageInfo& info);
   bool reserve(std::uint64_t bytes);
   void release(std::uint64_t bytes);
+  struct Named {
+    std::shared_ptr<NamedImage> image;
+    std::uint64_t bytes = 0;
+  };
   Entries::iterator forget(Entries::iterator entry);
   void forget_others(const Entries::key_type& key);
 
@@ -117,6 +142,8 @@ class TextureStore {
   mutable std::mutex mutex_;
   std::condition_variable loaded_;
   Entries entries_;
+  std::map<std::string, Named> named_;
+  MemoryFiles files_;
   std::uint64_t requests_ = 0;
   TextureStatistics statistics_;
   std::shared_ptr<TileCache> tile_cache_;

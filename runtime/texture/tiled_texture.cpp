@@ -79,7 +79,7 @@ std::array<float, 4> b_spline(float t) {
 }  // namespace
 
 TiledTexture::TiledTexture(std::shared_ptr<TileCache> cache, std::shared_ptr<TileCache::File> file,
-                         const ImageInfo& info)
+                           const ImageInfo& info)
     : cache_(std::move(cache)),
       file_(std::move(file)),
       info_(info),

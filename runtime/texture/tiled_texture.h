@@ -26,7 +26,7 @@ class TiledTexture final : public TextureSampler {
  public:
   /// A file that `cache` has opened for the image `info`.
   TiledTexture(std::shared_ptr<TileCache> cache, std::shared_ptr<TileCache::File> file,
-              const ImageInfo& info);
+               const ImageInfo& info);
 
   void lookup(const TextureLookup& points, const std::array<float*, 4>& rgba) const override;
   std::uint64_t read_failures() const override {

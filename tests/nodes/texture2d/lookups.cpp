@@ -95,7 +95,7 @@ std::vector<std::array<float, 4>> RecordedLookup::run(const LookupPoints& points
   for (const TextureSlot& slot : program().textures) {
     const auto& recorded = recorder_.program().textures;
     const auto at = std::ranges::find(recorded, slot) - recorded.begin();
-    bindings.push_back(textures_.bindings()[static_cast<std::size_t>(at)]);
+    bindings.push_back(textures_.snapshot().bindings[static_cast<std::size_t>(at)]);
   }
   kernel_->run({.inputs = in.data(),
                 .outputs = out.data(),

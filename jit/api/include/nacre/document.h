@@ -2,6 +2,7 @@
 #ifndef NACRE_DOCUMENT_H
 #define NACRE_DOCUMENT_H
 
+#include <nacre/hooks.h>
 #include <nacre/report.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -20,6 +21,8 @@ typedef struct nacre_read_options {
   uint64_t max_file_bytes;  /* Of one file. 0: 64 MiB. */
   uint64_t max_total_bytes; /* Of all files of the document. 0: 256 MiB. */
   const nacre_stop* stop;   /* NULL: never. */
+  const nacre_file_resolver* resolver; /* Of includes; NULL: none. Called by this call alone, which
+                                          does not destroy it. */
 } nacre_read_options;
 
 NACRE_API nacre_status nacre_document_read(const char* file, const nacre_read_options* options,

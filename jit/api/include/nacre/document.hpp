@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <nacre/diagnostic.hpp>
+#include <nacre/hooks.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@ struct ReadOptions {
   std::uint64_t max_file_bytes = 0;   ///< 0: 64 MiB.
   std::uint64_t max_total_bytes = 0;  ///< 0: 256 MiB.
   const StopSource* stop = nullptr;
+  FileResolver resolver;  ///< Of includes.
 };
 
 /// What a document says in one place; see nacre_element. Lives as long as the document.
@@ -142,6 +144,12 @@ class Document {
     asked.max_file_bytes = options.max_file_bytes;
     asked.max_total_bytes = options.max_total_bytes;
     asked.stop = options.stop != nullptr ? options.stop->get() : nullptr;
+    nacre_file_resolver resolver{};
+    if (options.resolver) {
+      resolver = {sizeof resolver, const_cast<FileResolver*>(&options.resolver),
+                  detail::resolve_file, nullptr};
+      asked.resolver = &resolver;
+    }
     const detail::Said report;
     nacre_document* made = nullptr;
     report.finish(call(&asked, report.get(), &made), said);

@@ -23,6 +23,7 @@
 #include <nacre/channel.h>
 #include <nacre/colors.h>
 #include <nacre/document.h>
+#include <nacre/hooks.h>
 #include <nacre/library.h>
 #include <nacre/record.h>
 #include <nacre/report.h>
@@ -58,6 +59,11 @@ typedef struct nacre_system_options {
   int max_image_size;            /* Of either side. 0: 16384, which is also the most. */
   uint64_t max_image_bytes;      /* Of decoded pixels. 0: 2 GiB. */
   uint64_t max_image_file_bytes; /* 0: 2 GiB. */
+  /* See hooks.h; each may be NULL. */
+  const nacre_file_resolver* resolver; /* Of images; for includes see nacre_read_options. */
+  const nacre_texture_system* textures;
+  const nacre_executor* executor;
+  const nacre_allocator* allocator;
 } nacre_system_options;
 
 NACRE_API nacre_status nacre_system_create(const nacre_system_options* options,
@@ -81,6 +87,14 @@ typedef struct nacre_texture_statistics {
 
 NACRE_API nacre_status nacre_system_texture_statistics(const nacre_system* system,
                                                        nacre_texture_statistics* statistics);
+/* An image in memory by a name: documents that name it get it in place of a file. The pixels are
+   copied. Set again, it is replaced in all shaders that have it, by an image of as many channels,
+   which is kept in memory as the first one was; a batch that is running goes on with the old one.
+ */
+NACRE_API nacre_status nacre_system_set_image(nacre_system* system, const char* name,
+                                              const nacre_image* image, nacre_report* report);
+/* Shaders that have it keep it. */
+NACRE_API void nacre_system_remove_image(nacre_system* system, const char* name);
 /* Forgets all that no shader has. */
 NACRE_API void nacre_system_drop_textures(nacre_system* system);
 
@@ -163,8 +177,9 @@ typedef struct nacre_compile_options {
   size_t with_begin_count;
   int side;           /* NACRE_BACK: what the back shows, see nacre_shader_has_back. */
   int background;     /* 1: return at once, and interpret until the code is there; the same bits. */
+  int priority;       /* Of that: higher ones are compiled first. */
   double max_seconds; /* Of the call. 0: 60. */
-  int max_anisotropy; /* Of footprints on images. 0: 16. */
+  int max_anisotropy; /* Of footprints on images, at most 64. 0: 32. */
   int no_footprints;  /* 1: points have no extent: images are not filtered, and no channels as dPdx
                          are read. For rays of which nobody knows more. */
   const char* const* search_paths; /* Of images, after the document's own folder. */
@@ -241,6 +256,12 @@ NACRE_API const char* nacre_shader_left_out(const nacre_shader* shader, size_t i
                                             int* changes_picture);
 /* 1 while code is made in the background and kernels are interpreted. */
 NACRE_API int nacre_shader_is_pending(const nacre_shader* shader);
+/* Withdraws what is pending: it stays interpreted. */
+NACRE_API void nacre_shader_cancel(const nacre_shader* shader);
+/* Calls once when nothing is pending: at once, or by a thread that compiles, which must not wait
+   there for another. */
+NACRE_API nacre_status nacre_shader_when_ready(const nacre_shader* shader, void (*call)(void* user),
+                                               void* user);
 /* Waits until nothing is pending. NACRE_FAILED, with the reasons, where an entry stays
    interpreted. */
 NACRE_API nacre_status nacre_shader_wait(const nacre_shader* shader, nacre_report* report);

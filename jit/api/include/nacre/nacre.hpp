@@ -10,6 +10,7 @@
 #include <nacre/colors.hpp>
 #include <nacre/diagnostic.hpp>
 #include <nacre/document.hpp>
+#include <nacre/hooks.hpp>
 #include <nacre/record.hpp>
 #include <nacre/shader.hpp>
 #include <nacre/system.hpp>

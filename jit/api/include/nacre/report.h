@@ -69,6 +69,11 @@ NACRE_API size_t nacre_report_error_count(const nacre_report* report);
 NACRE_API nacre_status nacre_report_get(const nacre_report* report, size_t index,
                                         nacre_diagnostic* diagnostic);
 NACRE_API void nacre_report_clear(nacre_report* report);
+/* Calls with each diagnostic that a call adds, before that call returns and by its thread; the
+   texts live during `said`, which NULL ends. */
+NACRE_API void nacre_report_listen(nacre_report* report,
+                                   void (*said)(void* user, const nacre_diagnostic* diagnostic),
+                                   void* user);
 
 #ifdef __cplusplus
 }

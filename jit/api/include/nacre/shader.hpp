@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
+#include <memory>
 #include <nacre/diagnostic.hpp>
 #include <string>
 #include <utility>
@@ -73,6 +75,21 @@ class Shader {
     return lines;
   }
   bool is_pending() const { return nacre_shader_is_pending(get()) != 0; }
+  /// What is pending stays interpreted.
+  void cancel() const { nacre_shader_cancel(get()); }
+  /// Calls once when nothing is pending: at once, or by a thread that compiles. Does not throw.
+  void when_ready(std::function<void()> call) const {
+    auto kept = std::make_unique<std::function<void()>>(std::move(call));
+    detail::check(nacre_shader_when_ready(
+        get(),
+        [](void* user) {
+          const std::unique_ptr<std::function<void()>> mine(
+              static_cast<std::function<void()>*>(user));
+          (*mine)();
+        },
+        kept.get()));
+    static_cast<void>(kept.release());
+  }
   /// Throws Error where an entry stays interpreted.
   void wait() const {
     const detail::Said report;

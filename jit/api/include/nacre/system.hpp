@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <memory_resource>
 #include <nacre/colors.hpp>
 #include <nacre/document.hpp>
+#include <nacre/hooks.hpp>
 #include <nacre/record.hpp>
 #include <nacre/shader.hpp>
 #include <optional>
@@ -57,6 +59,10 @@ struct SystemOptions {
   int max_image_size = 0;
   std::uint64_t max_image_bytes = 0;
   std::uint64_t max_image_file_bytes = 0;
+  FileResolver resolver = {};                   ///< Of images; for includes see ReadOptions.
+  TextureSystem textures = {};                  ///< Looks images up in place of the library.
+  Executor executor = {};                       ///< Runs what compiles.
+  std::pmr::memory_resource* memory = nullptr;  ///< Of texels; lives as long as all shaders.
 };
 
 /// An input or output of a nodedef; see nacre_port.
@@ -91,6 +97,7 @@ struct CompileOptions {
   std::vector<std::string> with_begin;  ///< "albedo", "normal", "SR_gold/base_color".
   int side = NACRE_FRONT;
   bool background = false;
+  int priority = 0;
   double max_seconds = 0;
   int max_anisotropy = 0;
   bool no_footprints = false;
@@ -139,6 +146,17 @@ class System {
     asked.max_image_size = options.max_image_size;
     asked.max_image_bytes = options.max_image_bytes;
     asked.max_image_file_bytes = options.max_image_file_bytes;
+    nacre_file_resolver resolver{};
+    if (options.resolver) asked.resolver = &(resolver = detail::resolver_of(options.resolver));
+    nacre_texture_system textures{};
+    if (options.textures)
+      asked.textures = &(textures = detail::texture_system_of(options.textures));
+    nacre_executor executor{};
+    if (options.executor) asked.executor = &(executor = detail::executor_of(options.executor));
+    nacre_allocator allocator{};
+    if (options.memory != nullptr) {
+      asked.allocator = &(allocator = detail::allocator_of(options.memory));
+    }
     const detail::Said report;
     nacre_system* made = nullptr;
     report.finish(nacre_system_create(&asked, report.get(), &made), said);
@@ -197,6 +215,21 @@ class System {
     detail::check(nacre_system_texture_statistics(get(), &now));
     return now;
   }
+  /// An image in memory in place of a file of that name, replaced in all shaders that have it.
+  void set_image(const std::string& name, const Image& image) {
+    nacre_image given{};
+    given.size = sizeof given;
+    given.width = image.width;
+    given.height = image.height;
+    given.channels = image.channels;
+    given.samples = image.samples;
+    given.pixels = image.pixels;
+    given.row_bytes = image.row_bytes;
+    const detail::Said report;
+    report.finish(nacre_system_set_image(get(), name.c_str(), &given, report.get()), nullptr);
+  }
+  /// Shaders that have it keep it.
+  void remove_image(const std::string& name) { nacre_system_remove_image(get(), name.c_str()); }
   /// Forgets textures that no shader has.
   void drop_textures() { nacre_system_drop_textures(get()); }
 
@@ -242,6 +275,7 @@ class System {
     asked.with_begin_count = with_begin.size();
     asked.side = options.side;
     asked.background = options.background;
+    asked.priority = options.priority;
     asked.max_seconds = options.max_seconds;
     asked.max_anisotropy = options.max_anisotropy;
     asked.no_footprints = options.no_footprints;
