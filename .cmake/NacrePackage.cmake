@@ -44,6 +44,7 @@ install(TARGETS nacre_compile_worker RUNTIME DESTINATION libexec/nacre)
 install(DIRECTORY "${NACRE_MATERIALX_LIBRARIES}/" DESTINATION share/nacre/libraries
   PATTERN .requirement EXCLUDE)
 install(FILES LICENSE DESTINATION share/nacre)
+install(FILES jit/api/man/nacre.3 DESTINATION ${CMAKE_INSTALL_MANDIR}/man3)
 
 set(nacre_package ${CMAKE_INSTALL_LIBDIR}/cmake/nacre)
 install(EXPORT nacre NAMESPACE nacre:: FILE nacreTargets.cmake DESTINATION ${nacre_package})
