@@ -300,6 +300,7 @@ std::unique_ptr<Document> read_document_text(std::string_view text, const std::s
                       fmt::format("at most {} bytes", options.limits.file_bytes));
     return nullptr;
   }
+  if (report_if_due(options.stop, "reading", {name, 0, 0, ""}, diagnostics)) return nullptr;
   const fs::path folder = fs::path(name).parent_path();
   reader.add_folder(folder.empty() ? fs::path(".") : folder);
   return finish(std::move(document), reader.parse(text, name, folder));
