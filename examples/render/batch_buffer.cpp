@@ -10,7 +10,7 @@ namespace {
 
 /// Float arrays in a BatchBuffer besides its primvars, counted generously; an
 /// assert in take() would notice too few.
-constexpr std::size_t array_count = 96;
+constexpr std::size_t array_count = 128;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void* LaneMemory::take(std::size_t bytes) {
 
 BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::size_t primvar_count)
     : capacity_(capacity),
-      memory_((array_count + 4 * primvar_count) * LaneMemory::lane_bytes(capacity) +
+      memory_((array_count + 5 * primvar_count) * LaneMemory::lane_bytes(capacity) +
               LaneMemory::rounded(state_bytes)) {
   ShadingBatch& b = batch;
   for (Lanes3* lanes : {&b.P,        &b.N,        &b.Ng,          &b.wo,          &b.T,    &b.B,
@@ -45,7 +45,11 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
   geometry_id = static_cast<std::uint32_t*>(memory_.take(id_bytes));
   primitive_id = static_cast<std::uint32_t*>(memory_.take(id_bytes));
   primvars.resize(primvar_count);
+  for (MatrixLanes* matrix : {&b.object_to_world, &b.world_to_object}) {
+    for (float*& entry : *matrix) entry = memory_.floats(capacity);
+  }
   for (PrimvarLanes& p : primvars) {
+    p.present = static_cast<std::int32_t*>(memory_.take(id_bytes));
     for (float*& component : p.component) component = memory_.floats(capacity);
   }
   state = memory_.take(state_bytes);

@@ -61,7 +61,6 @@ class BatchBuffer {
   std::vector<PrimvarLanes> primvars;  ///< Storage behind batch.primvars.
   std::uint32_t* geometry_id;
   std::uint32_t* primitive_id;
-  float object_to_world[16], world_to_object[16];
   void* state;
   Lanes3 u;    ///< Random numbers for sample().
   Lanes3 wi;   ///< Directions for evaluate().

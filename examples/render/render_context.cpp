@@ -14,10 +14,6 @@ float sample_spacing(const RenderSettings& settings) {
   return std::max(0.125f, 1.f / std::sqrt(static_cast<float>(std::max(settings.samples, 1))));
 }
 
-bool wants_one_mesh(const Capabilities& c) {
-  return (c.attributes & attribute_transform) != 0 || !c.primvars.empty();
-}
-
 }  // namespace
 
 RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wanted,
@@ -47,17 +43,16 @@ void RenderContext::collect_materials(const RenderInput& input) {
       back = nullptr;
     }
     assert(front != nullptr);
-    front_materials.push_back(add_material(*front, mesh));
-    back_materials.push_back(back == nullptr ? front_materials.back() : add_material(*back, mesh));
+    front_materials.push_back(add_material(*front));
+    back_materials.push_back(back == nullptr ? front_materials.back() : add_material(*back));
   }
 }
 
-std::uint32_t RenderContext::add_material(const Shader& shader, std::uint32_t mesh) {
-  Capabilities capabilities = shader.capabilities();
-  const std::uint32_t split = wants_one_mesh(capabilities) ? mesh : ~0u;
+std::uint32_t RenderContext::add_material(const Shader& shader) {
   const auto [slot, fresh] =
-      known_.try_emplace({&shader, split}, static_cast<std::uint32_t>(materials.size()));
+      known_.try_emplace(&shader, static_cast<std::uint32_t>(materials.size()));
   if (!fresh) return slot->second;
+  Capabilities capabilities = shader.capabilities();
   any_opacity = any_opacity || capabilities.has_opacity;
   state_bytes = std::max(state_bytes, shader.state_bytes(settings.batch_size));
   primvars = std::max(primvars, capabilities.primvars.size());

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "examples/render/area_light.h"
@@ -15,8 +14,8 @@
 
 namespace nacre::host {
 
-/// A shader as the integrator sorts by it. One that needs batches of one mesh
-/// has an entry per mesh.
+/// A shader as the integrator sorts by it: all points that it shades, of whatever mesh, go
+/// together.
 struct Material {
   const Shader* shader = nullptr;
   Capabilities capabilities;
@@ -53,13 +52,13 @@ class RenderContext {
 
  private:
   void collect_materials(const RenderInput& input);
-  std::uint32_t add_material(const Shader& shader, std::uint32_t mesh);
+  std::uint32_t add_material(const Shader& shader);
   void collect_lights();
   std::vector<float> triangle_luminance(std::uint32_t mesh, BatchBuffer& buffer) const;
   void brighten(std::vector<float>& luminance, std::uint32_t mesh, bool back,
                 BatchBuffer& buffer) const;
 
-  std::map<std::pair<const Shader*, std::uint32_t>, std::uint32_t> known_;
+  std::map<const Shader*, std::uint32_t> known_;
   std::vector<std::unique_ptr<const Shader>> emitters_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,10 +38,8 @@ enum Attribute : std::uint32_t {
   attribute_surface_derivatives = 1u << 2,  ///< dPdu, dPdv
   attribute_footprint_position = 1u << 3,   ///< dPdx, dPdy
   attribute_footprint_uv = 1u << 4,         ///< dUVdx, dUVdy
-  /// `object_to_world`; batches then hold points of one mesh only.
-  attribute_transform = 1u << 5,
   /// `geometry_id`, `primitive_id`
-  attribute_ids = 1u << 6,
+  attribute_ids = 1u << 5,
 };
 
 /// A vertex attribute by name, beyond the first uv set. The loaders call them
@@ -51,9 +50,13 @@ struct PrimvarRequest {
 };
 
 struct PrimvarLanes {
-  bool present = false;  ///< False: the mesh has no such attribute and the lanes are unset.
-  float* component[4] = {};
+  std::int32_t* present = nullptr;  ///< 1 or 0: whether the mesh of the point has it.
+  float* component[4] = {};         ///< 0 where it has not.
 };
+
+/// Entries of an affine matrix, a lane of points each: entry 4 i + k is component k of where
+/// axis i goes, 12 to 14 where the origin goes. Rows, then, of a matrix for row vectors.
+using MatrixLanes = std::array<float*, 16>;
 
 /// Shading points. Directions are unit length unless a name starts with d;
 /// lengths are scene units.
@@ -75,12 +78,10 @@ struct ShadingBatch {
   Lanes3 dPdx, dPdy;
   Lanes3 dPdx_object, dPdy_object;  ///< The same, mesh-local.
   Lanes2 dUVdx, dUVdy;
-  const std::uint32_t* geometry_id = nullptr;   ///< Index of the mesh in the scene.
-  const std::uint32_t* primitive_id = nullptr;  ///< Triangle of that mesh.
-  const PrimvarLanes* primvars = nullptr;       ///< As many as requested, in that order.
-  /// Row-major 4x4 for column vectors. Null unless asked for.
-  const float* object_to_world = nullptr;
-  const float* world_to_object = nullptr;
+  const std::uint32_t* geometry_id = nullptr;              ///< Index of the mesh in the scene.
+  const std::uint32_t* primitive_id = nullptr;             ///< Triangle of that mesh.
+  const PrimvarLanes* primvars = nullptr;                  ///< As many as requested, in that order.
+  MatrixLanes object_to_world = {}, world_to_object = {};  ///< Filled are the entries asked for.
 
   float time = 0.f;   ///< Seconds.
   float frame = 1.f;  ///< MaterialX `frame`.
@@ -111,7 +112,8 @@ struct Capabilities {
   bool scatters = true;      ///< False: emission only; begin, sample, evaluate are never called.
   bool only_delta = false;   ///< evaluate() is always 0: no light sampling, no call.
   std::uint32_t attributes = 0;  ///< Attribute bits read by any of the kernels.
-  /// When not empty, batches hold points of one mesh only.
+  /// Entries read of `object_to_world`, bits 0 to 15, and of `world_to_object`, 16 to 31.
+  std::uint32_t matrix_entries = 0;
   std::vector<PrimvarRequest> primvars;
 };
 

@@ -1,6 +1,8 @@
 #include "examples/render/surface.h"
 
+#include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "examples/render/mesh.h"
 
@@ -41,10 +43,30 @@ void cone_footprint(Vec3 wo, float width, Vec3 ng, Vec3& dPdx, Vec3& dPdy) {
   dPdy = (width / cosine) * cross(ng, across);
 }
 
-void write_rows(const Affine& m, float* rows) {
-  const float values[16] = {m.x.x, m.y.x, m.z.x, m.origin.x, m.x.y, m.y.y, m.z.y, m.origin.y,
-                            m.x.z, m.y.z, m.z.z, m.origin.z, 0.f,   0.f,   0.f,   1.f};
-  std::copy(values, values + 16, rows);
+/// Entry 4 i + k as MatrixLanes has it.
+float entry(const Affine& m, int number) {
+  const Vec3* rows[4] = {&m.x, &m.y, &m.z, &m.origin};
+  const Vec3& row = *rows[number / 4];
+  switch (number % 4) {
+    case 0: return row.x;
+    case 1: return row.y;
+    case 2: return row.z;
+    default: return number == 15 ? 1.f : 0.f;
+  }
+}
+
+const Primvar* find_primvar(const Mesh& mesh, const std::string& name) {
+  const auto found = std::ranges::find(mesh.primvars, name, &Primvar::name);
+  return found != mesh.primvars.end() ? &*found : nullptr;
+}
+
+/// One that the attribute lacks is 0, but 1 for the fourth of a colour.
+float component(const Primvar& primvar, std::size_t c, const std::uint32_t* v,
+                const SurfacePoint& p) {
+  const auto stride = static_cast<std::size_t>(primvar.components);
+  if (c >= stride) return c == 3 ? 1.f : 0.f;
+  return (1.f - p.u - p.v) * primvar.values[v[0] * stride + c] +
+         p.u * primvar.values[v[1] * stride + c] + p.v * primvar.values[v[2] * stride + c];
 }
 
 }  // namespace
@@ -73,8 +95,7 @@ void SurfaceGeometry::fill(std::span<const SurfacePoint> points, const Capabilit
   constexpr std::uint32_t derivatives =
       attribute_surface_derivatives | attribute_footprint_position | attribute_footprint_uv;
   if ((wanted & derivatives) != 0) fill_derivatives(points, wanted, camera, buffer);
-  buffer.batch.object_to_world = buffer.batch.world_to_object = nullptr;
-  if ((wanted & attribute_transform) != 0) fill_transform(points[0], buffer);
+  if (needs.matrix_entries != 0) fill_matrices(points, needs.matrix_entries, buffer);
   fill_primvars(points, needs, buffer);
 }
 
@@ -158,34 +179,41 @@ void SurfaceGeometry::fill_derivatives(std::span<const SurfacePoint> points,
 void SurfaceGeometry::fill_primvars(std::span<const SurfacePoint> points, const Capabilities& needs,
                                     BatchBuffer& buffer) const {
   buffer.batch.primvars = needs.primvars.empty() ? nullptr : buffer.primvars.data();
-  const Mesh& mesh = scene_.meshes[points[0].mesh];
   for (std::size_t k = 0; k < needs.primvars.size(); ++k) {
     const PrimvarRequest& request = needs.primvars[k];
     PrimvarLanes& lanes = buffer.primvars[k];
-    const auto found = std::find_if(mesh.primvars.begin(), mesh.primvars.end(),
-                                    [&](const Primvar& p) { return p.name == request.name; });
-    lanes.present = found != mesh.primvars.end();
-    if (!lanes.present) continue;
-    const auto stride = static_cast<std::size_t>(found->components);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(std::min(request.components, 4)); ++c) {
-      const float absent = c == 3 ? 1.f : 0.f;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const SurfacePoint& p = points[i];
-        const std::uint32_t* v = mesh.triangles[p.triangle].v;
-        lanes.component[c][i] = c >= stride ? absent
-                                            : (1.f - p.u - p.v) * found->values[v[0] * stride + c] +
-                                                  p.u * found->values[v[1] * stride + c] +
-                                                  p.v * found->values[v[2] * stride + c];
+    const auto components = static_cast<std::size_t>(std::min(request.components, 4));
+    std::uint32_t last = ~0u;  // The mesh that `values` are of.
+    const Primvar* values = nullptr;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const SurfacePoint& p = points[i];
+      const Mesh& mesh = scene_.meshes[p.mesh];
+      if (std::exchange(last, p.mesh) != p.mesh) values = find_primvar(mesh, request.name);
+      lanes.present[i] = values != nullptr ? 1 : 0;
+      const std::uint32_t* v = mesh.triangles[p.triangle].v;
+      for (std::size_t c = 0; c < components; ++c) {
+        lanes.component[c][i] = values != nullptr ? component(*values, c, v, p) : 0.f;
       }
     }
   }
 }
 
-void SurfaceGeometry::fill_transform(const SurfacePoint& point, BatchBuffer& buffer) const {
-  write_rows(scene_.meshes[point.mesh].object_to_world, buffer.object_to_world);
-  write_rows(world_to_object_[point.mesh], buffer.world_to_object);
-  buffer.batch.object_to_world = buffer.object_to_world;
-  buffer.batch.world_to_object = buffer.world_to_object;
+/// A lane for each entry that a kernel reads, written once and read in place by every kernel of
+/// the material. A table by mesh, from which the library picks (ElementOf::instance), would be
+/// picked from and copied for each of those calls; and what moves has a matrix for each point.
+void SurfaceGeometry::fill_matrices(std::span<const SurfacePoint> points, std::uint32_t entries,
+                                    BatchBuffer& buffer) const {
+  ShadingBatch& b = buffer.batch;
+  for (int number = 0; number < 32; ++number) {
+    if ((entries >> number & 1u) == 0) continue;
+    const bool to_world = number < 16;
+    float* lane = (to_world ? b.object_to_world : b.world_to_object)[number % 16];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::uint32_t mesh = points[i].mesh;
+      const Affine& m = to_world ? scene_.meshes[mesh].object_to_world : world_to_object_[mesh];
+      lane[i] = entry(m, number % 16);
+    }
+  }
 }
 
 }  // namespace nacre::host

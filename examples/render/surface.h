@@ -35,8 +35,7 @@ class SurfaceGeometry {
   explicit SurfaceGeometry(const Scene& scene);
 
   /// Fills `buffer.batch` for as many points as given (at most its capacity):
-  /// the standing attributes and those that `needs` asks for. When `needs` asks
-  /// for the transform or primvars, all points have to be of one mesh.
+  /// the standing attributes and those that `needs` asks for.
   void fill(std::span<const SurfacePoint> points, const Capabilities& needs,
             const PixelCamera& camera, BatchBuffer& buffer) const;
 
@@ -46,7 +45,7 @@ class SurfaceGeometry {
   void fill_derivatives(std::span<const SurfacePoint>, std::uint32_t attributes, const PixelCamera&,
                         BatchBuffer&) const;
   void fill_primvars(std::span<const SurfacePoint>, const Capabilities&, BatchBuffer&) const;
-  void fill_transform(const SurfacePoint&, BatchBuffer&) const;
+  void fill_matrices(std::span<const SurfacePoint>, std::uint32_t entries, BatchBuffer&) const;
 
   const Scene& scene_;
   std::vector<Affine> world_to_object_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <charconv>
 #include <cstring>
 
 #include "runtime/channel/channel_name.h"
@@ -47,7 +48,7 @@ float* component(const Lanes3& lanes, int i) {
 }
 float* component(const Lanes2& lanes, int i) { return i == 0 ? lanes.x : lanes.y; }
 
-using Source = std::function<const float*(const ShadingBatch&)>;
+using Source = std::function<const void*(const ShadingBatch&)>;
 
 /// The lanes of a standard channel; empty for others.
 Source standard_channel(std::string_view group, int i, std::uint32_t& attributes) {
@@ -63,6 +64,29 @@ Source standard_channel(std::string_view group, int i, std::uint32_t& attributes
     return [lanes, i](const ShadingBatch& b) { return component(b.*lanes, i); };
   }
   return {};
+}
+
+/// Which entry of a matrix "object_to_world.7" is, as a bit of Capabilities::matrix_entries.
+std::optional<int> matrix_entry(std::string_view channel) {
+  for (const auto& [name, first] : {std::pair{"object_to_world.", 0}, {"world_to_object.", 16}}) {
+    if (!channel.starts_with(name)) continue;
+    const std::string_view digits = channel.substr(std::string_view(name).size());
+    int number = -1;
+    std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (number >= 0 && number < 16) return first + number;
+  }
+  return {};
+}
+
+/// The lane of an entry of a matrix; empty for other channels.
+Source matrix_channel(std::string_view channel, std::uint32_t& entries) {
+  const auto entry = matrix_entry(channel);
+  if (!entry) return {};
+  entries |= 1u << *entry;
+  const auto lanes = *entry < 16 ? &ShadingBatch::object_to_world : &ShadingBatch::world_to_object;
+  return [lanes, i = static_cast<std::size_t>(*entry % 16)](const ShadingBatch& b) {
+    return (b.*lanes)[i];
+  };
 }
 
 /// The host's name of a vertex attribute: "uv1" is "texcoord1", "geomprop.foo" "foo".
@@ -117,16 +141,22 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
     }
     const auto [group, i] = parse_channel(channel.name);
     reads_uv_ = reads_uv_ || group == "uv0";
-    bound.from_batch.back() = standard_channel(group, i, capabilities_.attributes);
-    if (bound.from_batch.back() || i < 0) continue;
-    const int primvar = find_primvar(primvar_name(group), i + 1);
+    Source& source = bound.from_batch.back();
+    source = standard_channel(group, i, capabilities_.attributes);
+    if (!source) source = matrix_channel(channel.name, capabilities_.matrix_entries);
+    const bool is_presence = i < 0 && group.starts_with("geomprop.");
+    if (source || (i < 0 && !is_presence)) continue;
+    const int primvar = find_primvar(primvar_name(group), std::max(i, 0) + 1);
+    if (is_presence) {  // Of each point: see varying_slots().
+      source = [primvar](const ShadingBatch& b) { return b.primvars[primvar].present; };
+      continue;
+    }
     // A slot named as the property says whether the mesh has it (nodes/geometric).
     if (const auto slot = kernel->parameter_index(group))
       bound.present.emplace_back(*slot, primvar);
     // Clang 19 takes no structured binding into a lambda under its own name without a warning.
-    bound.from_batch.back() = [primvar, component = i](const ShadingBatch& b) -> const float* {
-      const auto& lanes = b.primvars[primvar];
-      return lanes.present ? lanes.component[component] : nullptr;
+    source = [primvar, component = i](const ShadingBatch& b) {
+      return b.primvars[primvar].component[component];
     };
   }
 }
@@ -152,7 +182,8 @@ std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound, const Sh
   if (bound.frame) block[*bound.frame] = std::bit_cast<std::uint32_t>(batch.frame);
   if (bound.time) block[*bound.time] = std::bit_cast<std::uint32_t>(batch.time);
   for (const auto& [slot, primvar] : bound.present) {
-    block[slot] = batch.primvars[primvar].present ? 1u : 0u;
+    // A slot, as all meshes of the material agree.
+    block[slot] = batch.primvars[primvar].present[0] != 0 ? 1u : 0u;
   }
   return block;
 }
@@ -165,7 +196,7 @@ void KernelShader::run(const Bound& bound, const ShadingBatch& batch, const void
   std::vector<float> zeros;  // For attributes that the mesh does not have.
   std::array<const void*, most> inputs;
   for (std::size_t k = 0; k < count; ++k) {
-    const float* lanes = nullptr;
+    const void* lanes = nullptr;
     if (bound.extra[k] >= 0) {
       lanes = extras[static_cast<std::size_t>(bound.extra[k])];
     } else if (bound.state[k] >= 0) {

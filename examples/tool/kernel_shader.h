@@ -70,11 +70,11 @@ class KernelShader final : public host::Shader {
   /// Where one input channel of a kernel is found in a batch.
   struct Bound {
     BoundKernel* kernel = nullptr;
-    std::vector<std::function<const float*(const host::ShadingBatch&)>> from_batch;
+    std::vector<std::function<const void*(const host::ShadingBatch&)>> from_batch;
     std::vector<int> extra;                  ///< By input: index into the call's own arrays, or -1.
     std::vector<int> state;                  ///< By input: index of the state channel, or -1.
     std::optional<std::size_t> frame, time;  ///< Slots of the parameter block.
-    /// Slots that say whether the mesh has a geometric property, and its primvar.
+    /// Slots that say whether the meshes have a geometric property, and its primvar.
     std::vector<std::pair<std::size_t, int>> present;
   };
 

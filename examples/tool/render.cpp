@@ -25,6 +25,7 @@
 #include "examples/tool/process.h"
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
+#include "examples/tool/varying_slots.h"
 
 namespace nacre::tool {
 
@@ -92,9 +93,13 @@ struct TwoShaders {
 /// By MeshAssignment::key.
 using Shaders = std::map<std::string, TwoShaders>;
 
-bool compile_shaders(const RenderOptions& options, const Opened& opened,
+bool compile_shaders(const RenderOptions& options, const Opened& opened, const host::Scene& world,
                      const std::vector<MeshAssignment>& assignments, RenderStop& stop,
                      Shaders& shaders, Diagnostics& diagnostics) {
+  std::map<std::string, std::vector<const host::Mesh*>> meshes;
+  for (std::size_t i = 0; i < assignments.size(); ++i) {
+    meshes[assignments[i].key()].push_back(&world.meshes[i]);
+  }
   NotRendered not_rendered(opened, diagnostics);
   not_rendered.look_at_document();
   for (const MeshAssignment& assignment : assignments) {
@@ -103,6 +108,7 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened,
     shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
     shader.graph.variants = assignment.variants;
     shader.graph.geometry_tokens = assignment.tokens;
+    shader.varying = varying_slots(meshes.at(assignment.key()));
     auto kernels =
         opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
@@ -217,7 +223,7 @@ int run(RenderOptions& options) {
   RenderStop stop;
   Shaders shaders;
   if (diagnostics.has_errors() ||
-      !compile_shaders(options, opened, assignments, stop, shaders, diagnostics)) {
+      !compile_shaders(options, opened, world, assignments, stop, shaders, diagnostics)) {
     return report(diagnostics);
   }
   auto grey = neutral_material(*opened.system, options.common.shader_options(), diagnostics);

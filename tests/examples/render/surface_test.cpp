@@ -12,8 +12,8 @@ namespace {
 Capabilities everything() {
   Capabilities c;
   c.attributes = attribute_object_space | attribute_tangents | attribute_surface_derivatives |
-                 attribute_footprint_position | attribute_footprint_uv | attribute_transform |
-                 attribute_ids;
+                 attribute_footprint_position | attribute_footprint_uv | attribute_ids;
+  c.matrix_entries = ~0u;
   return c;
 }
 
@@ -113,8 +113,16 @@ TEST(Surface, ObjectSpaceUndoesTheTransform) {
     // Outward stays the front, however the map mirrors.
     EXPECT_GT(dot(load(b.Ng, i), load(b.N, i)), 0.9f);
     EXPECT_GT(dot(load(b.P, i) - map.origin, load(b.Ng, i)), 0.f);
-    const float* m = b.object_to_world;
-    EXPECT_NEAR(m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], b.P.x[i], 1e-4f);
+    // Rows of a matrix for row vectors: (p, 1) M is P, and (P, 1) times its inverse p.
+    const auto through = [i](const MatrixLanes& m, Vec3 v, std::size_t column) {
+      return v.x * m[column][i] + v.y * m[4 + column][i] + v.z * m[8 + column][i] +
+             m[12 + column][i];
+    };
+    const Vec3 world = load(b.P, i);
+    EXPECT_NEAR(through(b.object_to_world, p, 0), world.x, 1e-4f);
+    EXPECT_NEAR(through(b.object_to_world, p, 1), world.y, 1e-4f);
+    EXPECT_NEAR(through(b.world_to_object, world, 2), p.z, 1e-4f);
+    EXPECT_EQ(through(b.object_to_world, p, 3), 1.f);
     expect_near(transform_vector(map, load(b.dPdx_object, i)), load(b.dPdx, i), 1e-6f);
     // The bitangent follows the uv map, not the handedness.
     EXPECT_GT(dot(load(b.B, i), load(b.dPdv, i)), 0.f);
@@ -153,8 +161,8 @@ TEST(Surface, PrimvarsComeByName) {
   BatchBuffer buffer(16, 0, 2);
   const std::vector<SurfacePoint> points = {{0, 0, 0.25f, 0.5f, {0.f, 0.f, 1.f}, false, 1.f, 0.f}};
   geometry.fill(points, needs, PixelCamera({}, 8, 8, 1.f), buffer);
-  ASSERT_TRUE(buffer.batch.primvars[0].present);
-  EXPECT_FALSE(buffer.batch.primvars[1].present);
+  EXPECT_EQ(buffer.batch.primvars[0].present[0], 1);
+  EXPECT_EQ(buffer.batch.primvars[1].present[0], 0);
   // Colour is (u, v, 0) of the quad.
   EXPECT_FLOAT_EQ(buffer.batch.primvars[0].component[0][0], buffer.batch.uv.x[0]);
   EXPECT_FLOAT_EQ(buffer.batch.primvars[0].component[1][0], buffer.batch.uv.y[0]);

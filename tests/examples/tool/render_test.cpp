@@ -165,5 +165,89 @@ TEST_F(Render, AssignmentsThatAreNotExclusiveLetOtherSurfacesThrough) {
   EXPECT_TRUE(says("no-surface")) << errors_;
 }
 
+/// Two cards, the second moved and turned, of which the first has an attribute "_TINT": white.
+std::string two_cards() {
+  std::string data;
+  const auto add = [&data](std::initializer_list<float> values) {
+    for (const float v : values) data.append(reinterpret_cast<const char*>(&v), sizeof v);
+  };
+  add({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0});
+  add({1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+  return data;
+}
+
+constexpr std::string_view two_cards_json = R"({
+  "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}],
+  "nodes": [{"name": "one", "mesh": 0, "translation": [-1.1, 0, 0]},
+            {"name": "two", "mesh": 1, "translation": [1.1, 0, 0], "rotation": [0, 0, 1, 0]}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "_TINT": 1}}]},
+             {"primitives": [{"attributes": {"POSITION": 0}}]}],
+  "buffers": [{"byteLength": 144, "uri": "cards.bin"}],
+  "bufferViews": [{"buffer": 0, "byteLength": 72}, {"buffer": 0, "byteOffset": 72, "byteLength": 72}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3"},
+                {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC3"}]
+})";
+
+class Cards : public Render {
+ protected:
+  /// The texels of the cards glowing in the colour that `nodes` call "c".
+  std::vector<float> glowing(std::string_view nodes) {
+    write("cards.bin", two_cards());
+    write("a.gltf", two_cards_json);
+    write("a.mtlx", R"(<materialx version="1.39" colorspace="lin_rec709">)" + std::string(nodes) +
+                        R"(<uniform_edf name="e" type="EDF">
+          <input name="color" type="color3" nodename="c"/></uniform_edf>
+        <surface name="s" type="surfaceshader">
+          <input name="edf" type="EDF" nodename="e"/></surface>
+        <surfacematerial name="M" type="material">
+          <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+      </materialx>)");
+    EXPECT_EQ(run("render " + file("a.mtlx") + " --scene " + file("a.gltf") +
+                  " --size 48x32 --spp 1 --max-depth 0 --out " + file("a.exr")),
+              0)
+        << errors_;
+    std::vector<float> texels(48 * 32 * 3);
+    const auto in = OIIO::ImageInput::open(file("a.exr"));
+    if (in != nullptr) in->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, texels.data());
+    return texels;
+  }
+};
+
+// Whether a mesh has an attribute is a question of each point: both are shaded together.
+TEST_F(Cards, SomeHaveAnAttributeAndOthersItsDefault) {
+  const std::vector<float> texels = glowing(
+      R"(<geompropvalue name="c" type="color3"><input name="geomprop" type="string" value="TINT"/>
+         <input name="default" type="color3" value="0, 0, 1"/></geompropvalue>)");
+  int white = 0, blue = 0;
+  for (std::size_t i = 0; i < texels.size(); i += 3) {
+    const bool is_left = i / 3 % 48 < 24;
+    white += is_left && texels[i] == 1 && texels[i + 1] == 1 && texels[i + 2] == 1;
+    blue += !is_left && texels[i] == 0 && texels[i + 1] == 0 && texels[i + 2] == 1;
+  }
+  EXPECT_GT(white, 100);
+  EXPECT_GT(blue, 100);
+}
+
+// P taken to object space is the position in object space, of each card by its own matrix.
+TEST_F(Cards, MatricesAreThoseOfTheObject) {
+  const std::vector<float> direct = glowing(
+      R"(<position name="p" type="vector3"><input name="space" type="string" value="object"/>
+         </position><convert name="c" type="color3"><input name="in" type="vector3" nodename="p"/>
+         </convert>)");
+  const std::vector<float> changed = glowing(
+      R"(<position name="w" type="vector3"><input name="space" type="string" value="world"/>
+         </position><transformpoint name="p" type="vector3">
+         <input name="in" type="vector3" nodename="w"/>
+         <input name="fromspace" type="string" value="world"/>
+         <input name="tospace" type="string" value="object"/></transformpoint>
+         <convert name="c" type="color3"><input name="in" type="vector3" nodename="p"/></convert>)");
+  int bright = 0;
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    EXPECT_NEAR(direct[i], changed[i], 1e-6f) << i;
+    bright += direct[i] > 0.5f;
+  }
+  EXPECT_GT(bright, 100);
+}
+
 }  // namespace
 }  // namespace nacre
