@@ -1,7 +1,8 @@
 #!/bin/bash
 # usage: demo.sh BUILD OUT
 # Shows what the nacre tool of a build can do: renders every document beside
-# this script on the built-in scene, bakes its graphs, and puts all on two sheets.
+# this script on the built-in scene, bakes its graphs, renders what moves, and puts all on
+# two sheets.
 set -euo pipefail
 build=${1:?usage: demo.sh BUILD OUT}
 out=${2:?usage: demo.sh BUILD OUT}
@@ -28,6 +29,12 @@ for document in "$here"/documents/*.mtlx; do
     "$nacre" bake "$document" --size "$baked" --format png --out "$out/baked/$name"
   fi
 done
+
+# A fifth of a second.
+echo "== motion"
+"$python" "$here/motion/scene.py" "$out/motion.gltf"
+"$nacre" render "$here/motion/motion.mtlx" --scene "$out/motion.gltf" --time 0.2 --shutter -0.1 0.1 \
+  --spp "$spp" --size "$size" --out "$out/rendered/motion.png"
 
 "$python" "$here/contact_sheet.py" "$out/rendered.png" "$out"/rendered/*.png
 for picture in "$out"/baked/*/*.png; do

@@ -38,6 +38,8 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
     *lanes = memory_.lanes3(capacity);
   }
   for (Lanes2* lanes : {&b.uv, &b.dUVdx, &b.dUVdy}) *lanes = memory_.lanes2(capacity);
+  b.times = memory_.floats(capacity);
+  b.frames = memory_.floats(capacity);
   sample.pdf = memory_.floats(capacity);
   value.pdf = memory_.floats(capacity);
   const std::size_t id_bytes = LaneMemory::lane_bytes(capacity);

@@ -20,6 +20,12 @@ inline void store(const Lanes2& lanes, std::size_t i, Vec2 v) {
   lanes.x[i] = v.x, lanes.y[i] = v.y;
 }
 
+/// Where the mesh of a point is at the time of its ray.
+struct Pose {
+  Affine to_world, to_object;
+  bool mirrors = false;  ///< to_world does; counted only where it is yet to be applied.
+};
+
 /// One zeroed block of memory, handed out in 64-byte aligned pieces.
 class LaneMemory {
  public:
@@ -59,6 +65,7 @@ class BatchBuffer {
 
   ShadingBatch batch;
   std::vector<PrimvarLanes> primvars;  ///< Storage behind batch.primvars.
+  std::vector<Pose> poses;             ///< Of the points, while they are filled in.
   std::uint32_t* geometry_id;
   std::uint32_t* primitive_id;
   void* state;

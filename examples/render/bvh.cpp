@@ -5,6 +5,8 @@
 
 #include <cassert>
 #include <cstring>
+#include <span>
+#include <vector>
 
 #include "examples/render/scene_limits.h"
 
@@ -27,6 +29,7 @@ RTCRay to_embree(const Ray& ray) {
   r.tnear = 0.f;
   r.tfar = ray.far;
   r.mask = ray.kind;
+  r.time = ray.time;
   return r;
 }
 
@@ -44,7 +47,7 @@ void reject_backs(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-bool add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
+bool add_triangles(RTCDevice device, RTCScene scene, const Mesh& mesh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                            sizeof(Vec3), mesh.position.size());
@@ -57,10 +60,27 @@ bool add_mesh(RTCDevice device, RTCScene scene, const Mesh& mesh) {
     rtcSetGeometryMask(geometry, mesh.visible_to);
     if (!mesh.two_sided) rtcSetGeometryIntersectFilterFunction(geometry, reject_backs);
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);  // numbered as they come: the mesh index
+    rtcAttachGeometry(scene, geometry);
   }
   rtcReleaseGeometry(geometry);
   return ok;
+}
+
+void add_instance(RTCDevice device, RTCScene scene, RTCScene shown, unsigned mask,
+                  const Motion::Segment& segment) {
+  static_assert(sizeof(Affine) == 12 * sizeof(float));
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, shown);
+  rtcSetGeometryMask(geometry, mask);
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(segment.steps.size()));
+  // At other times it is not there.
+  if (segment.steps.size() > 1) rtcSetGeometryTimeRange(geometry, segment.begin, segment.end);
+  for (unsigned i = 0; i < segment.steps.size(); ++i) {
+    rtcSetGeometryTransform(geometry, i, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &segment.steps[i]);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
 }
 
 }  // namespace
@@ -71,18 +91,66 @@ bool is_traceable(const Ray& ray) {
 }
 
 struct Bvh::Embree {
+  /// What a geometry of `scene` shows. Embree numbers them as they come.
+  struct Shown {
+    std::uint32_t mesh, instance;
+  };
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::vector<RTCScene> instanced;  ///< One for each mesh with instances.
+  std::vector<Shown> shown;
   bool ok = false;
   /// Where TBB gets no thread for building, Embree 3 leaves tasks that nobody waits for; to release
   /// such a scene ends the process, so it is left alone.
   bool is_half_built = false;
 
   ~Embree() {
-    if (scene != nullptr && !is_half_built) rtcReleaseScene(scene);
+    if (!is_half_built) {
+      if (scene != nullptr) rtcReleaseScene(scene);
+      for (RTCScene each : instanced) rtcReleaseScene(each);
+    }
     if (device != nullptr) rtcReleaseDevice(device);
   }
+
+  bool add(const Mesh& mesh, std::uint32_t number);
+  void show(const Mesh& mesh, std::uint32_t number, RTCScene own);
+  Hit hit(const RTCRayHit& of) const;
 };
+
+bool Bvh::Embree::add(const Mesh& mesh, std::uint32_t number) {
+  if (mesh.instances.empty()) {
+    shown.push_back({number, 0});
+    return add_triangles(device, scene, mesh);
+  }
+  RTCScene own = rtcNewScene(device);
+  instanced.push_back(own);
+  rtcSetSceneFlags(own, RTC_SCENE_FLAG_ROBUST);
+  if (!add_triangles(device, own, mesh)) return false;
+  rtcCommitScene(own);
+  show(mesh, number, own);
+  return true;
+}
+
+void Bvh::Embree::show(const Mesh& mesh, std::uint32_t number, RTCScene own) {
+  for (std::uint32_t i = 0; i < mesh.instances.size(); ++i) {
+    const Motion& motion = mesh.instances[i];
+    const Motion::Segment still{0.f, 1.f, {motion.still()}};
+    const std::span<const Motion::Segment> segments =
+        motion.is_still() ? std::span(&still, 1) : std::span(motion.segments());
+    for (const Motion::Segment& segment : segments) {
+      shown.push_back({number, i});
+      add_instance(device, scene, own, mesh.visible_to, segment);
+    }
+  }
+}
+
+Hit Bvh::Embree::hit(const RTCRayHit& of) const {
+  const RTCHit& h = of.hit;
+  if (h.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const bool is_instance = h.instID[0] != RTC_INVALID_GEOMETRY_ID;
+  const Shown& what = shown[is_instance ? h.instID[0] : h.geomID];
+  return {what.mesh, h.primID, h.u, h.v, of.ray.tfar, what.instance};
+}
 
 Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_unique<Embree>()) {
   embree_->device = rtcNewDevice(nullptr);
@@ -94,8 +162,9 @@ Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_uniqu
     const bool filters =
         rtcGetDeviceProperty(embree_->device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED) != 0;
     bool ok = true;
-    for (const Mesh& mesh : scene.meshes) {
-      ok = ok && add_mesh(embree_->device, embree_->scene, mesh);
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
+      const Mesh& mesh = scene.meshes[i];
+      ok = ok && embree_->add(mesh, i);
       if (!filters && !mesh.two_sided) {
         diagnostics.warning("no-ray-filters", {}, "this Embree cannot hide the backs of meshes",
                             "one built with EMBREE_FILTER_FUNCTION", mesh.object_name);
@@ -136,11 +205,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coheren
     }
     rtcIntersect1M(embree_->scene, &context, stream, static_cast<unsigned>(count),
                    sizeof(RTCRayHit));
-    for (std::size_t i = 0; i < count; ++i) {
-      const RTCHit& h = stream[i].hit;
-      static_assert(Hit::none == RTC_INVALID_GEOMETRY_ID);
-      hits[first + i] = {h.geomID, h.primID, h.u, h.v, stream[i].ray.tfar};
-    }
+    for (std::size_t i = 0; i < count; ++i) hits[first + i] = embree_->hit(stream[i]);
   }
 }
 

@@ -14,6 +14,7 @@ struct Ray {
   Vec3 direction;                ///< Unit length.
   float far = INFINITY;          ///< Hits at or beyond do not count.
   std::uint32_t kind = ray_any;  ///< RayKind: meshes that none of the bits see do not count.
+  float time = 0.f;              ///< 0: the shutter opens, 1: it closes.
 };
 
 struct Hit {
@@ -22,6 +23,7 @@ struct Hit {
   std::uint32_t triangle = none;
   float u = 0.f, v = 0.f;  ///< P = (1-u-v) p0 + u p1 + v p2.
   float distance = 0.f;
+  std::uint32_t instance = 0;  ///< Of the mesh; 0 of one that is baked.
 
   bool missed() const { return mesh == none; }
 };
@@ -31,7 +33,8 @@ struct Hit {
 bool is_traceable(const Ray& ray);
 
 /// Embree's ray tracing over the triangles of a scene, robust (watertight) mode. A ray
-/// that is not traceable meets nothing.
+/// that is not traceable meets nothing. Instances are Embree's, with the steps of their motion,
+/// and one for each segment of it.
 class Bvh {
  public:
   /// Copies what it needs. `ok` is false, with an error, when memory ran out.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "examples/render/scene_limits.h"
 
@@ -60,6 +62,43 @@ Camera look_at(Vec3 position, Vec3 target, float vertical_fov) {
   return camera;
 }
 
+namespace {
+
+/// False where the frame has no forward.
+bool turn(const Affine& world, Camera& camera) {
+  const Vec3 none = {};
+  camera.position = world.origin;
+  camera.forward = normalize_or(-world.z, none);
+  if (!(dot(camera.forward, camera.forward) > 0.f)) return false;
+  camera.right = normalize_or(cross(camera.forward, normalize_or(world.y, none)),
+                              perpendicular(camera.forward));
+  camera.up = cross(camera.right, camera.forward);
+  return true;
+}
+
+Affine frame(const Camera& camera) {
+  return {camera.right, camera.up, -camera.forward, camera.position};
+}
+
+}  // namespace
+
+bool place_camera(const Motion& world, Camera& camera, Motion& motion) {
+  if (!turn(world.at(0.f), camera)) return false;
+  motion = {};
+  if (world.is_still()) return true;
+  const Affine back = inverse(frame(camera));
+  std::vector<Motion::Segment> segments = world.segments();
+  for (Motion::Segment& segment : segments) {
+    for (Affine& step : segment.steps) {
+      Camera there = camera;
+      if (!turn(step, there)) return false;
+      step = frame(there) * back;
+    }
+  }
+  motion = Motion(std::move(segments));
+  return true;
+}
+
 Camera fit_camera(const Bounds& box, float aspect) {
   constexpr float fov = 0.6f;
   const Vec3 centre = box.empty() ? Vec3{} : 0.5f * (box.low + box.high);
@@ -69,8 +108,9 @@ Camera fit_camera(const Bounds& box, float aspect) {
   return look_at(centre + distance * normalize({0.55f, 0.35f, 1.f}), centre, fov);
 }
 
-PixelCamera::PixelCamera(const Camera& camera, int width, int height, float sample_spacing)
-    : camera_(camera), spacing_(sample_spacing) {
+PixelCamera::PixelCamera(const Camera& camera, int width, int height, float sample_spacing,
+                         const Motion& motion)
+    : camera_(camera), motion_(motion), spacing_(sample_spacing) {
   const float distance = camera.lens_radius > 0.f ? camera.focus_distance : 1.f;
   const float pixel =
       2.f * distance * std::tan(0.5f * camera.vertical_fov) / static_cast<float>(height);
@@ -81,7 +121,24 @@ PixelCamera::PixelCamera(const Camera& camera, int width, int height, float samp
   angle_ = spacing_ * pixel / distance;
 }
 
-PixelCamera::Ray PixelCamera::ray(float x, float y, Uniform2 lens) const {
+PixelCamera::Ray PixelCamera::ray(float x, float y, Uniform2 lens, float time) const {
+  const Ray ray = standing_ray(x, y, lens);
+  if (motion_.is_still()) return ray;
+  const Affine moved = motion_.at(time);
+  return {transform_point(moved, ray.origin), normalize(transform_vector(moved, ray.direction))};
+}
+
+void PixelCamera::footprint(Vec3 direction, float distance, Vec3 n, float time, Vec3& dPdx,
+                            Vec3& dPdy) const {
+  if (motion_.is_still()) return standing_footprint(direction, distance, n, dPdx, dPdy);
+  const Affine moved = motion_.at(time), back = inverse(moved);
+  standing_footprint(normalize(transform_vector(back, direction)), distance,
+                     normalize(transform_normal(moved, n)), dPdx, dPdy);
+  dPdx = transform_vector(moved, dPdx);
+  dPdy = transform_vector(moved, dPdy);
+}
+
+PixelCamera::Ray PixelCamera::standing_ray(float x, float y, Uniform2 lens) const {
   const Vec3 focus = corner_ + x * step_x_ + y * step_y_;
   if (!(camera_.lens_radius > 0.f)) return {camera_.position, normalize(focus)};
   const Vec2 disk = camera_.lens_radius * to_disk(lens);
@@ -89,7 +146,8 @@ PixelCamera::Ray PixelCamera::ray(float x, float y, Uniform2 lens) const {
   return {camera_.position + shift, normalize(focus - shift)};
 }
 
-void PixelCamera::footprint(Vec3 direction, float distance, Vec3 n, Vec3& dPdx, Vec3& dPdy) const {
+void PixelCamera::standing_footprint(Vec3 direction, float distance, Vec3 n, Vec3& dPdx,
+                                     Vec3& dPdy) const {
   // D(x) = focus(x) - lens is not normalised and linear in x; P = O + s D.
   const float focal = camera_.lens_radius > 0.f ? camera_.focus_distance : 1.f;
   const float along = dot(direction, camera_.forward);

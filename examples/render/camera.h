@@ -18,6 +18,10 @@ bool check_camera(const Camera& camera, Diagnostics& diagnostics);
 /// vertical field of view in radians. In focus at the target.
 Camera look_at(Vec3 position, Vec3 target, float vertical_fov);
 
+/// Stands a camera where `world` takes one at 0 that looks along -z with +y up, as the shutter
+/// opens, and says how it moves from there. False where it looks nowhere.
+bool place_camera(const Motion& world, Camera& camera, Motion& motion);
+
 /// A three-quarter view (from the right, a little above) whose bounding sphere
 /// fits the image. `aspect` is width / height.
 Camera fit_camera(const Bounds& box, float aspect);
@@ -31,21 +35,28 @@ class PixelCamera {
   };
 
   /// `sample_spacing`: distance of image samples in pixels, which scales footprints.
-  PixelCamera(const Camera& camera, int width, int height, float sample_spacing);
+  /// `motion` takes the camera from where it stands to where it is: rigid, but for the chords
+  /// of what turns.
+  PixelCamera(const Camera& camera, int width, int height, float sample_spacing,
+              const Motion& motion = {});
 
   /// The ray through image position (x, y), in pixels from the upper left corner.
-  Ray ray(float x, float y, Uniform2 lens) const;
+  Ray ray(float x, float y, Uniform2 lens, float time = 0.f) const;
 
   /// How far P moves, on the plane through P with unit normal n, when the image
   /// position moves by one sample: Igehy 1999, "Tracing Ray Differentials",
   /// sections 3.1.1 and 3.1.2, for a straight ray of this direction and length.
-  void footprint(Vec3 direction, float distance, Vec3 n, Vec3& dPdx, Vec3& dPdy) const;
+  void footprint(Vec3 direction, float distance, Vec3 n, float time, Vec3& dPdx, Vec3& dPdy) const;
 
   /// Angle between neighbouring samples in the middle of the image, radians.
   float sample_angle() const { return angle_; }
 
  private:
+  Ray standing_ray(float x, float y, Uniform2 lens) const;
+  void standing_footprint(Vec3 direction, float distance, Vec3 n, Vec3& dPdx, Vec3& dPdy) const;
+
   Camera camera_;
+  Motion motion_;
   Vec3 corner_;           ///< From the lens centre to the upper left of the focal plane.
   Vec3 step_x_, step_y_;  ///< One pixel on the focal plane.
   float spacing_;

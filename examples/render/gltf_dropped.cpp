@@ -17,8 +17,8 @@ bool is_of_materials(std::string_view name) {
 
 /// Honoured, or without a part in the picture.
 bool is_harmless(std::string_view name) {
-  return name == "KHR_mesh_quantization" || name == "KHR_xmp" || name == "KHR_xmp_json_ld" ||
-         name == "FB_ngon_encoding";
+  return name == "KHR_mesh_quantization" || name == "EXT_mesh_gpu_instancing" ||
+         name == "KHR_xmp" || name == "KHR_xmp_json_ld" || name == "FB_ngon_encoding";
 }
 
 }  // namespace
@@ -40,7 +40,8 @@ bool GltfDropped::look_at_file(const GltfValue& root) {
     if (!name || is_harmless(*name) || is_of_materials(*name)) continue;
     ok = false;
     required[i].error("the scene requires an extension that is not supported",
-                      "KHR_mesh_quantization, or one of materials", required[i].shown());
+                      "KHR_mesh_quantization, EXT_mesh_gpu_instancing, or one of materials",
+                      required[i].shown());
   }
   const GltfValue materials = root["materials"];
   for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -52,11 +53,6 @@ bool GltfDropped::look_at_file(const GltfValue& root) {
     say("scene-materials-not-rendered", materials[i],
         "what the scene's materials say of shading is not rendered; only their names count",
         "materials of the document", fmt::format("{} materials", materials.size()));
-  }
-  const GltfValue animations = root["animations"];
-  if (animations.size() != 0) {
-    say("animations-not-rendered", animations,
-        "the scene's animations are not rendered: nodes stand as they are stored");
   }
   return ok;
 }
@@ -87,9 +83,6 @@ void GltfDropped::look_at_extensions(const GltfValue& extensions) {
     if (name == "KHR_lights_punctual") {
       say("scene-lights-not-rendered", extension,
           "lights of the scene are not rendered; surfaces that emit and the environment are");
-    } else if (name == "EXT_mesh_gpu_instancing") {
-      say("instances-not-rendered", extension,
-          "instances are not rendered: the mesh is drawn once, where its node is");
     } else if (!is_harmless(name) && !is_of_materials(name)) {
       if (!said_.insert(name).second) continue;
       extension.report().warning("extension-not-rendered", extension.path(),

@@ -6,11 +6,13 @@
 
 namespace nacre::host {
 
-Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics) {
+Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
+                 const Shutter& shutter) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".glb" || extension == ".gltf") return load_gltf(path, limits, diagnostics);
+  if (extension == ".glb" || extension == ".gltf")
+    return load_gltf(path, limits, diagnostics, shutter);
   if (extension == ".obj") return load_obj(path, limits, diagnostics);
   diagnostics.error("unknown-scene-format", {path, 0, 0, {}}, "cannot tell the format of the scene",
                     "a name ending in .glb, .gltf or .obj", "\"" + extension + "\"");

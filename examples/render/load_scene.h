@@ -10,15 +10,18 @@ namespace nacre::host {
 
 /// Reads .glb, .gltf or .obj, told by the extension. Errors leave the scene
 /// without meshes; warnings do not. Every mesh has gone through finish_mesh(). What the
-/// file has and the host does not render is a warning.
-Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics);
+/// file has and the host does not render is a warning. What is animated stands as it does while
+/// `shutter` is open; what moves meanwhile has `instances`.
+Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
+                 const Shutter& shutter = {});
 
 /// glTF 2.0: the nodes of the default scene (or of the first), triangles,
 /// strips and fans, any component type; no sparse accessors, skins, morphs, lights or
 /// materials but for their names. glTF puts uv (0,0) at the upper left, so v becomes 1 - v.
 /// Without normals faces are flat. Buffers are only read from the folder of the file and
-/// below.
-Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics);
+/// below. Of its animations the first moves nodes.
+Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
+                const Shutter& shutter);
 
 /// Wavefront OBJ: v, vt, vn, f (any polygon, cut into a fan, negative indices),
 /// o, g, usemtl; what else would change the picture is a warning. One mesh per object,

@@ -227,12 +227,40 @@ bool surface_derivatives(const Mesh& mesh, const Triangle& triangle, Vec3& dPdu,
   return false;
 }
 
+Bounds vertex_bounds(const Mesh& mesh) {
+  Bounds box;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t.v) box.add(mesh.position[v]);
+  }
+  return box;
+}
+
+Bounds instance_bounds(const Bounds& own, const Motion& motion) {
+  Bounds box;
+  for_each_step(motion, [&](const Affine& map) {
+    for (int corner = 0; corner < 8; ++corner) {
+      box.add(transform_point(
+          map, {corner & 1 ? own.high.x : own.low.x, corner & 2 ? own.high.y : own.low.y,
+                corner & 4 ? own.high.z : own.low.z}));
+    }
+  });
+  return box;
+}
+
 Bounds bounds(const Scene& scene) {
   Bounds box;
   for (const Mesh& mesh : scene.meshes) {
     if (mesh.light_radiance) continue;
-    for (const Triangle& t : mesh.triangles) {
-      for (const std::uint32_t v : t.v) box.add(mesh.position[v]);
+    const Bounds own = vertex_bounds(mesh);
+    if (own.empty()) continue;
+    if (mesh.instances.empty()) {
+      box.add(own.low);
+      box.add(own.high);
+    }
+    for (const Motion& motion : mesh.instances) {
+      const Bounds moved = instance_bounds(own, motion);
+      box.add(moved.low);
+      box.add(moved.high);
     }
   }
   return box;

@@ -37,4 +37,9 @@ void bake_transform(Mesh& mesh, const Affine& object_to_world);
 /// its uv map has no area.
 bool surface_derivatives(const Mesh& mesh, const Triangle& triangle, Vec3& dPdu, Vec3& dPdv);
 
+/// Of the vertices that a triangle uses, in the space that they are in.
+Bounds vertex_bounds(const Mesh& mesh);
+/// World bounds of a box that moves.
+Bounds instance_bounds(const Bounds& own, const Motion& motion);
+
 }  // namespace nacre::host

@@ -52,10 +52,11 @@ Path camera_path(const RenderContext& context, int x, int y, int sample) {
   const bool box = s.filter == PixelFilter::box;
   const float dx = box ? u.x : 0.5f + tent(u.x);
   const float dy = box ? u.y : 0.5f + tent(u.y);
+  const float time = is_open(s) ? uniform2(s.sampler, path.key, Draw::time).x : 0.f;
   const PixelCamera::Ray ray =
       context.camera.ray(static_cast<float>(x) + dx, static_cast<float>(y) + dy,
-                         uniform2(s.sampler, path.key, Draw::lens));
-  path.ray = {ray.origin, ray.direction, INFINITY};
+                         uniform2(s.sampler, path.key, Draw::lens), time);
+  path.ray = {ray.origin, ray.direction, INFINITY, ray_camera, time};
   path.vertex = ray.origin;
   return path;
 }

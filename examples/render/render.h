@@ -41,9 +41,15 @@ struct RenderSettings {
   PixelFilter filter = PixelFilter::box;
   float time = 0.f;
   float frame = 1.f;
+  /// Seconds from `time`: rays have times between. Where they are equal nothing is blurred.
+  float shutter_open = 0.f, shutter_close = 0.f;
+  float fps = 24.f;                ///< What `frame` is counted in while the shutter is open.
   int tile_size = 32;              ///< Pixels on a side.
   std::uint32_t batch_size = 512;  ///< Points per kernel call, at most.
 };
+
+/// Whether rays have times of their own.
+inline bool is_open(const RenderSettings& s) { return s.shutter_close > s.shutter_open; }
 
 struct RenderInput {
   const Scene* scene = nullptr;
@@ -54,6 +60,7 @@ struct RenderInput {
   /// Those of the backs, where dot(Ng, wo) < 0: null where the front's is on both
   /// sides, and empty where that is so for every mesh.
   std::vector<const Shader*> back_shaders = {};
+  Motion camera_motion = {};  ///< As Scene has it.
 };
 
 struct RenderControl {

@@ -21,8 +21,10 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
     : scene(*input.scene),
       environment(input.environment),
       settings(wanted),
-      camera(input.camera, wanted.width, wanted.height, sample_spacing(wanted)),
-      geometry(scene),
+      camera(input.camera, wanted.width, wanted.height, sample_spacing(wanted),
+             input.camera_motion),
+      geometry(scene,
+               {wanted.time, wanted.frame, wanted.shutter_open, wanted.shutter_close, wanted.fps}),
       bvh(scene, diagnostics) {
   assert(input.shaders.size() == scene.meshes.size());
   if (environment != nullptr && !(environment->mean_luminance() > 0.f)) environment = nullptr;
@@ -69,6 +71,8 @@ void RenderContext::collect_lights() {
                        materials[back_materials[mesh]].capabilities.emits;
     // What nothing sees is no light either (Geometry Extensions, "Visibility Elements").
     if (!emits || scene.meshes[mesh].visible_to == 0) continue;
+    // What moves is found by paths alone: how large its triangles are is a matter of the time.
+    if (!scene.meshes[mesh].instances.empty()) continue;
     lights.add(scene, mesh, triangle_luminance(mesh, buffer));
   }
   lights.finish();
@@ -103,7 +107,7 @@ void RenderContext::brighten(std::vector<float>& luminances, std::uint32_t mesh,
     points.clear();
     for (std::size_t t = first; t < last; ++t) {
       const auto triangle = static_cast<std::uint32_t>(t);
-      const Vec3 n = surface_normal(m, triangle);
+      const Vec3 n = surface_normal(scene, {.mesh = mesh, .triangle = triangle});
       for (const auto& [u, v] : probes) {
         points.push_back({mesh, triangle, u, v, back ? -n : n, false, 0.f, 0.f});
       }

@@ -44,10 +44,10 @@ class RenderContext {
   std::size_t primvars = 0;     ///< Of the neediest shader.
 
   /// The material of the side that `wo` is on.
-  std::uint32_t material_of(std::uint32_t mesh, std::uint32_t triangle, Vec3 wo) const {
-    const std::uint32_t front = front_materials[mesh], back = back_materials[mesh];
+  std::uint32_t material_of(const SurfacePoint& point) const {
+    const std::uint32_t front = front_materials[point.mesh], back = back_materials[point.mesh];
     if (front == back) return front;
-    return dot(surface_normal(scene.meshes[mesh], triangle), wo) < 0.f ? back : front;
+    return dot(surface_normal(scene, point), point.wo) < 0.f ? back : front;
   }
 
  private:

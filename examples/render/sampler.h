@@ -20,7 +20,8 @@ enum class Draw : std::uint32_t {
   light,
   lobe,
   direction,
-  roulette
+  roulette,
+  time
 };
 
 struct Uniform2 {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "examples/render/motion.h"
 #include "examples/render/vec.h"
 
 namespace nacre::host {
@@ -33,7 +34,8 @@ enum RayKind : std::uint32_t {
   ray_any = ray_camera | ray_shadow | ray_secondary,
 };
 
-/// One drawable piece of geometry with one material, baked to world space.
+/// One drawable piece of geometry with one material, baked to world space; or, with `instances`,
+/// one whose vertices are in its own space.
 struct Mesh {
   std::string object_name;    ///< Node of the scene graph.
   std::string mesh_name;      ///< Data block; several objects may share it.
@@ -52,13 +54,16 @@ struct Mesh {
   bool illuminated = true;
 
   std::vector<Triangle> triangles;    ///< Counter-clockwise seen from the front.
-  std::vector<Vec3> position;         ///< World.
+  std::vector<Vec3> position;         ///< World, if there are no instances.
   std::vector<Vec3> position_object;  ///< Mesh-local; empty: as world.
-  std::vector<Vec3> normal;           ///< World, unit.
-  std::vector<Tangent> tangent;       ///< World, unit.
+  std::vector<Vec3> normal;           ///< World, unit; as position.
+  std::vector<Tangent> tangent;       ///< World, unit; as position.
   std::vector<Vec2> uv;               ///< (0,0) lower left; empty: none.
   std::vector<Primvar> primvars;
-  Affine object_to_world;
+  Affine object_to_world;  ///< Of what is baked.
+  /// Drawn once for each, where that takes the vertices. An instance that emits is no light that
+  /// light sampling knows: paths find it.
+  std::vector<Motion> instances;
 
   /// Set: an area light of this radiance (rgb) that does not scatter; the
   /// material is not used. Emits from the front only unless `two_sided`.
@@ -81,6 +86,8 @@ struct Camera {
 struct Scene {
   std::vector<Mesh> meshes;
   std::optional<Camera> camera;  ///< Of the file; absent: see fit_camera().
+  /// Takes the camera to where it is while the shutter is open.
+  Motion camera_motion;
 };
 
 struct Bounds {
@@ -94,7 +101,8 @@ struct Bounds {
   bool empty() const { return !(low.x <= high.x); }
 };
 
-/// World bounds of all vertices that a triangle uses, lights left out.
+/// World bounds of all vertices that a triangle uses, lights left out; of instances those of their
+/// boxes.
 Bounds bounds(const Scene& scene);
 
 }  // namespace nacre::host

@@ -16,6 +16,10 @@ constexpr std::size_t triangle_bytes = 200;
 // The mesh itself and its part of the hierarchy.
 constexpr std::size_t mesh_bytes = sizeof(Mesh) + 2048;
 
+// Of an instance: Embree's geometry and its part of the hierarchy, and matrices, ours and Embree's.
+constexpr std::size_t segment_bytes = 2048;
+constexpr std::size_t step_bytes = 160;
+
 std::size_t bytes_of(std::size_t vertices, std::size_t triangles, std::size_t other) {
   // Counts are of things in files of limited size, so that no sum overflows.
   return vertices * vertex_bytes + triangles * triangle_bytes + mesh_bytes + other;
@@ -27,15 +31,32 @@ bool SceneBudget::fits(std::size_t vertices, std::size_t triangles, std::size_t 
   return meshes_ < limits_.meshes && bytes_of(vertices, triangles, other) <= limits_.bytes - bytes_;
 }
 
+bool SceneBudget::take_mesh(const SourceLocation& where) {
+  if (meshes_ < limits_.meshes) return ++meshes_, true;
+  diagnostics_.error("scene-too-large", where, "the scene has too many meshes",
+                     fmt::format("at most {} with all instances (--max-meshes)", limits_.meshes));
+  return false;
+}
+
+bool SceneBudget::take_bytes(const SourceLocation& where, std::size_t bytes) {
+  if (bytes <= limits_.bytes - bytes_) return bytes_ += bytes, true;
+  diagnostics_.error(
+      "scene-too-large", where, "the motion of the scene takes too much memory",
+      fmt::format("at most {} bytes with all instances (--max-scene-size)", limits_.bytes),
+      fmt::format("{} before these {}", bytes_, bytes));
+  return false;
+}
+
+bool SceneBudget::take_instance(const SourceLocation& where, bool is_first, std::size_t segments,
+                                std::size_t steps) {
+  return (is_first || take_mesh(where)) &&
+         take_bytes(where, segments * segment_bytes + steps * step_bytes);
+}
+
 bool SceneBudget::take(const SourceLocation& where, std::size_t vertices, std::size_t triangles,
                        std::size_t other) {
-  if (meshes_ == limits_.meshes) {
-    diagnostics_.error("scene-too-large", where, "the scene has too many meshes",
-                       fmt::format("at most {} with all instances (--max-meshes)", limits_.meshes));
-    return false;
-  }
-  if (fits(vertices, triangles, other)) {
-    ++meshes_;
+  if (!take_mesh(where)) return false;
+  if (bytes_of(vertices, triangles, other) <= limits_.bytes - bytes_) {
     bytes_ += bytes_of(vertices, triangles, other);
     return true;
   }

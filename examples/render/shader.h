@@ -40,6 +40,7 @@ enum Attribute : std::uint32_t {
   attribute_footprint_uv = 1u << 4,         ///< dUVdx, dUVdy
   /// `geometry_id`, `primitive_id`
   attribute_ids = 1u << 5,
+  attribute_time = 1u << 6,  ///< times, frames
 };
 
 /// A vertex attribute by name, beyond the first uv set. The loaders call them
@@ -83,8 +84,9 @@ struct ShadingBatch {
   const PrimvarLanes* primvars = nullptr;                  ///< As many as requested, in that order.
   MatrixLanes object_to_world = {}, world_to_object = {};  ///< Filled are the entries asked for.
 
-  float time = 0.f;   ///< Seconds.
-  float frame = 1.f;  ///< MaterialX `frame`.
+  float time = 0.f;   ///< Seconds; of all points while the shutter is closed.
+  float frame = 1.f;  ///< MaterialX `frame`, likewise.
+  float *times = nullptr, *frames = nullptr;  ///< The same at the time of each point.
 };
 
 enum ScatterFlag : std::uint32_t {

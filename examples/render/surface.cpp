@@ -25,6 +25,11 @@ Vec3 face_normal(const Mesh& mesh, const Triangle& t) {
   return normalize(cross(mesh.position[t.v[1]] - a, mesh.position[t.v[2]] - a));
 }
 
+Vec3 normal_to_world(const Affine& to_object, Vec3 n, Vec3 otherwise) {
+  const Vec3 world = normalize_or(transform_normal(to_object, n), otherwise);
+  return is_finite(world) ? world : otherwise;
+}
+
 /// The uv shift that moves P by d, in the least-squares sense.
 Vec2 to_uv(Vec3 dPdu, Vec3 dPdv, Vec3 d) {
   const float uu = dot(dPdu, dPdu), uv = dot(dPdu, dPdv), vv = dot(dPdv, dPdv);
@@ -71,16 +76,42 @@ float component(const Primvar& primvar, std::size_t c, const std::uint32_t* v,
 
 }  // namespace
 
-Vec3 surface_position(const Mesh& mesh, std::uint32_t triangle, float u, float v) {
-  return interpolate(mesh.position, mesh.triangles[triangle], u, v);
+Vec3 surface_position(const Scene& scene, const SurfacePoint& p) {
+  const Mesh& mesh = scene.meshes[p.mesh];
+  const Vec3 own = interpolate(mesh.position, mesh.triangles[p.triangle], p.u, p.v);
+  return mesh.instances.empty() ? own : transform_point(mesh.instances[p.instance].at(p.time), own);
 }
 
-Vec3 surface_normal(const Mesh& mesh, std::uint32_t triangle) {
-  return face_normal(mesh, mesh.triangles[triangle]);
+Vec3 surface_normal(const Scene& scene, const SurfacePoint& p) {
+  const Mesh& mesh = scene.meshes[p.mesh];
+  const Vec3 own = face_normal(mesh, mesh.triangles[p.triangle]);
+  if (mesh.instances.empty()) return own;
+  return normal_to_world(inverse(mesh.instances[p.instance].at(p.time)), own, own);
 }
 
-SurfaceGeometry::SurfaceGeometry(const Scene& scene) : scene_(scene) {
-  for (const Mesh& mesh : scene.meshes) world_to_object_.push_back(inverse(mesh.object_to_world));
+SurfaceGeometry::SurfaceGeometry(const Scene& scene, const Clock& clock)
+    : scene_(scene), clock_(clock) {
+  for (const Mesh& mesh : scene.meshes) {
+    has_instances_ = has_instances_ || !mesh.instances.empty();
+    baked_.push_back({mesh.object_to_world, inverse(mesh.object_to_world)});
+  }
+}
+
+/// Of the points of instances; those of the others are known.
+void SurfaceGeometry::find_poses(std::span<const SurfacePoint> points, BatchBuffer& buffer) const {
+  buffer.poses.resize(buffer.capacity());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SurfacePoint& p = points[i];
+    const Mesh& mesh = scene_.meshes[p.mesh];
+    if (mesh.instances.empty()) continue;
+    const Affine to_world = mesh.instances[p.instance].at(p.time);
+    buffer.poses[i] = {to_world, inverse(to_world), determinant(to_world) < 0.f};
+  }
+}
+
+const Pose& SurfaceGeometry::pose(const SurfacePoint& p, std::size_t i,
+                                  const BatchBuffer& buffer) const {
+  return scene_.meshes[p.mesh].instances.empty() ? baked_[p.mesh] : buffer.poses[i];
 }
 
 void SurfaceGeometry::fill(std::span<const SurfacePoint> points, const Capabilities& needs,
@@ -90,11 +121,13 @@ void SurfaceGeometry::fill(std::span<const SurfacePoint> points, const Capabilit
   if (points.empty()) return;
   const std::uint32_t wanted = needs.attributes;
   const bool object_space = (wanted & attribute_object_space) != 0;
+  if (has_instances_) find_poses(points, buffer);
   fill_position(points, object_space, buffer);
   if ((wanted & attribute_tangents) != 0) fill_tangents(points, object_space, buffer);
   constexpr std::uint32_t derivatives =
       attribute_surface_derivatives | attribute_footprint_position | attribute_footprint_uv;
   if ((wanted & derivatives) != 0) fill_derivatives(points, wanted, camera, buffer);
+  if ((wanted & attribute_time) != 0) fill_times(points, buffer);
   if (needs.matrix_entries != 0) fill_matrices(points, needs.matrix_entries, buffer);
   fill_primvars(points, needs, buffer);
 }
@@ -106,9 +139,16 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
     const SurfacePoint& p = points[i];
     const Mesh& mesh = scene_.meshes[p.mesh];
     const Triangle& t = mesh.triangles[p.triangle];
-    const Vec3 ng = face_normal(mesh, t);
-    const Vec3 n = shading_normal(mesh, t, p, ng);
-    const Vec3 position = interpolate(mesh.position, t, p.u, p.v);
+    Vec3 ng = face_normal(mesh, t);
+    Vec3 n = shading_normal(mesh, t, p, ng);
+    Vec3 position = interpolate(mesh.position, t, p.u, p.v);
+    const Vec3 own_position = position;
+    const Pose& pose = this->pose(p, i, buffer);
+    if (!mesh.instances.empty()) {
+      ng = normal_to_world(pose.to_object, ng, ng);
+      n = normal_to_world(pose.to_object, n, ng);
+      position = transform_point(pose.to_world, position);
+    }
     store(b.P, i, position);
     store(b.N, i, n);
     store(b.Ng, i, ng);
@@ -118,8 +158,9 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
     buffer.primitive_id[i] = p.triangle;
     if (!object_space) continue;
     store(b.P_object, i,
-          mesh.position_object.empty() ? position : interpolate(mesh.position_object, t, p.u, p.v));
-    store(b.N_object, i, normalize_or(transform_normal(mesh.object_to_world, n), n));
+          mesh.position_object.empty() ? own_position
+                                       : interpolate(mesh.position_object, t, p.u, p.v));
+    store(b.N_object, i, normalize_or(transform_normal(pose.to_world, n), n));
   }
 }
 
@@ -131,14 +172,17 @@ void SurfaceGeometry::fill_tangents(std::span<const SurfacePoint> points, bool o
     const Mesh& mesh = scene_.meshes[p.mesh];
     const Triangle& t = mesh.triangles[p.triangle];
     const Vec3 n = load(b.N, i);
-    const Vec3 raw = (1.f - p.u - p.v) * mesh.tangent[t.v[0]].direction +
-                     p.u * mesh.tangent[t.v[1]].direction + p.v * mesh.tangent[t.v[2]].direction;
+    Vec3 raw = (1.f - p.u - p.v) * mesh.tangent[t.v[0]].direction +
+               p.u * mesh.tangent[t.v[1]].direction + p.v * mesh.tangent[t.v[2]].direction;
+    const Pose& pose = this->pose(p, i, buffer);
+    if (!mesh.instances.empty()) raw = transform_vector(pose.to_world, raw);
+    const float sign = pose.mirrors ? -mesh.tangent[t.v[0]].sign : mesh.tangent[t.v[0]].sign;
     const Vec3 tangent = normalize_or(raw - dot(n, raw) * n, perpendicular(n));
-    const Vec3 bitangent = mesh.tangent[t.v[0]].sign * cross(n, tangent);
+    const Vec3 bitangent = sign * cross(n, tangent);
     store(b.T, i, tangent);
     store(b.B, i, bitangent);
     if (!object_space) continue;
-    const Affine& to_object = world_to_object_[p.mesh];
+    const Affine& to_object = pose.to_object;
     store(b.T_object, i, normalize_or(transform_vector(to_object, tangent), tangent));
     store(b.B_object, i, normalize_or(transform_vector(to_object, bitangent), bitangent));
   }
@@ -155,8 +199,13 @@ void SurfaceGeometry::fill_derivatives(std::span<const SurfacePoint> points,
     const Vec3 ng = load(b.Ng, i);
     Vec3 dPdu, dPdv, dPdx, dPdy;
     const bool has_uv = surface_derivatives(mesh, mesh.triangles[p.triangle], dPdu, dPdv);
+    const Pose& pose = this->pose(p, i, buffer);
+    if (!mesh.instances.empty()) {
+      dPdu = transform_vector(pose.to_world, dPdu);
+      dPdv = transform_vector(pose.to_world, dPdv);
+    }
     if (p.from_camera) {
-      camera.footprint(-p.wo, p.distance, ng, dPdx, dPdy);
+      camera.footprint(-p.wo, p.distance, ng, p.time, dPdx, dPdy);
     } else {
       cone_footprint(p.wo, p.width, ng, dPdx, dPdy);
     }
@@ -171,8 +220,8 @@ void SurfaceGeometry::fill_derivatives(std::span<const SurfacePoint> points,
     store(b.dPdx, i, dPdx);
     store(b.dPdy, i, dPdy);
     if (!object_space) continue;
-    store(b.dPdx_object, i, transform_vector(world_to_object_[p.mesh], dPdx));
-    store(b.dPdy_object, i, transform_vector(world_to_object_[p.mesh], dPdy));
+    store(b.dPdx_object, i, transform_vector(pose.to_object, dPdx));
+    store(b.dPdy_object, i, transform_vector(pose.to_object, dPdy));
   }
 }
 
@@ -198,6 +247,13 @@ void SurfaceGeometry::fill_primvars(std::span<const SurfacePoint> points, const 
   }
 }
 
+void SurfaceGeometry::fill_times(std::span<const SurfacePoint> points, BatchBuffer& buffer) const {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    buffer.batch.times[i] = clock_.time_at(points[i].time);
+    buffer.batch.frames[i] = clock_.frame_at(points[i].time);
+  }
+}
+
 /// A lane for each entry that a kernel reads, written once and read in place by every kernel of
 /// the material. A table by mesh, from which the library picks (ElementOf::instance), would be
 /// picked from and copied for each of those calls; and what moves has a matrix for each point.
@@ -209,9 +265,8 @@ void SurfaceGeometry::fill_matrices(std::span<const SurfacePoint> points, std::u
     const bool to_world = number < 16;
     float* lane = (to_world ? b.object_to_world : b.world_to_object)[number % 16];
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::uint32_t mesh = points[i].mesh;
-      const Affine& m = to_world ? scene_.meshes[mesh].object_to_world : world_to_object_[mesh];
-      lane[i] = entry(m, number % 16);
+      const Pose& pose = this->pose(points[i], i, buffer);
+      lane[i] = entry(to_world ? pose.to_world : pose.to_object, number % 16);
     }
   }
 }

@@ -90,9 +90,8 @@ void Wavefront::add_environment() {
 
 void Wavefront::group_by_material() {
   group_by(active_.size(), sorted_, groups_, [this](std::size_t i) {
-    const Hit& hit = hits_[active_[i]];
-    if (hit.missed()) return ~0u;
-    return context_.material_of(hit.mesh, hit.triangle, -paths_[active_[i]].ray.direction);
+    if (hits_[active_[i]].missed()) return ~0u;
+    return context_.material_of(surface_point(active_[i]));
   });
   for (std::uint32_t& i : sorted_) i = active_[i];
 }
@@ -122,7 +121,9 @@ SurfacePoint Wavefront::surface_point(std::uint32_t i) const {
           -path.ray.direction,
           path.from_camera,
           distance,
-          path.width + path.spread * distance};
+          path.width + path.spread * distance,
+          hit.instance,
+          path.ray.time};
 }
 
 void Wavefront::fill(std::span<const std::uint32_t> paths, const Material& material) {

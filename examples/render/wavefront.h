@@ -90,6 +90,7 @@ class Wavefront {
   void trace_shadows();
   void trace_opaque_shadows();
   void trace_transparent_shadows();
+  SurfacePoint shadow_point(std::size_t i) const;
   void attenuate(const Material& material, std::span<const std::uint32_t> shadows);
 
   // wavefront_light.cpp

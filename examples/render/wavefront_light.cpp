@@ -12,10 +12,8 @@ void Wavefront::sample_lights() {
     if (!can.scatters || can.only_delta) continue;
     for (std::uint32_t k = groups_[m].begin; k < groups_[m].end; ++k) sample_light(sorted_[k]);
   }
-  group_by(light_points_.size(), light_order_, light_groups_, [this](std::size_t i) {
-    const SurfacePoint& point = light_points_[i].point;
-    return context_.material_of(point.mesh, point.triangle, point.wo);
-  });
+  group_by(light_points_.size(), light_order_, light_groups_,
+           [this](std::size_t i) { return context_.material_of(light_points_[i].point); });
   for (std::size_t m = 0; m < light_groups_.size(); ++m) {
     const Group g = light_groups_[m];
     for_batches(std::span<const std::uint32_t>(light_order_.data() + g.begin, g.end - g.begin),
@@ -39,11 +37,10 @@ void Wavefront::sample_light(std::uint32_t i) {
     return;
   }
   const AreaLights::Sample s = context_.lights.sample(choice.y, position);
-  const Mesh& mesh = context_.scene.meshes[s.mesh];
-  const Vec3 on_light = surface_position(mesh, s.triangle, s.u, s.v);
-  const Vec3 ng = surface_normal(mesh, s.triangle);
-  const Hit& hit = hits_[i];
-  const Vec3 from = surface_position(context_.scene.meshes[hit.mesh], hit.triangle, hit.u, hit.v);
+  SurfacePoint light_point{s.mesh, s.triangle, s.u, s.v, {}, false, 0.f, 0.f, 0, path.ray.time};
+  const Vec3 on_light = surface_position(context_.scene, light_point);
+  const Vec3 ng = surface_normal(context_.scene, light_point);
+  const Vec3 from = surface_position(context_.scene, surface_point(i));
   const Vec3 way = on_light - from;
   const float squared = dot(way, way);
   if (!(squared > 0.f) || !std::isfinite(squared)) return;
@@ -53,7 +50,8 @@ void Wavefront::sample_light(std::uint32_t i) {
   const float pdf = area_pdf * squared / std::abs(cosine);
   if (!std::isfinite(pdf)) return;  // edge on
   light = {wi, {}, offset_point(on_light, cosine > 0.f ? -ng : ng), pdf, false};
-  light_points_.push_back({i, {s.mesh, s.triangle, s.u, s.v, -wi, false, 0.f, 0.f}});
+  light_point.wo = -wi;
+  light_points_.push_back({i, light_point});
 }
 
 void Wavefront::light_emission(const Material& material, std::span<const std::uint32_t> points) {

@@ -99,8 +99,7 @@ void Wavefront::trace_transparent_shadows() {
     }
     group_by(count, shadow_order_, shadow_groups_, [this](std::size_t i) {
       if (ray_hits_[i].missed()) return ~0u;
-      const std::uint32_t material = context_.material_of(ray_hits_[i].mesh, ray_hits_[i].triangle,
-                                                          -shadows_[i].ray.direction);
+      const std::uint32_t material = context_.material_of(shadow_point(i));
       return context_.materials[material].capabilities.has_opacity ? material : ~0u;
     });
     for (std::size_t i = 0; i < count; ++i) {
@@ -124,13 +123,17 @@ void Wavefront::trace_transparent_shadows() {
   }
 }
 
+/// Where shadow ray i met something.
+SurfacePoint Wavefront::shadow_point(std::size_t i) const {
+  const Hit& hit = ray_hits_[i];
+  const Ray& ray = shadows_[i].ray;
+  return {hit.mesh, hit.triangle, hit.u, hit.v,        -ray.direction,
+          false,    0.f,          0.f,   hit.instance, ray.time};
+}
+
 void Wavefront::attenuate(const Material& material, std::span<const std::uint32_t> shadows) {
   points_.clear();
-  for (const std::uint32_t i : shadows) {
-    const Hit& hit = ray_hits_[i];
-    points_.push_back(
-        {hit.mesh, hit.triangle, hit.u, hit.v, -shadows_[i].ray.direction, false, 0.f, 0.f});
-  }
+  for (const std::uint32_t i : shadows) points_.push_back(shadow_point(i));
   context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);
   {
     const Stopwatch watch(statistics_.shading_seconds);

@@ -89,7 +89,7 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
     const Vec3 ng = load(buffer_.batch.Ng, lane);
     const Vec3 origin =
         offset_point(load(buffer_.batch.P, lane), dot(ng, light.wi) < 0.f ? -ng : ng);
-    Ray ray = {origin, light.wi, INFINITY};
+    Ray ray = {origin, light.wi, INFINITY, ray_shadow, paths_[paths[lane]].ray.time};
     if (!light.infinite) {
       ray.far = length(light.target - origin);
       ray.direction = normalize_or(light.target - origin, light.wi);
@@ -147,7 +147,8 @@ bool Wavefront::scatter(Path& path, std::size_t lane, float distance) {
   path.vertex = load(buffer_.batch.P, lane);
   path.pdf = pdf;
   path.light_blind = delta;
-  path.ray = {offset_point(path.vertex, dot(ng, wi) < 0.f ? -ng : ng), wi, INFINITY};
+  path.ray = {offset_point(path.vertex, dot(ng, wi) < 0.f ? -ng : ng), wi, INFINITY, ray_secondary,
+              path.ray.time};
   ++path.key.event;
   return true;
 }

@@ -63,6 +63,11 @@ Source standard_channel(std::string_view group, int i, std::uint32_t& attributes
     const auto lanes = group == "duv0dx" ? &ShadingBatch::dUVdx : &ShadingBatch::dUVdy;
     return [lanes, i](const ShadingBatch& b) { return component(b.*lanes, i); };
   }
+  if (group == "time" || group == "frame") {  // Of each point: see varying_slots().
+    attributes |= host::attribute_time;
+    const auto lane = group == "time" ? &ShadingBatch::times : &ShadingBatch::frames;
+    return [lane](const ShadingBatch& b) { return b.*lane; };
+  }
   return {};
 }
 

@@ -20,9 +20,9 @@
 #include "examples/tool/missing_material.h"
 #include "examples/tool/neutral.h"
 #include "examples/tool/not_rendered.h"
-#include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
+#include "examples/tool/render_options.h"
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
 #include "examples/tool/varying_slots.h"
@@ -30,23 +30,6 @@
 namespace nacre::tool {
 
 namespace {
-
-struct RenderOptions {
-  CommonOptions common;
-  AssignmentOptions assignment;
-  std::string scene;
-  std::string out;
-  std::string size = "512";
-  std::string environment;
-  float environment_scale = 1.0f;
-  float environment_rotation = 0.0f;  ///< Degrees.
-  host::SceneLimits scene_limits;
-  host::RenderSettings settings;
-  host::WriteOptions write;
-  float lens_radius = 0.0f;
-  float focus_distance = 0.0f;
-  bool ground = false;
-};
 
 constexpr float radians = 0.01745329252f;
 
@@ -61,7 +44,11 @@ std::optional<host::Environment> environment(const RenderOptions& options,
 /// The scene with a camera that sees it, whatever floor is put below.
 host::Scene scene(const RenderOptions& options, Diagnostics& diagnostics) {
   if (options.scene.empty()) return host::make_builtin_scene();
-  host::Scene loaded = host::load_scene(options.scene, options.scene_limits, diagnostics);
+  const host::RenderSettings& s = options.settings;
+  const double time = static_cast<double>(s.time);
+  const host::Shutter shutter{time + static_cast<double>(s.shutter_open),
+                              time + static_cast<double>(s.shutter_close)};
+  host::Scene loaded = host::load_scene(options.scene, options.scene_limits, diagnostics, shutter);
   if (loaded.meshes.empty()) return loaded;
   if (!loaded.camera) {
     const float aspect =
@@ -108,7 +95,7 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
     shader.graph.variants = assignment.variants;
     shader.graph.geometry_tokens = assignment.tokens;
-    shader.varying = varying_slots(meshes.at(assignment.key()));
+    shader.varying = varying_slots(meshes.at(assignment.key()), host::is_open(options.settings));
     auto kernels =
         opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
@@ -212,6 +199,7 @@ int run(RenderOptions& options) {
   input.scene = &world;
   input.environment = &*sky;
   input.camera = camera(options, world);
+  input.camera_motion = world.camera_motion;
   if (!host::check_camera(input.camera, diagnostics)) return report(diagnostics);
 
   const std::vector<MeshAssignment> assignments =
@@ -258,88 +246,11 @@ int run(RenderOptions& options) {
 
 }  // namespace
 
-namespace {
-
-void add_scene_limits(CLI::App& command, host::SceneLimits& limits) {
-  const auto add = [&](const char* flag, auto& value, const char* what) {
-    return command.add_option(flag, value, what)
-        ->capture_default_str()
-        ->group("Limits, beyond which a scene is refused (sizes: 64MB, 2GB)");
-  };
-  const auto size = CLI::AsSizeValue(false);
-  add("--max-scene-file-size", limits.file_bytes, "Bytes of the scene's files together")
-      ->transform(size)
-      ->type_name("SIZE");
-  add("--max-scene-size", limits.bytes, "Bytes of its geometry in memory, with all instances")
-      ->transform(size)
-      ->type_name("SIZE");
-  add("--max-meshes", limits.meshes, "Meshes with all instances")
-      ->check(number_within(0, 1e9))
-      ->type_name("N");
-  add("--max-scene-values", limits.values, "Values of the JSON of a glTF file")
-      ->check(number_within(0, 1e9))
-      ->type_name("N");
-  add("--max-node-depth", limits.node_depth, "Nodes within nodes")
-      ->check(number_within(1, 10'000))
-      ->type_name("N");
-}
-
-}  // namespace
-
 void add_render(CLI::App& app, int& status) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App& command =
       *app.add_subcommand("render", "Path trace a scene with the document's materials");
-  options->common.add_document(command);
-  options->assignment.add(command);
-  host::RenderSettings& settings = options->settings;
-  command.add_option("--scene", options->scene, "glTF 2.0 or OBJ (default: a built-in one)")
-      ->type_name("FILE");
-  command.add_flag("--ground", options->ground, "Put a neutral floor below the scene");
-  command.add_option("--spp", settings.samples, "Samples a pixel")
-      ->check(number_within(1, 1e9))
-      ->capture_default_str();
-  command.add_option("--size", options->size, "Pixels: N or WxH")->capture_default_str();
-  command.add_option("--out", options->out, "Image to write: .exr or .png")
-      ->required()
-      ->type_name("FILE");
-  command.add_option("--max-depth", settings.max_depth, "Scattering events on a path")
-      ->check(number_within(0, 1e9))
-      ->capture_default_str();
-  command.add_option("--seed", settings.seed, "Of the random numbers")->capture_default_str();
-  command.add_option("--frame", settings.frame, "Frame number")
-      ->check(number_within(-1e9, 1e9))
-      ->capture_default_str();
-  command.add_option("--time", settings.time, "Seconds")
-      ->check(number_within(-1e9, 1e9))
-      ->capture_default_str();
-  command
-      .add_option("--environment", options->environment,
-                  "Latitude-longitude image (default: a built-in studio)")
-      ->type_name("FILE");
-  command.add_option("--environment-scale", options->environment_scale)
-      ->check(number_within(0, 1e9))
-      ->capture_default_str();
-  command.add_option("--environment-rotation", options->environment_rotation, "Degrees about +y")
-      ->check(number_within(-1e6, 1e6))
-      ->capture_default_str();
-  command.add_option("--exposure", options->write.exposure, "Stops; png only")
-      ->check(number_within(-100, 100))
-      ->capture_default_str();
-  command
-      .add_option("--white", options->write.white, "Luminance shown as white; 0: clip; png only")
-      ->check(number_within(0, 1e9))
-      ->capture_default_str();
-  command.add_flag("--half", options->write.half, "16-bit floats in .exr");
-  command.add_option("--lens-radius", options->lens_radius, "Scene units; 0: all in focus")
-      ->check(number_within(0, host::largest_coordinate))
-      ->capture_default_str();
-  command
-      .add_option("--focus-distance", options->focus_distance, "Scene units (default: the middle)")
-      ->check(number_within(0, host::largest_coordinate));
-  add_scene_limits(command, options->scene_limits);
-  options->common.add_compile(command);
-  options->common.add_waiting(command);
+  add_render_options(command, *options);
   command.callback([options, &status] {
     status = guarded(options->common.file, [&] { return run(*options); });
   });

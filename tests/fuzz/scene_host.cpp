@@ -18,11 +18,13 @@ void render_from(const host::Scene& scene, const host::Camera& camera) {
   input.shaders.assign(scene.meshes.size(), &grey);
   input.environment = &sky;
   input.camera = camera;
+  input.camera_motion = scene.camera_motion;
   host::RenderSettings settings;
   settings.width = settings.height = 4;
   settings.samples = 2;
   settings.max_depth = 2;
   settings.threads = 1;
+  settings.shutter_close = 1.f;
   Diagnostics diagnostics;
   const auto film = host::render(input, settings, diagnostics);
   if (film.has_value() == diagnostics.has_errors()) {
@@ -34,7 +36,7 @@ void render_from(const host::Scene& scene, const host::Camera& camera) {
 
 void render_scene(const std::string& path) {
   Diagnostics diagnostics;
-  const host::Scene scene = host::load_scene(path, {}, diagnostics);
+  const host::Scene scene = host::load_scene(path, {}, diagnostics, {0, 1});
   if (scene.meshes.empty() != diagnostics.has_errors()) {
     fail("a scene is refused without a reason, or read with an error");
   }

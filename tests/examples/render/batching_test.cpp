@@ -39,7 +39,7 @@ class NotingShader final : public LambertShader {
       largest_error = std::max(largest_error, length(far));
       // Each card has the colour of its mesh, or none.
       const float expected = batch.geometry_id[i] % 2 == 0 ? 0.f : 1.f;
-      wrong_colours += batch.primvars[0].component[1][i] != expected;
+      wrong_colours += std::abs(batch.primvars[0].component[1][i] - expected) > 1e-6f;
     }
   }
 

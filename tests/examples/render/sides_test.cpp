@@ -86,7 +86,7 @@ TEST_F(Sides, OpacityIsOfTheSideThatIsMet) {
 TEST_F(Sides, LightOfTheirOwn) {
   scene_.meshes.push_back(make_quad("floor", {-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
   scene_.meshes.push_back(make_quad("lamp", {-0.5f, 1, 0.75f}, {1, 0, 0}, {0, 0, -1.5f}));
-  ASSERT_GT(surface_normal(scene_.meshes[1], 0).y, 0.f);
+  ASSERT_GT(surface_normal(scene_, {.mesh = 1}).y, 0.f);
   const LambertShader white({1.f, 1.f, 1.f}), bright_green(black, {0.f, 3.f, 0.f}), dark(black);
   shaders_ = {&white, &glows_red_};
   back_shaders_ = {nullptr, &bright_green};

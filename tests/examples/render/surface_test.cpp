@@ -41,7 +41,7 @@ TEST(Footprint, IsTheDerivativeByPixelPosition) {
         const PixelCamera::Ray ray = pixels.ray(x, y, on_lens);
         const Vec3 p = plane_point(ray, {}, n);
         Vec3 dPdx, dPdy;
-        pixels.footprint(ray.direction, length(p - ray.origin), n, dPdx, dPdy);
+        pixels.footprint(ray.direction, length(p - ray.origin), n, 0.f, dPdx, dPdy);
         const Vec3 right = plane_point(pixels.ray(x + 0.5f, y, on_lens), {}, n) -
                            plane_point(pixels.ray(x - 0.5f, y, on_lens), {}, n);
         const Vec3 down = plane_point(pixels.ray(x, y + 0.5f, on_lens), {}, n) -

@@ -95,11 +95,11 @@ TEST(Offset, LeavingRaysDoNotMeetTheirOwnTriangle) {
         Diagnostics diagnostics;
         ASSERT_TRUE(finish_mesh(mesh, {}, diagnostics));
         const Bvh bvh(scene, diagnostics);
-        const Vec3 ng = surface_normal(mesh, 0);
+        const Vec3 ng = surface_normal(scene, {});
         std::vector<Ray> rays;
         for (int i = 0; i < 50; ++i) {
           const float u = std::sqrt(unit(random)), v = unit(random);
-          const Vec3 p = surface_position(mesh, 0, 1.f - u, u * v);
+          const Vec3 p = surface_position(scene, {.u = 1.f - u, .v = u * v});
           const Vec3 d = random_direction(random);
           rays.push_back({offset_point(p, dot(d, ng) < 0.f ? -ng : ng), d});
         }

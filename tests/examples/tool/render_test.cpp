@@ -2,6 +2,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/examples/tool/tool_fixture.h"
 
@@ -173,7 +174,29 @@ std::string two_cards() {
   };
   add({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0});
   add({1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+  add({0, 4});                          // Bytes 144-151: times,
+  add({-1.1f, 0, 0, -1.1f, 0, 0});      // 152-175: where the first card is anyway,
+  add({-1.5f, 0.1f, 0, -0.5f, -1, 1});  // 176-199: and where it is not.
   return data;
+}
+
+/// An animation of the first card's place: accessor 3 is where it is, 4 where it is not.
+std::string animated(std::string_view json, int output) {
+  std::string text(json);
+  const auto put = [&text](std::string_view before, std::string_view what) {
+    text.insert(text.find(before), what);
+  };
+  put("\"nodes\": [{\"name\"",
+      "\"animations\": [{\"samplers\": [{\"input\": 2, \"output\": " + std::to_string(output) +
+          R"(}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}], )");
+  put("],\n  \"accessors\"", R"(, {"buffer": 0, "byteOffset": 144, "byteLength": 8},
+      {"buffer": 0, "byteOffset": 152, "byteLength": 24},
+      {"buffer": 0, "byteOffset": 176, "byteLength": 24})");
+  text.insert(text.rfind("]\n}"),
+              R"(, {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                 {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"},
+                 {"bufferView": 4, "componentType": 5126, "count": 2, "type": "VEC3"})");
+  return text;
 }
 
 constexpr std::string_view two_cards_json = R"({
@@ -182,7 +205,7 @@ constexpr std::string_view two_cards_json = R"({
             {"name": "two", "mesh": 1, "translation": [1.1, 0, 0], "rotation": [0, 0, 1, 0]}],
   "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "_TINT": 1}}]},
              {"primitives": [{"attributes": {"POSITION": 0}}]}],
-  "buffers": [{"byteLength": 144, "uri": "cards.bin"}],
+  "buffers": [{"byteLength": 200, "uri": "cards.bin"}],
   "bufferViews": [{"buffer": 0, "byteLength": 72}, {"buffer": 0, "byteOffset": 72, "byteLength": 72}],
   "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3"},
                 {"bufferView": 1, "componentType": 5126, "count": 6, "type": "VEC3"}]
@@ -191,9 +214,10 @@ constexpr std::string_view two_cards_json = R"({
 class Cards : public Render {
  protected:
   /// The texels of the cards glowing in the colour that `nodes` call "c".
-  std::vector<float> glowing(std::string_view nodes) {
+  std::vector<float> glowing(std::string_view nodes, std::string_view options = "",
+                             std::string_view scene = two_cards_json) {
     write("cards.bin", two_cards());
-    write("a.gltf", two_cards_json);
+    write("a.gltf", scene);
     write("a.mtlx", R"(<materialx version="1.39" colorspace="lin_rec709">)" + std::string(nodes) +
                         R"(<uniform_edf name="e" type="EDF">
           <input name="color" type="color3" nodename="c"/></uniform_edf>
@@ -203,7 +227,8 @@ class Cards : public Render {
           <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
       </materialx>)");
     EXPECT_EQ(run("render " + file("a.mtlx") + " --scene " + file("a.gltf") +
-                  " --size 48x32 --spp 1 --max-depth 0 --out " + file("a.exr")),
+                  " --size 48x32 --spp 1 --max-depth 0 --out " + file("a.exr") + ' ' +
+                  std::string(options)),
               0)
         << errors_;
     std::vector<float> texels(48 * 32 * 3);
@@ -230,23 +255,70 @@ TEST_F(Cards, SomeHaveAnAttributeAndOthersItsDefault) {
 
 // P taken to object space is the position in object space, of each card by its own matrix.
 TEST_F(Cards, MatricesAreThoseOfTheObject) {
-  const std::vector<float> direct = glowing(
+  constexpr std::string_view own =
       R"(<position name="p" type="vector3"><input name="space" type="string" value="object"/>
          </position><convert name="c" type="color3"><input name="in" type="vector3" nodename="p"/>
-         </convert>)");
-  const std::vector<float> changed = glowing(
+         </convert>)";
+  constexpr std::string_view from_world =
       R"(<position name="w" type="vector3"><input name="space" type="string" value="world"/>
          </position><transformpoint name="p" type="vector3">
          <input name="in" type="vector3" nodename="w"/>
          <input name="fromspace" type="string" value="world"/>
          <input name="tospace" type="string" value="object"/></transformpoint>
-         <convert name="c" type="color3"><input name="in" type="vector3" nodename="p"/></convert>)");
-  int bright = 0;
-  for (std::size_t i = 0; i < direct.size(); ++i) {
-    EXPECT_NEAR(direct[i], changed[i], 1e-6f) << i;
-    bright += direct[i] > 0.5f;
+         <convert name="c" type="color3"><input name="in" type="vector3" nodename="p"/></convert>)";
+  const std::string moving = animated(two_cards_json, 4);
+  for (const auto& [options, scene] :
+       {std::pair<std::string_view, std::string_view>{"", two_cards_json},
+        {"--time 2 --shutter -2 2", moving}}) {
+    const std::vector<float> direct = glowing(own, options, scene);
+    const std::vector<float> changed = glowing(from_world, options, scene);
+    int bright = 0;
+    for (std::size_t i = 0; i < direct.size(); ++i) {
+      EXPECT_NEAR(direct[i], changed[i], 2e-6f) << i;
+      bright += direct[i] > 0.5f;
+    }
+    EXPECT_GT(bright, 100);
   }
-  EXPECT_GT(bright, 100);
+}
+
+constexpr std::string_view time_and_frame =
+    R"(<time name="t" type="float"/><frame name="f" type="float"/>
+       <combine3 name="c" type="color3"><input name="in1" type="float" nodename="t"/>
+       <input name="in2" type="float" nodename="f"/></combine3>)";
+
+TEST_F(Cards, TimeIsThatOfTheRay) {
+  const std::vector<float> closed = glowing(time_and_frame, "--time 3 --frame 20");
+  const std::vector<float> open =
+      glowing(time_and_frame, "--time 3 --frame 20 --fps 10 --shutter -1 0.5");
+  double sum = 0, lit = 0;
+  float least = INFINITY, most = 0;
+  for (std::size_t i = 0; i < open.size(); i += 3) {
+    EXPECT_EQ(closed[i] == 3.0f, closed[i + 1] == 20.0f);
+    if (closed[i] != 3.0f) continue;  // The sky, in both.
+    EXPECT_NEAR(open[i + 1], 20 + 10 * (open[i] - 3), 1e-4f);
+    sum += double{open[i]};
+    least = std::min(least, open[i]), most = std::max(most, open[i]);
+    ++lit;
+  }
+  ASSERT_GT(lit, 300);
+  EXPECT_GE(least, 2.0f);
+  EXPECT_LE(most, 3.5f);
+  // Even between 2 and 3.5, one each of so many: four standard deviations.
+  EXPECT_NEAR(sum / lit, 2.75, 4 * 1.5 / std::sqrt(12 * lit));
+}
+
+// The shutter is open for what does not move: not a bit is different.
+TEST_F(Cards, WhatStandsStillIsAsWithoutAnAnimation) {
+  constexpr std::string_view grey =
+      R"(<position name="p" type="vector3"><input name="space" type="string" value="object"/>
+         </position><convert name="c" type="color3"><input name="in" type="vector3" nodename="p"/>
+         </convert>)";
+  const std::vector<float> without = glowing(grey);
+  EXPECT_EQ(glowing(grey, "", animated(two_cards_json, 3)), without);
+  EXPECT_EQ(glowing(grey, "--time 2 --shutter -1 1", animated(two_cards_json, 3)), without);
+  EXPECT_NE(glowing(grey, "--time 2 --shutter -1 1", animated(two_cards_json, 4)), without);
+  EXPECT_EQ(run("render " + file("a.mtlx") + " --shutter 1 0 --out " + file("b.exr")), 2);
+  EXPECT_TRUE(says("it closes before it opens")) << errors_;
 }
 
 }  // namespace

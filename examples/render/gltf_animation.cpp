@@ -1,0 +1,161 @@
+#include "examples/render/gltf_animation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace nacre::host {
+
+namespace {
+
+enum Property : std::size_t { translation, rotation, scale };
+
+/// A turn and a change of size together are no straight line.
+constexpr int least_steps_of_both = 16;
+
+std::array<double, 3> three(const GltfTrack::Value& v) { return {v[0], v[1], v[2]}; }
+
+double not_zero(double x) {
+  constexpr double least = 1e-6;
+  return std::abs(x) < least ? std::copysign(least, x) : x;
+}
+
+}  // namespace
+
+bool GltfAnimation::read() {
+  const GltfValue animations = root_["animations"];
+  if (animations.size() == 0) return true;
+  if (animations.size() > 1) {
+    dropped_.say("several-animations", animations, "the first animation is taken", "one animation",
+                 fmt::format("{}", animations.size()));
+  }
+  const GltfValue animation = animations[std::size_t{0}];
+  const GltfValue channels = animation["channels"];
+  if (!channels.need("an array of channels")) return false;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (!read_channel(animation, channels[i])) return false;
+  }
+  return true;
+}
+
+bool GltfAnimation::read_channel(const GltfValue& animation, const GltfValue& channel) {
+  const GltfValue target = channel["target"];
+  const GltfValue path = target["path"];
+  const auto sampler =
+      channel["sampler"].need("the index of a sampler").index_of(animation["samplers"]);
+  const auto name = path.need("\"translation\", \"rotation\" or \"scale\"").text();
+  if (!sampler || !name) return false;
+  if (*name == "weights") {
+    dropped_.say("morphs-not-rendered", path,
+                 "morph targets are not rendered: the mesh stands as it is stored");
+    return true;
+  }
+  // glTF 2.0, 5.3: without a node, what an extension names is animated.
+  if (!target["node"]) {
+    dropped_.say("animation-not-rendered", target,
+                 "an animation of what is no node is not rendered", "a node");
+    return true;
+  }
+  constexpr std::array<const char*, 3> names = {"translation", "rotation", "scale"};
+  const auto property = static_cast<std::size_t>(std::ranges::find(names, *name) - names.begin());
+  if (property == names.size()) {
+    path.error("nodes have no such property", "\"translation\", \"rotation\" or \"scale\"",
+               path.shown());
+    return false;
+  }
+  const auto node = target["node"].index_of(root_["nodes"]);
+  if (!node) return false;
+  if (root_["nodes"][*node]["matrix"]) {
+    target.error("a node with a matrix is animated", "translation, rotation or scale", "a matrix");
+    return false;
+  }
+  Tracks& tracks = nodes_[*node];
+  if (tracks[property] != nullptr) {
+    target.error("a property is animated twice", "one channel for each", path.shown());
+    return false;
+  }
+  tracks[property] = track(animation["samplers"], *sampler, property == rotation);
+  return tracks[property] != nullptr;
+}
+
+const GltfTrack* GltfAnimation::track(const GltfValue& samplers, std::size_t number,
+                                      bool is_rotation) {
+  const auto [slot, fresh] = samplers_.try_emplace({number, is_rotation});
+  if (fresh) slot->second = GltfTrack::read(samplers[number], is_rotation, accessors_, budget_);
+  return slot->second.get();
+}
+
+/// Of stretches without a key within, from 0 to 1; 0 alone while the shutter is closed.
+std::vector<double> GltfAnimation::boundaries(const Tracks& tracks) const {
+  std::vector<double> bounds = {0.0};
+  const double span = shutter_.close - shutter_.open;
+  if (!(span > 0)) return bounds;
+  bounds.push_back(1.0);
+  for (const GltfTrack* track : tracks) {
+    if (track == nullptr) continue;
+    const auto times = track->times();
+    for (auto t =
+             std::ranges::upper_bound(times, shutter_.open, {}, [](float x) { return double{x}; });
+         t != times.end() && static_cast<double>(*t) < shutter_.close; ++t) {
+      bounds.push_back((static_cast<double>(*t) - shutter_.open) / span);
+    }
+  }
+  std::ranges::sort(bounds);
+  // Segments are told apart in floats.
+  const auto same = [](double a, double b) {
+    return static_cast<float>(a) == static_cast<float>(b);
+  };
+  bounds.erase(std::unique(bounds.begin(), bounds.end(), same), bounds.end());
+  bounds.back() = 1.0;
+  return bounds;
+}
+
+Motion::Segment GltfAnimation::segment(const Tracks& tracks, NodeTransform still, double from,
+                                       double to) const {
+  const auto seconds = [this](double share) {
+    return (1 - share) * shutter_.open + share * shutter_.close;
+  };
+  const double within = seconds(0.5 * (from + to));
+  int steps = 1;
+  for (const GltfTrack* track : tracks) {
+    if (track != nullptr) steps = std::max(steps, track->steps(seconds(from), seconds(to)));
+  }
+  if (tracks[rotation] != nullptr && tracks[scale] != nullptr) {
+    steps = std::max(steps, least_steps_of_both);
+  }
+  std::vector<Affine> maps;
+  for (int k = 0; k <= steps; ++k) {
+    const double share = static_cast<double>(k) / steps;
+    const double time = seconds((1 - share) * from + share * to);
+    if (tracks[translation]) still.translation = three(tracks[translation]->at(time, within));
+    if (tracks[rotation]) still.rotation = tracks[rotation]->at(time, within);
+    if (tracks[scale]) {
+      still.scale = three(tracks[scale]->at(time, within));
+      for (double& s : *still.scale) s = not_zero(s);
+    }
+    maps.push_back(affine(still));
+  }
+  return {static_cast<float>(from), static_cast<float>(to), std::move(maps)};
+}
+
+std::optional<Motion> GltfAnimation::local_motion(std::size_t number, const GltfValue& node) const {
+  const NodeTransform still = node_transform(node);
+  const auto found = nodes_.find(number);
+  if (found == nodes_.end()) return Motion(affine(still));
+  const std::vector<double> bounds = boundaries(found->second);
+  if (bounds.size() == 1) {
+    return Motion(segment(found->second, still, 0.0, 0.0).steps.front());
+  }
+  // The most that the segments may take.
+  const std::size_t bytes = (bounds.size() - 1) * (Motion::most_steps + 1) * sizeof(Affine);
+  if (!budget_.take_bytes({node.report().file, 0, 0, node.path()}, bytes)) return {};
+  std::vector<Motion::Segment> segments;
+  for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
+    segments.push_back(segment(found->second, still, bounds[i], bounds[i + 1]));
+  }
+  return Motion(std::move(segments));
+}
+
+}  // namespace nacre::host

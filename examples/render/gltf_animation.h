@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "examples/render/gltf_accessor.h"
+#include "examples/render/gltf_dropped.h"
+#include "examples/render/gltf_track.h"
+#include "examples/render/gltf_transform.h"
+#include "examples/render/motion.h"
+#include "examples/render/scene_budget.h"
+
+namespace nacre::host {
+
+/// The first animation of a glTF file (2.0, 3.11): how nodes move while the shutter is open.
+class GltfAnimation {
+ public:
+  GltfAnimation(const GltfValue& root, GltfAccessors& accessors, SceneBudget& budget,
+                GltfDropped& dropped, const Shutter& shutter)
+      : root_(root), accessors_(accessors), budget_(budget), dropped_(dropped), shutter_(shutter) {}
+
+  /// False after an error: a wrong channel, sampler or accessor.
+  bool read();
+
+  /// How a node moves within its parent. A scale counts as at least 1e-6, so that what an
+  /// animation hides by it can be inverted. Nothing, with an error, where that takes too much.
+  std::optional<Motion> local_motion(std::size_t number, const GltfValue& node) const;
+
+ private:
+  /// Of a node, those that there are: translation, rotation, scale.
+  using Tracks = std::array<const GltfTrack*, 3>;
+
+  bool read_channel(const GltfValue& animation, const GltfValue& channel);
+  const GltfTrack* track(const GltfValue& samplers, std::size_t number, bool is_rotation);
+  std::vector<double> boundaries(const Tracks& tracks) const;
+  Motion::Segment segment(const Tracks& tracks, NodeTransform still, double from, double to) const;
+
+  GltfValue root_;
+  GltfAccessors& accessors_;
+  SceneBudget& budget_;
+  GltfDropped& dropped_;
+  Shutter shutter_;
+  /// By number and whether it turns: what a wrong file uses for both is looked at for both.
+  std::map<std::pair<std::size_t, bool>, std::unique_ptr<GltfTrack>> samplers_;
+  std::map<std::size_t, Tracks> nodes_;
+};
+
+}  // namespace nacre::host

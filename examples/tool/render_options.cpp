@@ -1,0 +1,109 @@
+#include "examples/tool/render_options.h"
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "examples/tool/number_range.h"
+
+namespace nacre::tool {
+
+namespace {
+
+void add_scene_limits(CLI::App& command, host::SceneLimits& limits) {
+  const auto add = [&](const char* flag, auto& value, const char* what) {
+    return command.add_option(flag, value, what)
+        ->capture_default_str()
+        ->group("Limits, beyond which a scene is refused (sizes: 64MB, 2GB)");
+  };
+  const auto size = CLI::AsSizeValue(false);
+  add("--max-scene-file-size", limits.file_bytes, "Bytes of the scene's files together")
+      ->transform(size)
+      ->type_name("SIZE");
+  add("--max-scene-size", limits.bytes, "Bytes of its geometry in memory, with all instances")
+      ->transform(size)
+      ->type_name("SIZE");
+  add("--max-meshes", limits.meshes, "Meshes with all instances")
+      ->check(number_within(0, 1e9))
+      ->type_name("N");
+  add("--max-scene-values", limits.values, "Values of the JSON of a glTF file")
+      ->check(number_within(0, 1e9))
+      ->type_name("N");
+  add("--max-node-depth", limits.node_depth, "Nodes within nodes")
+      ->check(number_within(1, 10'000))
+      ->type_name("N");
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& command, RenderOptions& options) {
+  options.common.add_document(command);
+  options.assignment.add(command);
+  host::RenderSettings& settings = options.settings;
+  command.add_option("--scene", options.scene, "glTF 2.0 or OBJ (default: a built-in one)")
+      ->type_name("FILE");
+  command.add_flag("--ground", options.ground, "Put a neutral floor below the scene");
+  command.add_option("--spp", settings.samples, "Samples a pixel")
+      ->check(number_within(1, 1e9))
+      ->capture_default_str();
+  command.add_option("--size", options.size, "Pixels: N or WxH")->capture_default_str();
+  command.add_option("--out", options.out, "Image to write: .exr or .png")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--max-depth", settings.max_depth, "Scattering events on a path")
+      ->check(number_within(0, 1e9))
+      ->capture_default_str();
+  command.add_option("--seed", settings.seed, "Of the random numbers")->capture_default_str();
+  command.add_option("--frame", settings.frame, "Frame number")
+      ->check(number_within(-1e9, 1e9))
+      ->capture_default_str();
+  command.add_option("--time", settings.time, "Seconds")
+      ->check(number_within(-1e9, 1e9))
+      ->capture_default_str();
+  command
+      .add_option_function<std::vector<float>>(
+          "--shutter",
+          [&settings](const std::vector<float>& times) {
+            if (times[1] < times[0]) {
+              throw CLI::ValidationError("--shutter", "it closes before it opens");
+            }
+            settings.shutter_open = times[0];
+            settings.shutter_close = times[1];
+          },
+          "Opens and closes so many seconds from --time: what moves between is blurred (default: 0 "
+          "0)")
+      ->expected(2)
+      ->check(number_within(-1e9, 1e9))
+      ->type_name("SECONDS");
+  command
+      .add_option("--fps", settings.fps, "Frames a second, for the frame that a ray's time is in")
+      ->check(number_within(0, 1e9))
+      ->capture_default_str();
+  command
+      .add_option("--environment", options.environment,
+                  "Latitude-longitude image (default: a built-in studio)")
+      ->type_name("FILE");
+  command.add_option("--environment-scale", options.environment_scale)
+      ->check(number_within(0, 1e9))
+      ->capture_default_str();
+  command.add_option("--environment-rotation", options.environment_rotation, "Degrees about +y")
+      ->check(number_within(-1e6, 1e6))
+      ->capture_default_str();
+  command.add_option("--exposure", options.write.exposure, "Stops; png only")
+      ->check(number_within(-100, 100))
+      ->capture_default_str();
+  command.add_option("--white", options.write.white, "Luminance shown as white; 0: clip; png only")
+      ->check(number_within(0, 1e9))
+      ->capture_default_str();
+  command.add_flag("--half", options.write.half, "16-bit floats in .exr");
+  command.add_option("--lens-radius", options.lens_radius, "Scene units; 0: all in focus")
+      ->check(number_within(0, host::largest_coordinate))
+      ->capture_default_str();
+  command
+      .add_option("--focus-distance", options.focus_distance, "Scene units (default: the middle)")
+      ->check(number_within(0, host::largest_coordinate));
+  add_scene_limits(command, options.scene_limits);
+  options.common.add_compile(command);
+  options.common.add_waiting(command);
+}
+
+}  // namespace nacre::tool

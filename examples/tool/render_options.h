@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "examples/render/image_io.h"
+#include "examples/render/render.h"
+#include "examples/render/scene_limits.h"
+#include "examples/tool/assignment.h"
+#include "examples/tool/options.h"
+
+namespace nacre::tool {
+
+/// What `nacre render` is asked for.
+struct RenderOptions {
+  CommonOptions common;
+  AssignmentOptions assignment;
+  std::string scene;
+  std::string out;
+  std::string size = "512";
+  std::string environment;
+  float environment_scale = 1.0f;
+  float environment_rotation = 0.0f;  ///< Degrees.
+  host::SceneLimits scene_limits;
+  host::RenderSettings settings;
+  host::WriteOptions write;
+  float lens_radius = 0.0f;
+  float focus_distance = 0.0f;
+  bool ground = false;
+};
+
+/// Its options; they write to `options`, which lives as long as `command`.
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+}  // namespace nacre::tool
