@@ -25,10 +25,12 @@ CXX_SOURCES = $(shell git ls-files '*.h' '*.hpp' '*.c' '*.cpp' 2> /dev/null \
 # Where configuring looks: one copy for all builds, unless somebody names a folder of theirs.
 OWN_LIBRARIES = $(abspath $(if $(filter file,$(origin BUILD)),build,$(BUILD)))/materialx/libraries
 NACRE_MATERIALX_LIBRARIES ?= $(OWN_LIBRARIES)
+OWN_NANOBIND = $(abspath $(if $(filter file,$(origin BUILD)),build,$(BUILD)))/nanobind
+NACRE_NANOBIND ?= $(OWN_NANOBIND)
 
 .DEFAULT_GOAL := build
 .PHONY: bench build clean configure demo deps docs format format-check fuzz help install \
-        materialx mutants test test-clang test-full \
+        materialx mutants nanobind test test-clang test-full \
         test-sanitized tidy
 
 help: ## This list
@@ -93,9 +95,10 @@ bench: build ## Measure; results as JSON in <build>/bench-results
 build: configure ## Compile everything
 	cmake --build "$(BUILD)" --parallel $(JOBS)
 
-configure: deps materialx ## Run CMake
+configure: deps materialx nanobind ## Run CMake
 	cmake --preset $(PRESET) -B "$(BUILD)" \
-	  -DNACRE_MATERIALX_LIBRARIES="$(NACRE_MATERIALX_LIBRARIES)"
+	  -DNACRE_MATERIALX_LIBRARIES="$(NACRE_MATERIALX_LIBRARIES)" \
+	  -DNACRE_NANOBIND="$(NACRE_NANOBIND)"
 
 deps: ## Install the Debian packages that are missing (root or sudo)
 	@.ci/install-packages
@@ -104,6 +107,11 @@ materialx: deps ## Fetch the MaterialX data library (pinned, hash checked)
 	@test -f "$(NACRE_MATERIALX_LIBRARIES)/stdlib/stdlib_defs.mtlx" \
 	  && test "$(NACRE_MATERIALX_LIBRARIES)" != "$(OWN_LIBRARIES)" \
 	  || .ci/fetch-materialx "$(NACRE_MATERIALX_LIBRARIES)"
+
+nanobind: deps ## Fetch what the Python module is built with (pinned, hash checked)
+	@test -f "$(NACRE_NANOBIND)/nanobind/__init__.py" \
+	  && test "$(NACRE_NANOBIND)" != "$(OWN_NANOBIND)" \
+	  || .ci/fetch-nanobind "$(NACRE_NANOBIND)"
 
 docs: configure ## The interface of the library as pages in out/docs
 	@.ci/install-packages .packages-docs.txt

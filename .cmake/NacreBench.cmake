@@ -11,8 +11,13 @@ get_property(nacre_benches GLOBAL PROPERTY NACRE_BENCHES)
 set(nacre_bench_results "${CMAKE_BINARY_DIR}/bench-results")
 set(nacre_bench_programs ${nacre_benches})
 list(TRANSFORM nacre_bench_programs REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+if(TARGET nacre_python)
+  list(APPEND nacre_benches nacre_python)
+  list(APPEND nacre_bench_programs "${PROJECT_SOURCE_DIR}/bench/python/bench_python.py")
+endif()
 add_custom_target(bench
-  COMMAND "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/run.py"
+  COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=${CMAKE_BINARY_DIR}/python"
+    "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/run.py"
     --out "${nacre_bench_results}" ${nacre_bench_programs}
   COMMAND "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/report.py"
     "${nacre_bench_results}" --out "${nacre_bench_results}/report"

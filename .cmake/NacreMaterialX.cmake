@@ -5,6 +5,14 @@ if(NOT NACRE_MATERIALX_LIBRARIES)
   set(NACRE_MATERIALX_LIBRARIES "${CMAKE_BINARY_DIR}/materialx/libraries")
 endif()
 
+# pip builds with the wheel that has it (pyproject.toml).
+if(DEFINED SKBUILD AND NOT EXISTS "${NACRE_MATERIALX_LIBRARIES}/stdlib/stdlib_defs.mtlx")
+  execute_process(
+    COMMAND "${Python_EXECUTABLE}" -c "import importlib.util as u; \
+print(u.find_spec('MaterialX').submodule_search_locations[0] + '/libraries', end='')"
+    OUTPUT_VARIABLE NACRE_MATERIALX_LIBRARIES ERROR_QUIET)
+endif()
+
 # Nothing is compiled from it, so its absence stops the tests and the tool, not the build.
 if(NOT EXISTS "${NACRE_MATERIALX_LIBRARIES}/stdlib/stdlib_defs.mtlx")
   message(WARNING

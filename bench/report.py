@@ -102,6 +102,11 @@ def acceptance(run: results.Run) -> str:
             figure = run.get(f"latency/{stage}/{case}")
             row(f"standard_surface, {stage.replace('_', ' ')}, {case}", target,
                 figure.median / 1e6 if figure else None, "ms", True)
+    call = run.get("python/twice/1/bound")
+    row("Python: a bound call for one point", 3, call.median / 1e3 if call else None, "µs", True)
+    whole = run.get("python/twice/65536/bound")
+    row("Python: memory that a bound call of 65,536 points takes", 1,
+        whole.counters["bytes"] / 1024 if whole else None, "KiB", True)
     return table(["what", "target", "measured", "met"], rows)
 
 
@@ -210,6 +215,28 @@ def hosts(run: results.Run) -> str:
             + table(["asked", "ns"], ways))
 
 
+def python(run: results.Run) -> str:
+    rows = []
+    for name, what in (("twice", "uv times two"), ("marble", "marble, a fractal noise")):
+        for count in (1, 65536):
+            figures = {way: run.get(f"python/{name}/{count}/{way}")
+                       for way in ("c", "bound", "bind", "run")}
+            if figures["c"] is None or figures["bound"] is None:
+                continue
+            extra = figures["bound"].median - figures["c"].median
+            rows.append([what, f"{count:,}"] +
+                        [f"{figure.median / 1e3:,.2f}" if figure else "–"
+                         for figure in figures.values()] +
+                        [number(extra), number(extra / count),
+                         number(figures["bound"].counters["bytes"])])
+    return ("Calls of the Python module, microseconds each, beside the same call from C++: of a "
+            "binding, `Binding.run`; to bind the arrays again, `Shader.bind`; and both at once, "
+            "`Shader.run`. What Python adds to a bound call is in nanoseconds, of the call and of "
+            "each point (less than none is noise); memory in bytes is the most that the call had.\n\n"
+            + table(["output", "points", "C++", "Binding.run", "Shader.bind", "Shader.run",
+                     "added, ns", "added, ns a point", "bytes"], rows))
+
+
 PAGES = {
     "acceptance": ("The figures the project promises", acceptance),
     "closures": ("Lobes", lambda run: variants(run, "closures", WIDE + MODES + SLOW)),
@@ -221,6 +248,7 @@ PAGES = {
     "nodes": ("Nodes", nodes),
     "peers": ("Kernels against the same formula by hand",
               lambda run: variants(run, "peers", WIDE + MODES + SLOW + [("xsimd", "xsimd")])),
+    "python": ("Calls from Python", python),
     "textures": ("Texture look-ups, RGBA8, 2048²",
                  lambda run: variants(run, "textures", WIDE + SLOW + [("OpenImageIO", "oiio")])),
 }

@@ -29,8 +29,9 @@ FLAGS = {
 def run(program: pathlib.Path, out: pathlib.Path, name: str) -> bool:
     flags = FLAGS.get(program.name, SURVEYED)
     start = time.monotonic()
+    interpreter = [sys.executable] if program.suffix == ".py" else []
     done = subprocess.run(
-        [program, *flags, f"--benchmark_out={out / program.name}.json",
+        [*interpreter, program, *flags, f"--benchmark_out={out / program.stem}.json",
          "--benchmark_out_format=json"],
         env=os.environ | {"NACRE_BENCH_RUN": name}, stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE, text=True)

@@ -35,6 +35,7 @@ QUARANTINE = {
     "gmock/": ("tests",),
     "llvm-c/": ("jit/llvm",),
     "llvm/": ("jit/llvm", "tests/jit/llvm", "tests/jit/worker"),
+    "nanobind/": ("jit/api/python",),
     "nlohmann/": ("bench", "examples", "tests"),
     "pugixml": ("jit/document",),
 }

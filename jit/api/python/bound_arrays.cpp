@@ -1,0 +1,182 @@
+#include "jit/api/python/bound_arrays.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "jit/api/python/errors.h"
+
+namespace nacre::python {
+
+namespace nb = nanobind;
+
+namespace {
+
+/// Past the greatest element of a list.
+std::uint64_t past(const std::uint32_t* list, std::uint64_t count) {
+  std::uint32_t most = 0;
+  for (std::uint64_t i = 0; i < count; ++i) most = std::max(most, list[i]);
+  return count == 0 ? 0 : std::uint64_t{most} + 1;
+}
+
+/// Past the greatest instance of the points that are shaded.
+std::uint64_t past_instances_of(const Request& request) {
+  if (request.points == nullptr) return past(request.instances, request.count);
+  std::uint64_t most = 0;
+  for (std::uint64_t i = 0; i < request.count; ++i) {
+    most = std::max(most, std::uint64_t{request.instances[request.points[i]]} + 1);
+  }
+  return most;
+}
+
+[[noreturn]] void refuse_length(const std::string& name, std::uint64_t expected,
+                                std::uint64_t found) {
+  refuse("short-array", name, "'" + name + "' is too short for what is to be shaded",
+         std::to_string(expected) + " elements", std::to_string(found));
+}
+
+std::string unknown_name_text(const Shader& shader, std::uint32_t entries) {
+  std::string names;
+  for (int i = 0; i < NACRE_ENTRY_COUNT; ++i) {
+    const auto entry = static_cast<nacre_entry>(i);
+    if ((entries >> i & 1) == 0) continue;
+    for (const Channel& each : shader.results(entry)) {
+      if (each.role != NACRE_STATE) names += (names.empty() ? "" : ", ") + each.name;
+    }
+  }
+  return "a channel, a varying parameter, or a result: " + names;
+}
+
+}  // namespace
+
+BoundArrays::BoundArrays(const Shader& shader, const std::vector<NamedArray>& arrays,
+                         std::uint32_t entries) {
+  std::uint32_t present = 0;
+  for (int i = 0; i < NACRE_ENTRY_COUNT; ++i) {
+    if (shader.has(static_cast<nacre_entry>(i))) present |= 1u << i;
+  }
+  const std::uint32_t wanted = entries == 0 ? present : present & entries;
+  missing_ = present & ~wanted;
+  const Binder binder;
+  for (const NamedArray& each : arrays) {
+    auto use = channel_use(shader, wanted, each.name);
+    // Known to the entries that are left out, perhaps.
+    if (!use) use = channel_use(shader, present, each.name);
+    if (!use) {
+      refuse("unknown-channel", each.name, "there is no channel '" + each.name + "'",
+             unknown_name_text(shader, wanted), "");
+    }
+    place(binder.get(), placements_, each.name, each.element, *use, each.object);
+  }
+  const detail::Said report;
+  nacre_binding* made = nullptr;
+  report.finish(nacre_binding_create(binder.get(), shader.get(), wanted, report.get(), &made),
+                nullptr);
+  binding_.reset(made);
+  for (int i = 0; i < NACRE_ENTRY_COUNT; ++i) {
+    if ((wanted >> i & 1) != 0) find_uses(shader, static_cast<nacre_entry>(i));
+  }
+}
+
+void BoundArrays::find_uses(const Shader& shader, nacre_entry entry) {
+  std::vector<std::string> streamed;
+  for (const Channel& each : shader.inputs(entry)) streamed.push_back(each.name);
+  for (const Channel& each : shader.results(entry)) streamed.push_back(each.name);
+  std::vector<std::string> of_one_point;
+  for (int i = 0; entry == NACRE_EVALUATE_AT && i < NACRE_ENTRY_COUNT; ++i) {
+    for (const Channel& each : shader.inputs(static_cast<nacre_entry>(i))) {
+      of_one_point.push_back(each.name);
+    }
+  }
+  for (std::size_t i = 0; i < placements_.size(); ++i) {
+    const auto is_covered = [&](const std::string& channel) {
+      return covers(placements_[i].name, channel);
+    };
+    const bool is_streamed = std::any_of(streamed.begin(), streamed.end(), is_covered);
+    if (is_streamed) uses_[entry].push_back({i, false});
+    if (!is_streamed && std::any_of(of_one_point.begin(), of_one_point.end(), is_covered)) {
+      uses_[entry].push_back({i, true});
+    }
+  }
+}
+
+std::uint64_t BoundArrays::count(nacre_entry entry) const {
+  std::uint64_t least = Placement::endless;
+  for (const Use& use : uses_[entry]) {
+    const Placement& array = placements_[use.array];
+    if (use.is_of_one_point || array.element == NACRE_OF_INSTANCE) continue;
+    least = std::min(least, array.length);
+  }
+  return least;
+}
+
+std::uint64_t BoundArrays::needed(const Use& use, const Request& request, std::uint64_t past_points,
+                                  std::uint64_t past_instances) const {
+  const int element = placements_[use.array].element;
+  if (use.is_of_one_point) {
+    return 1 + std::uint64_t{element == NACRE_OF_INSTANCE ? request.instances[request.point]
+                                                          : request.point};
+  }
+  if (element == NACRE_OF_INSTANCE) return past_instances;
+  return element == NACRE_OF_PLACE ? request.count : past_points;
+}
+
+void BoundArrays::check(nacre_entry entry, const Request& request) const {
+  if ((missing_ >> entry & 1) != 0) {
+    refuse("unbound-entry", "entry", "the arrays were bound for other entries",
+           "one of those that bind() was asked for", std::to_string(entry));
+  }
+  const std::uint64_t past_points =
+      request.points != nullptr ? past(request.points, request.count) : request.count;
+  const auto& uses = uses_[entry];
+  std::uint64_t listed = 0;  // Elements that the list of instances must have.
+  bool is_of_points = false;
+  for (const Use& use : uses) {
+    if (placements_[use.array].element != NACRE_OF_INSTANCE) continue;
+    is_of_points = is_of_points || !use.is_of_one_point;
+    listed = std::max(listed, use.is_of_one_point ? std::uint64_t{request.point} + 1 : past_points);
+  }
+  if (request.instance_count < listed) refuse_length("instances", listed, request.instance_count);
+  const std::uint64_t past_instances = is_of_points ? past_instances_of(request) : 0;
+  for (const Use& use : uses) {
+    const std::uint64_t least = needed(use, request, past_points, past_instances);
+    const Placement& array = placements_[use.array];
+    if (array.length < least) refuse_length(array.name, least, array.length);
+  }
+}
+
+bool BoundArrays::run(nacre_entry entry, const Request& request) const {
+  std::vector<void*> arrays;
+  for (const Placement& each : placements_) arrays.push_back(each.data);
+  nacre_batch batch{};
+  batch.size = sizeof batch;
+  batch.array_count = arrays.size();
+  batch.instances = request.instances;
+  batch.stop = request.stop;
+  batch.point = request.point;
+  nacre_status status = NACRE_OK;
+  for (std::uint64_t first = 0; first < request.count && status == NACRE_OK; first += interval) {
+    if (first > 0 && PyErr_CheckSignals() != 0) nb::raise_python_error();
+    for (const Use& use : uses_[entry]) {
+      const Placement& array = placements_[use.array];
+      const bool moves =
+          !use.is_of_one_point && (array.element == NACRE_OF_PLACE ||
+                                   (array.element == NACRE_OF_POINT && request.points == nullptr));
+      if (moves) arrays[use.array] = array.data + array.stride * static_cast<std::ptrdiff_t>(first);
+    }
+    batch.arrays = arrays.data();
+    batch.count = std::min(interval, request.count - first);
+    if (request.points != nullptr) batch.points = request.points + first;
+    const bool counts_on = request.points == nullptr && request.instances != nullptr;
+    if (counts_on && entry != NACRE_EVALUATE_AT) batch.instances = request.instances + first;
+    const nb::gil_scoped_release others_run;
+    status = nacre_run(binding_.get(), entry, request.instance, &batch);
+  }
+  if (status == NACRE_STOPPED) return false;
+  if (status == NACRE_TOO_MANY_STEPS) {
+    refuse("too-many-steps", "entry", "a loop of the shader does not end", "", "");
+  }
+  detail::check(status);
+  return true;
+}
+
+}  // namespace nacre::python

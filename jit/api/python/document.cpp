@@ -1,0 +1,58 @@
+// MaterialX documents.
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <utility>
+
+#include "jit/api/python/errors.h"
+#include "jit/api/python/module.h"
+
+namespace nacre::python {
+
+namespace nb = nanobind;
+
+namespace {
+
+/// Makes a document without the GIL, then says what there is to say.
+template <class Make>
+void construct(Document* self, Make&& make) {
+  std::vector<Diagnostic> said;
+  Document made = [&] {
+    const nb::gil_scoped_release others_run;
+    return make(&said);
+  }();
+  warn(said);
+  new (self) Document(std::move(made));
+}
+
+}  // namespace
+
+void bind_document(nb::module_& module) {
+  nb::class_<Document>(module, "Document")
+      .def(
+          "__init__",
+          [](Document* self, const std::string& file, std::vector<std::string> search_paths,
+             bool includes_anywhere) {
+            const ReadOptions options{std::move(search_paths), includes_anywhere};
+            construct(self, [&](auto* said) { return Document::read(file, options, said); });
+          },
+          nb::arg("file"), nb::arg("search_paths"), nb::arg("includes_anywhere"))
+      .def(
+          "__init__",
+          [](Document* self, const std::string& text, const std::string& name,
+             std::vector<std::string> search_paths, bool includes_anywhere) {
+            const ReadOptions options{std::move(search_paths), includes_anywhere};
+            construct(self, [&](auto* said) { return Document::parse(text, name, options, said); });
+          },
+          nb::arg("text"), nb::arg("name"), nb::arg("search_paths"), nb::arg("includes_anywhere"))
+      .def_prop_ro(
+          "materials", [](const Document& self) { return texts(self.materials()); },
+          nb::sig("def materials(self) -> list[str]"),
+          "Names of the document's material nodes, in its order.")
+      .def_prop_ro(
+          "outputs", [](const Document& self) { return texts(self.outputs()); },
+          nb::sig("def outputs(self) -> list[str]"),
+          "Outputs of the document and its node graphs that can be computed: 'NG_marble/out'.");
+}
+
+}  // namespace nacre::python

@@ -1,0 +1,99 @@
+"""How shaders are compiled."""
+
+import enum
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, TypedDict
+
+from . import _core
+
+
+class SampleFlag(enum.IntFlag):
+    """Bits of the channel `flags` of Entry.SAMPLE."""
+
+    VALID = 1  # Else weight and densities are 0.
+    DELTA = 2  # pdf is a probability; Entry.EVALUATE gives 0.
+    TRANSMISSION = 4  # wi and wo are on different sides, by Ng.
+
+
+class LobeKind(enum.IntFlag):
+    """What a lobe is, and bits of the option `lobes`."""
+
+    DIFFUSE_REFLECTION = 1
+    GLOSSY_REFLECTION = 2
+    DIFFUSE_TRANSMISSION = 4
+    GLOSSY_TRANSMISSION = 8
+
+
+class CompileOptions(TypedDict, total=False):
+    """Keywords of System.compile_material and compile_outputs; what is left out is usual."""
+
+    # Machine code; or slow, the same bits; or slow, in double precision.
+    engine: Literal["jit", "interpreter", "reference"]
+    accuracy: Literal["standard", "precise", "fast"]
+    lanes: int  # 1, 4, 8 or 16; 0: the widest that pays on this machine.
+    # What may change without compiling: patterns of parameter paths ("SR_gold/base_color",
+    # "SR_gold/coat*", "*"). All others are folded in.
+    live: Iterable[str]
+    # Which of those, and of frame, time, object_to_world and world_to_object, come with each
+    # point, as channels of the parameter's name.
+    varying: Iterable[str]
+    lobes: LobeKind  # Those that are modelled.
+    reverse_pdf: bool  # SAMPLE and EVALUATE also store pdf_reverse.
+    lobe_mask: bool  # A parameter lobe_mask switches lobes off later.
+    by_lobe: bool  # Also the part of each lobe: "f.lobe0", "weight.lobe0", ...
+    min_alpha: bool  # A parameter min_alpha raises the roughness of what is smoother.
+    # Entries that are compiled; BEGIN comes with what reads its state. None: all but EVALUATE_AT
+    # and SHADE.
+    entries: Iterable[_core.Entry]
+    # What BEGIN and SHADE also store: "albedo", "emission", "opacity", "normal", "roughness", or
+    # a value of the graph by its path: "NG_marble/noise1", "SR_marble/base_color".
+    with_begin: Iterable[str]
+    side: Literal["front", "back"]
+    background: bool  # Return at once, and interpret until the code is there; the same bits.
+    max_seconds: float  # Of the call; 60 unless set.
+    max_anisotropy: int  # Of footprints on images; 16 unless set.
+    no_footprints: bool  # Points have no extent, and no channels as dPdx are read.
+    search_paths: Iterable[str]  # Of images, after the document's own folder.
+    files_anywhere: bool  # Images also from outside those folders.
+    missing_images_pass: bool  # An image that cannot be had is a warning and no error.
+    lenient: bool  # Take what other programs' exporters get wrong.
+
+
+# As <nacre/nacre.h> has them.
+_NAMED = {
+    "engine": ("jit", "interpreter", "reference"),
+    "accuracy": ("standard", "precise", "fast"),
+    "side": ("front", "back"),
+}
+_LISTS = ("live", "varying", "with_begin", "search_paths")
+
+
+def entry_bits(entries: Iterable[_core.Entry]) -> int:
+    bits = 0
+    for entry in entries:
+        bits |= 1 << int(entry)
+    return bits
+
+
+def _value(name: str, value: Any) -> Any:
+    if name in _NAMED:
+        if value not in _NAMED[name]:
+            raise ValueError(f"{name} is {value!r}, not one of {', '.join(_NAMED[name])}")
+        return _NAMED[name].index(value)
+    if name in _LISTS:
+        if isinstance(value, str):  # One letter each is never what was meant.
+            raise TypeError(f"{name} takes a list of texts, not the text {value!r}")
+        return [str(each) for each in value]
+    if name == "entries":
+        return entry_bits(value)
+    return int(value) if name == "lobes" else value
+
+
+def core_options(options: Mapping[str, Any]) -> _core.CompileOptions:
+    made = _core.CompileOptions()
+    for name, value in options.items():
+        if name not in CompileOptions.__annotations__:
+            raise TypeError(f"there is no compile option {name!r}; there are "
+                            f"{', '.join(CompileOptions.__annotations__)}")
+        setattr(made, name, _value(name, value))
+    return made

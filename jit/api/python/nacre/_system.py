@@ -1,0 +1,50 @@
+"""What documents share, and compiling them."""
+
+import functools
+import os
+from collections.abc import Iterable
+from typing import Unpack
+
+from . import _core
+from ._document import Document
+from ._options import CompileOptions, core_options
+from ._shader import Shader
+
+
+class System(_core.System):
+    """The data library, textures and the compiler, for any number of documents and threads.
+
+    libraries        files or folders of nodedefs: the MaterialX data library, then node packs;
+                     none: the one that came with the package (`data_library()`)
+    ocio_config      an OpenColorIO configuration, for its colour spaces
+    cache            folder where compiled kernels are kept between runs
+    compile_threads  0: one a core
+    compile_apart    in processes of their own, so that a fault of the compiler's costs a kernel
+                     its speed and not this process its life
+    texture_memory   bytes of texels in memory; 0: 2 GiB
+    """
+
+    def __init__(self, *, libraries: Iterable[str | os.PathLike[str]] = (),
+                 ocio_config: str | os.PathLike[str] = "", cache: str | os.PathLike[str] = "",
+                 compile_threads: int = 0, compile_apart: bool = False,
+                 texture_memory: int = 0) -> None:
+        super().__init__([os.fspath(each) for each in libraries], os.fspath(ocio_config),
+                         os.fspath(cache), compile_threads, compile_apart, texture_memory)
+
+    def compile_material(self, document: Document, material: str,
+                         **options: Unpack[CompileOptions]) -> Shader:
+        """Kernels for what can be asked of a material: one of Document.materials."""
+        return Shader(self, document, material, core_options(options))
+
+    def compile_outputs(self, document: Document, outputs: Iterable[str],
+                        **options: Unpack[CompileOptions]) -> Shader:
+        """One kernel for outputs of graphs: some of Document.outputs."""
+        if isinstance(outputs, str):
+            raise TypeError(f"outputs takes a list of names, not the text {outputs!r}")
+        return Shader(self, document, list(outputs), core_options(options))
+
+
+@functools.cache
+def default_system() -> System:
+    """The one that functions of the package take where none is given; made when it is needed."""
+    return System()

@@ -1,0 +1,64 @@
+// What documents share, and how shaders are compiled.
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <utility>
+
+#include "jit/api/python/errors.h"
+#include "jit/api/python/module.h"
+
+namespace nacre::python {
+
+namespace nb = nanobind;
+
+void bind_system(nb::module_& module) {
+  nb::class_<System>(module, "System")
+      .def(
+          "__init__",
+          [](System* self, std::vector<std::string> libraries, std::string ocio_config,
+             std::string cache, int compile_threads, bool compile_apart,
+             std::uint64_t texture_memory) {
+            SystemOptions options;
+            options.libraries = std::move(libraries);
+            options.ocio_config = std::move(ocio_config);
+            options.cache = std::move(cache);
+            options.compile_threads = compile_threads;
+            options.compile_apart = compile_apart;
+            options.texture_memory = texture_memory;
+            std::vector<Diagnostic> said;
+            System made = [&] {
+              const nb::gil_scoped_release others_run;
+              return System(options, &said);
+            }();
+            warn(said);
+            new (self) System(std::move(made));
+          },
+          nb::arg("libraries"), nb::arg("ocio_config"), nb::arg("cache"),
+          nb::arg("compile_threads"), nb::arg("compile_apart"), nb::arg("texture_memory"));
+
+  nb::class_<CompileOptions>(module, "CompileOptions")
+      .def(nb::init<>())
+      .def_rw("engine", &CompileOptions::engine)
+      .def_rw("accuracy", &CompileOptions::accuracy)
+      .def_rw("lanes", &CompileOptions::lanes)
+      .def_rw("live", &CompileOptions::live)
+      .def_rw("varying", &CompileOptions::varying)
+      .def_rw("lobes", &CompileOptions::lobes)
+      .def_rw("reverse_pdf", &CompileOptions::reverse_pdf)
+      .def_rw("lobe_mask", &CompileOptions::lobe_mask)
+      .def_rw("by_lobe", &CompileOptions::by_lobe)
+      .def_rw("min_alpha", &CompileOptions::min_alpha)
+      .def_rw("entries", &CompileOptions::entries)
+      .def_rw("with_begin", &CompileOptions::with_begin)
+      .def_rw("side", &CompileOptions::side)
+      .def_rw("background", &CompileOptions::background)
+      .def_rw("max_seconds", &CompileOptions::max_seconds)
+      .def_rw("max_anisotropy", &CompileOptions::max_anisotropy)
+      .def_rw("no_footprints", &CompileOptions::no_footprints)
+      .def_rw("search_paths", &CompileOptions::search_paths)
+      .def_rw("files_anywhere", &CompileOptions::files_anywhere)
+      .def_rw("missing_images_pass", &CompileOptions::missing_images_pass)
+      .def_rw("lenient", &CompileOptions::lenient);
+}
+
+}  // namespace nacre::python

@@ -1,0 +1,99 @@
+"""Documents, and what is said of them."""
+
+import pathlib
+import pickle
+import warnings
+
+import nacre
+import pytest
+
+
+def test_lists_materials_and_outputs(documents):
+    assert nacre.Document.parse(documents["lambert"]).materials == ["M"]
+    values = nacre.Document.parse(documents["values"])
+    assert values.materials == []
+    assert values.outputs == ["out", "number"]
+
+
+def test_reads_files_and_includes(tmp_path: pathlib.Path, documents):
+    (tmp_path / "below").mkdir()
+    (tmp_path / "below" / "included.mtlx").write_text(documents["twice"])
+    main = tmp_path / "main.mtlx"
+    main.write_text('<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">'
+                    '<xi:include href="included.mtlx"/></materialx>')
+    assert nacre.Document(main, search_paths=[tmp_path / "below"]).outputs == ["out"]
+    with pytest.raises(nacre.Error):
+        nacre.Document(main)
+
+
+def test_error_carries_the_place():
+    with pytest.raises(nacre.Error) as caught:
+        nacre.Document.parse('<materialx version="1.39"><mix name="m"', "broken.mtlx")
+    first = caught.value.diagnostics[0]
+    assert first.severity == nacre.Severity.ERROR
+    assert (first.file, first.line) == ("broken.mtlx", 1)
+    assert str(first) in str(caught.value)
+    assert str(first).startswith("broken.mtlx:1")
+
+
+def test_error_of_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(nacre.Error) as caught:
+        nacre.Document(tmp_path / "none.mtlx")
+    assert caught.value.diagnostics[0].file.endswith("none.mtlx")
+
+
+def test_error_survives_pickling():
+    with pytest.raises(nacre.Error) as caught:
+        nacre.Document.parse("<")
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert again.diagnostics == caught.value.diagnostics
+    assert str(again) == str(caught.value)
+
+
+def test_unknown_names_are_errors(system, documents):
+    document = nacre.Document.parse(documents["twice"])
+    with pytest.raises(nacre.Error) as caught:
+        system.compile_outputs(document, ["nothing"])
+    assert "nothing" in str(caught.value)
+    with pytest.raises(nacre.Error):
+        system.compile_material(document, "nothing")
+
+
+IMAGE = """<materialx version="1.39">
+  <image name="I" type="color3"><input name="file" type="filename" value="none.png"/></image>
+  <output name="out" type="color3" nodename="I"/></materialx>"""
+
+
+def test_warnings_are_pythons(system):
+    document = nacre.Document.parse(IMAGE)
+    with pytest.raises(nacre.Error) as caught:
+        system.compile_outputs(document, ["out"])
+    assert caught.value.diagnostics[0].path == "I"
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        shader = system.compile_outputs(document, ["out"], missing_images_pass=True)
+    assert shader.has(nacre.Entry.OUTPUTS)
+    assert len(heard) == 1
+    assert heard[0].category is nacre.DiagnosticWarning
+    assert heard[0].filename == __file__  # The caller's line, not one of ours.
+    assert heard[0].message.diagnostic.severity == nacre.Severity.WARNING
+    assert heard[0].message.diagnostic.path == "I"
+
+
+def test_warnings_can_be_errors(system):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", nacre.DiagnosticWarning)
+        with pytest.raises(nacre.DiagnosticWarning):
+            system.compile_outputs(nacre.Document.parse(IMAGE), ["out"], missing_images_pass=True)
+
+
+def test_options_that_are_none_are_refused(system, documents):
+    document = nacre.Document.parse(documents["twice"])
+    with pytest.raises(TypeError, match="footprint"):
+        system.compile_outputs(document, ["out"], footprint=True)
+    with pytest.raises(ValueError, match="engine"):
+        system.compile_outputs(document, ["out"], engine="gpu")
+    with pytest.raises(TypeError):
+        system.compile_outputs(document, "out")
+    with pytest.raises(TypeError):
+        system.compile_outputs(document, ["out"], live="scale")

@@ -1,0 +1,122 @@
+"""Materials on arrays, against the closed form of a diffuse lobe."""
+
+import math
+
+import nacre
+import numpy
+import pytest
+
+Entry = nacre.Entry
+COLOR = numpy.array([0.25, 0.5, 0.75], "float32")
+COUNT = 2000
+N = (0.0, 0.0, 1.0)
+
+
+def hemisphere(seed):
+    random = numpy.random.default_rng(seed)
+    directions = random.normal(size=(COUNT, 3)).astype("float32")
+    directions[:, 2] = numpy.abs(directions[:, 2]) + 0.01
+    return directions / numpy.linalg.norm(directions, axis=1, keepdims=True)
+
+
+WO, WI = hemisphere(1), hemisphere(2)
+POINTS = nacre.surface_points(numpy.zeros((COUNT, 3), "float32"), N, WO, T=(1.0, 0.0, 0.0))
+
+
+def test_f_is_color_cosine_over_pi(lambert):
+    results = lambert.run(POINTS | {"wi": WI}, Entry.EVALUATE)
+    cosine = WI[:, 2:] / math.pi
+    assert results["f"].shape == (COUNT, 3) and results["pdf"].shape == (COUNT,)
+    numpy.testing.assert_allclose(results["f"], COLOR * cosine, rtol=1e-5)
+    numpy.testing.assert_allclose(results["pdf"], cosine[:, 0], rtol=1e-5)
+
+
+def test_albedo_is_the_color(lambert):
+    albedo = lambert.run(POINTS, Entry.ALBEDO)["albedo"]
+    numpy.testing.assert_allclose(albedo, numpy.broadcast_to(COLOR, (COUNT, 3)), rtol=1e-5)
+
+
+def test_samples_are_cosine_distributed(lambert):
+    u = numpy.random.default_rng(3).random((COUNT, 3), "float32")
+    results = lambert.run(POINTS | {"u": u}, Entry.SAMPLE)
+    flags = results["flags"]
+    assert flags.dtype == numpy.int32
+    assert (flags == nacre.SampleFlag.VALID).all()
+    numpy.testing.assert_allclose(results["pdf"], results["wi"][:, 2] / math.pi, rtol=1e-4)
+    numpy.testing.assert_allclose(results["weight"], numpy.broadcast_to(COLOR, (COUNT, 3)),
+                                  rtol=1e-4)
+    # The mean cosine is 2/3, with a standard deviation of sqrt(1/2 - 4/9) a sample.
+    assert abs(results["wi"][:, 2].mean() - 2 / 3) < 5 * math.sqrt(1 / 18 / COUNT)
+
+
+def test_one_point_and_many_directions(system, documents):
+    document = nacre.Document.parse(documents["lambert"])
+    shader = system.compile_material(document, "M", no_footprints=True,
+                                     entries=[Entry.EVALUATE, Entry.EVALUATE_AT])
+    normals = hemisphere(4)
+    points = nacre.surface_points(numpy.zeros((COUNT, 3), "float32"), normals, normals)
+    wi = hemisphere(5)[:50]
+    at = shader.run(points | {"wi": wi}, Entry.EVALUATE_AT, point=7)
+    assert at["f"].shape == (50, 3)
+    cosine = numpy.clip(wi @ normals[7], 0, None)[:, None] / math.pi
+    numpy.testing.assert_allclose(at["f"], COLOR * cosine, rtol=1e-4, atol=1e-6)
+    one = nacre.surface_points((0.0, 0.0, 0.0), normals[7], normals[7])
+    alone = shader.run(one | {"wi": wi}, Entry.EVALUATE)
+    assert numpy.array_equal(alone["f"], at["f"])
+
+
+def test_points_past_the_arrays_are_refused(system, documents):
+    shader = system.compile_material(nacre.Document.parse(documents["lambert"]), "M",
+                                     no_footprints=True, entries=[Entry.EVALUATE_AT])
+    points = nacre.surface_points(numpy.zeros((3, 3), "float32"), N, WO[:3])
+    with pytest.raises(nacre.Error) as caught:
+        shader.run(points | {"wi": WI}, Entry.EVALUATE_AT, point=3)
+    assert caught.value.diagnostics[0].code == "short-array"
+    state = numpy.zeros((3, shader.state_count), "float32")
+    binding = shader.bind(points | {"wi": WI, "state": state}, entries=[Entry.EVALUATE_AT])
+    binding.run(Entry.EVALUATE_AT, point=2)
+    with pytest.raises(nacre.Error) as caught:
+        binding.run(Entry.EVALUATE_AT, point=3)
+    assert caught.value.diagnostics[0].code == "short-array"
+
+
+def test_the_state_is_the_callers_if_it_is_bound(lambert):
+    state = numpy.zeros((lambert.state_count, COUNT), "float32").T
+    f = numpy.zeros((COUNT, 3), "float32")
+    binding = lambert.bind(POINTS | {"wi": WI, "state": state, "f": f},
+                           entries=[Entry.BEGIN, Entry.EVALUATE])
+    binding.run(Entry.BEGIN)
+    binding.run(Entry.EVALUATE)
+    assert numpy.array_equal(f, lambert.run(POINTS | {"wi": WI}, Entry.EVALUATE)["f"])
+
+
+def test_results_into_structures(lambert):
+    paths = numpy.zeros(COUNT, [("wo", "f4", 3), ("wi", "f4", 3), ("f", "f4", 3), ("pdf", "f4")])
+    paths["wo"], paths["wi"] = WO, WI
+    named = POINTS | {name: paths[name] for name in paths.dtype.names}
+    lambert.run(named, Entry.EVALUATE)
+    numpy.testing.assert_allclose(paths["pdf"], WI[:, 2] / math.pi, rtol=1e-5)
+    numpy.testing.assert_allclose(paths["f"], COLOR * WI[:, 2:] / numpy.pi, rtol=1e-5)
+
+
+def test_parts_by_lobe(system, documents):
+    shader = system.compile_material(nacre.Document.parse(documents["lambert"]), "M",
+                                     no_footprints=True, by_lobe=True)
+    results = shader.run(POINTS | {"wi": WI}, Entry.EVALUATE)
+    assert numpy.array_equal(results["f.lobe0"], results["f"])
+    assert [(lobe.name, lobe.kinds) for lobe in shader.lobes] == [
+        ("oren_nayar_diffuse_bsdf", nacre.LobeKind.DIFFUSE_REFLECTION)]
+
+
+def test_what_a_material_lacks_is_empty(lambert):
+    assert not lambert.has(Entry.EMISSION)
+    assert lambert.run(POINTS, Entry.EMISSION) == {}
+    assert not lambert.has_back
+    assert lambert.state_count >= 0
+
+
+def test_channels_say_what_they_are(lambert):
+    wi = {each.name: each for each in lambert.inputs(Entry.EVALUATE)}["wi.x"]
+    assert (wi.component, wi.dtype, wi.role, wi.unit) == (0, "float32", "direction", "unit vector")
+    names = {each.name for each in lambert.results(Entry.EVALUATE)}
+    assert {"f.x", "f.y", "f.z", "pdf"} <= names
