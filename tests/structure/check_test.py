@@ -84,6 +84,10 @@ class Checks(unittest.TestCase):
         self.write("runtime/bad.cpp", "#include <embree3/rtcore.h>\n")
         self.assert_finds(dependencies.quarantine, "runtime/bad.cpp:1:")
 
+    def test_nanobind_outside_its_folder(self):
+        self.write("jit/api/bad.cpp", "#include <nanobind/nanobind.h>\n")
+        self.assert_finds(dependencies.quarantine, "jit/api/bad.cpp:1:")
+
     def test_interface_includes_what_is_not_installed(self):
         self.write("jit/api/include/nacre/bad.h", '#include "runtime/type.h"\n')
         self.assert_finds(dependencies.public, "jit/api/include/nacre/bad.h:1:")

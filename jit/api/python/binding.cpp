@@ -95,7 +95,7 @@ void bind_binding(nb::module_& module) {
                   "points: object = None, instances: object = None, "
                   "instance: Instance | None = None, point: int = 0, "
                   "stop: Stop | None = None) -> bool"),
-          R"(Shades `count` points, by default as many as the arrays have; False where `stop` ended it.
+          R"(Shades `count` points, by default as many as the arrays have; False if it was stopped.
 
 points     uint32 array: which ones, `count` of them; fastest in ascending order.
 instances  uint32 array: for every point, the element of arrays bound by of_instance().

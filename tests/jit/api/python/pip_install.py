@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""usage: pip_install.py SOURCE WORK
+"""usage: pip_install.py SOURCE WORK [SETTING=VALUE]...
 
-`pip install SOURCE` in a fresh virtual environment below the folder WORK, with what pip fetches;
-then the example and the tests of the Python module on that. Builds the library once more, into
-WORK/build, which is kept for the next time.
+`pip install SOURCE` in a fresh virtual environment below the folder WORK, with what pip fetches
+and these settings of scikit-build-core; then the example and the tests of the Python module on
+that. Builds the library once more, into WORK/build, which is kept for the next time.
 """
 
 import os
@@ -15,6 +15,8 @@ import sys
 
 def main() -> None:
     source, work = (pathlib.Path(each).resolve() for each in sys.argv[1:3])
+    settings = [f"--config-settings={each}" for each in [f"build-dir={work / 'build'}",
+                                                         *sys.argv[3:]]]
     work.mkdir(parents=True, exist_ok=True)
     environment = {name: value for name, value in os.environ.items()
                    if name not in ("PYTHONPATH", "NACRE_TOOL", "NACRE_MATERIALX_LIBRARIES")}
@@ -30,8 +32,7 @@ def main() -> None:
     shutil.rmtree(venv, ignore_errors=True)
     run(sys.executable, "-m", "venv", venv)
     python = venv / "bin" / "python"
-    run(python, "-m", "pip", "install", "--quiet", f"{source}[examples]", "pytest",
-        "--config-settings", f"build-dir={work / 'build'}")
+    run(python, "-m", "pip", "install", "--quiet", *settings, f"{source}[examples]", "pytest")
 
     # What is installed, and not what this project's folder has.
     package = pathlib.Path(run(python, "-c", "import nacre; print(nacre.__file__, end='')")).parent
