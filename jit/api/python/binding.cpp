@@ -86,16 +86,15 @@ void bind_binding(nb::module_& module) {
           },
           nb::arg("entry"),
           "Points of the shortest array that the entry takes; None where all are constants.")
-      .def(
-          "run", run, nb::arg("entry"), nb::arg("count") = nb::none(), nb::kw_only(),
-          nb::arg("points") = nb::none(), nb::arg("instances") = nb::none(),
-          nb::arg("instance").none() = nb::none(), nb::arg("point") = 0,
-          nb::arg("stop").none() = nb::none(),
-          nb::sig("def run(self, entry: Entry, count: int | None = None, *, "
-                  "points: object = None, instances: object = None, "
-                  "instance: Instance | None = None, point: int = 0, "
-                  "stop: Stop | None = None) -> bool"),
-          R"(Shades `count` points, by default as many as the arrays have; False if it was stopped.
+      .def("run", run, nb::arg("entry"), nb::arg("count") = nb::none(), nb::kw_only(),
+           nb::arg("points") = nb::none(), nb::arg("instances") = nb::none(),
+           nb::arg("instance").none() = nb::none(), nb::arg("point") = 0,
+           nb::arg("stop").none() = nb::none(),
+           nb::sig("def run(self, entry: Entry, count: int | None = None, *, "
+                   "points: object = None, instances: object = None, "
+                   "instance: Instance | None = None, point: int = 0, "
+                   "stop: Stop | None = None) -> bool"),
+           R"(Shades `count` points, by default as many as the arrays have; False if it was stopped.
 
 points     uint32 array: which ones, `count` of them; fastest in ascending order.
 instances  uint32 array: for every point, the element of arrays bound by of_instance().

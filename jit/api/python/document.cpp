@@ -25,6 +25,13 @@ void construct(Document* self, Make&& make) {
   new (self) Document(std::move(made));
 }
 
+ReadOptions read_options(std::vector<std::string> search_paths, bool includes_anywhere) {
+  ReadOptions options;
+  options.search_paths = std::move(search_paths);
+  options.includes_anywhere = includes_anywhere;
+  return options;
+}
+
 }  // namespace
 
 void bind_document(nb::module_& module) {
@@ -33,7 +40,7 @@ void bind_document(nb::module_& module) {
           "__init__",
           [](Document* self, const std::string& file, std::vector<std::string> search_paths,
              bool includes_anywhere) {
-            const ReadOptions options{std::move(search_paths), includes_anywhere};
+            const ReadOptions options = read_options(std::move(search_paths), includes_anywhere);
             construct(self, [&](auto* said) { return Document::read(file, options, said); });
           },
           nb::arg("file"), nb::arg("search_paths"), nb::arg("includes_anywhere"))
@@ -41,7 +48,7 @@ void bind_document(nb::module_& module) {
           "__init__",
           [](Document* self, const std::string& text, const std::string& name,
              std::vector<std::string> search_paths, bool includes_anywhere) {
-            const ReadOptions options{std::move(search_paths), includes_anywhere};
+            const ReadOptions options = read_options(std::move(search_paths), includes_anywhere);
             construct(self, [&](auto* said) { return Document::parse(text, name, options, said); });
           },
           nb::arg("text"), nb::arg("name"), nb::arg("search_paths"), nb::arg("includes_anywhere"))

@@ -21,8 +21,7 @@ nb::object as_python(const Diagnostic& one) {
 
 void set_error(const Error& error) {
   try {
-    nb::list said;
-    for (const Diagnostic& one : error.diagnostics()) said.append(as_python(one));
+    const nb::list said = diagnostics_of(error.diagnostics());
     const nb::object type = errors_module().attr("Error");
     PyErr_SetObject(type.ptr(), type(said, error.status(), text(error.what())).ptr());
   } catch (nb::python_error& failure) {
@@ -59,6 +58,12 @@ void refuse(const std::string& code, const std::string& name, const std::string&
   if (!found.empty()) said.text += (expected.empty() ? "; found " : ", found ") + found;
   said.text += " [" + code + "] (" + name + ")";
   throw Error(NACRE_WRONG_ARGUMENTS, {said});
+}
+
+nb::list diagnostics_of(const std::vector<Diagnostic>& said) {
+  nb::list made;
+  for (const Diagnostic& one : said) made.append(as_python(one));
+  return made;
 }
 
 void warn(const std::vector<Diagnostic>& said) {

@@ -18,6 +18,9 @@ nanobind::list texts(const std::vector<std::string>& list);
                          const std::string& message, const std::string& expected,
                          const std::string& found);
 
+/// A list of nacre.Diagnostic.
+nanobind::list diagnostics_of(const std::vector<Diagnostic>& said);
+
 /// Warnings become Python's, of category nacre.DiagnosticWarning; notes go to the logger "nacre".
 /// Throws what a user's filter makes of them. Needs the GIL.
 void warn(const std::vector<Diagnostic>& said);

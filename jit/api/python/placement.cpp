@@ -87,7 +87,7 @@ void merge_points(const ArrayView& view, std::size_t components, const ChannelUs
   placement.stride = length == 1 ? static_cast<std::ptrdiff_t>(number_bytes) : stride;
 }
 
-void bind(nacre_binder* binder, const std::string& name, const nacre_layout& layout) {
+void bind_array(nacre_binder* binder, const std::string& name, const nacre_layout& layout) {
   detail::check(nacre_binder_array(binder, name.c_str(), &layout));
 }
 
@@ -107,7 +107,7 @@ void place_array(nacre_binder* binder, std::vector<Placement>& placements, Place
   layout.element = placement.element;
   layout.stride = placement.stride;
   layout.component_stride = *axes > 0 ? view.strides[last - 1] : 0;
-  bind(binder, placement.name, layout);
+  bind_array(binder, placement.name, layout);
   // Those of a matrix have names of their own: "m.x" to "m.w", then "m.4".
   const std::ptrdiff_t columns = *axes > 0 ? view.shape[last - 1] : 1;
   const bool is_matrix = use.most > 4 && placement.name != "state";
@@ -116,8 +116,8 @@ void place_array(nacre_binder* binder, std::vector<Placement>& placements, Place
     if (*axes == 2) layout.offset += view.strides[last - 2] * (i / columns);
     constexpr std::array letters{".x", ".y", ".z", ".w"};
     const auto k = static_cast<std::size_t>(i);
-    bind(binder, placement.name + (k < letters.size() ? letters[k] : "." + std::to_string(i)),
-         layout);
+    bind_array(binder, placement.name + (k < letters.size() ? letters[k] : "." + std::to_string(i)),
+               layout);
   }
   placements.push_back(std::move(placement));
 }

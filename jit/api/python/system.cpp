@@ -1,4 +1,5 @@
 // What documents share, and how shaders are compiled.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -34,7 +35,18 @@ void bind_system(nb::module_& module) {
             new (self) System(std::move(made));
           },
           nb::arg("libraries"), nb::arg("ocio_config"), nb::arg("cache"),
-          nb::arg("compile_threads"), nb::arg("compile_apart"), nb::arg("texture_memory"));
+          nb::arg("compile_threads"), nb::arg("compile_apart"), nb::arg("texture_memory"))
+      .def(
+          "_check",
+          [](System& self, const Document& document, const CompileOptions& options) {
+            const std::vector<Diagnostic> said = [&] {
+              const nb::gil_scoped_release others_run;
+              return self.check(document, options);
+            }();
+            return diagnostics_of(said);
+          },
+          nb::arg("document"), nb::arg("options"),
+          nb::sig("def _check(self, document: Document, options: CompileOptions) -> list"));
 
   nb::class_<CompileOptions>(module, "CompileOptions")
       .def(nb::init<>())
@@ -58,7 +70,14 @@ void bind_system(nb::module_& module) {
       .def_rw("search_paths", &CompileOptions::search_paths)
       .def_rw("files_anywhere", &CompileOptions::files_anywhere)
       .def_rw("missing_images_pass", &CompileOptions::missing_images_pass)
-      .def_rw("lenient", &CompileOptions::lenient);
+      .def_rw("lenient", &CompileOptions::lenient)
+      .def_rw("working_space", &CompileOptions::working_space)
+      .def_rw("output_space", &CompileOptions::output_space)
+      .def_rw("distance_unit", &CompileOptions::distance_unit)
+      .def_rw("geometry", &CompileOptions::geometry)
+      .def_rw("frame", &CompileOptions::frame)
+      .def_rw("max_nodes", &CompileOptions::max_nodes)
+      .def_rw("max_instructions", &CompileOptions::max_instructions);
 }
 
 }  // namespace nacre::python

@@ -51,12 +51,19 @@ class CompileOptions(TypedDict, total=False):
     side: Literal["front", "back"]
     background: bool  # Return at once, and interpret until the code is there; the same bits.
     max_seconds: float  # Of the call; 60 unless set.
-    max_anisotropy: int  # Of footprints on images; 16 unless set.
+    max_anisotropy: int  # Of footprints on images, at most 64; 32 unless set.
     no_footprints: bool  # Points have no extent, and no channels as dPdx are read.
     search_paths: Iterable[str]  # Of images, after the document's own folder.
     files_anywhere: bool  # Images also from outside those folders.
     missing_images_pass: bool  # An image that cannot be had is a warning and no error.
     lenient: bool  # Take what other programs' exporters get wrong.
+    working_space: str  # Of colours; the document's, or lin_rec709, unless set.
+    output_space: str  # That colours of outputs are given in; the working space unless set.
+    distance_unit: str  # What one unit of scene length is; "meter" unless set.
+    geometry: str  # Full path of what is shaded, for its tokens in file names.
+    frame: int  # Of "{frame}" in file names.
+    max_nodes: int  # Of a graph; 250,000 unless set.
+    max_instructions: int  # Of a kernel; 500,000 unless set.
 
 
 # As <nacre/nacre.h> has them.

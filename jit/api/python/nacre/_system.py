@@ -7,6 +7,7 @@ from typing import Unpack
 
 from . import _core
 from ._document import Document
+from ._errors import Diagnostic
 from ._options import CompileOptions, core_options
 from ._shader import Shader
 
@@ -42,6 +43,10 @@ class System(_core.System):
         if isinstance(outputs, str):
             raise TypeError(f"outputs takes a list of names, not the text {outputs!r}")
         return Shader(self, document, list(outputs), core_options(options))
+
+    def check(self, document: Document, **options: Unpack[CompileOptions]) -> list[Diagnostic]:
+        """All that is wrong with a document: one without errors compiles."""
+        return self._check(document, core_options(options))
 
 
 @functools.cache

@@ -97,3 +97,24 @@ def test_options_that_are_none_are_refused(system, documents):
         system.compile_outputs(document, "out")
     with pytest.raises(TypeError):
         system.compile_outputs(document, ["out"], live="scale")
+
+
+def test_check_says_what_compiling_would_say(system, documents):
+    assert system.check(nacre.Document.parse(documents["twice"])) == []
+    document = nacre.Document.parse(IMAGE)
+    said = system.check(document)
+    with pytest.raises(nacre.Error) as caught:
+        system.compile_outputs(document, ["out"])
+    assert [each.text for each in said] == [each.text for each in caught.value.diagnostics]
+    assert [each.severity for each in system.check(document, missing_images_pass=True)] == [
+        nacre.Severity.WARNING]
+
+
+def test_an_output_space_is_of_colours(system):
+    document = nacre.Document.parse(
+        """<materialx version="1.39"><constant name="c" type="color3">
+             <input name="value" type="color3" value="0.5, 0.5, 0.5"/></constant>
+           <output name="out" type="color3" nodename="c"/></materialx>""")
+    shader = system.compile_outputs(document, ["out"], output_space="srgb_texture")
+    # IEC 61966-2-1: 1.055 x^(1/2.4) - 0.055.
+    assert shader.run({}, count=1)["out"] == pytest.approx(0.735357, abs=2e-6)
