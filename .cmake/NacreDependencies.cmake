@@ -20,19 +20,24 @@ target_link_libraries(nacre_llvm INTERFACE ${NACRE_LLVM_LIBRARY})
 
 # Debian's OpenImageIO package configuration names OpenCV's include folder,
 # which is not installed with it; so we name header and libraries ourselves.
-find_path(NACRE_OIIO_INCLUDE OpenImageIO/imageio.h REQUIRED)
-find_library(NACRE_OIIO_LIBRARY OpenImageIO REQUIRED)
-find_library(NACRE_OIIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
-add_library(nacre_oiio INTERFACE)
-target_include_directories(nacre_oiio SYSTEM INTERFACE ${NACRE_OIIO_INCLUDE} ${NACRE_OIIO_INCLUDE}/Imath)
-target_link_libraries(nacre_oiio INTERFACE ${NACRE_OIIO_LIBRARY} ${NACRE_OIIO_UTIL_LIBRARY})
+if(NACRE_WITH_OPENIMAGEIO)
+  find_path(NACRE_OIIO_INCLUDE OpenImageIO/imageio.h REQUIRED)
+  find_library(NACRE_OIIO_LIBRARY OpenImageIO REQUIRED)
+  find_library(NACRE_OIIO_UTIL_LIBRARY OpenImageIO_Util REQUIRED)
+  add_library(nacre_oiio INTERFACE)
+  target_include_directories(nacre_oiio SYSTEM INTERFACE
+    ${NACRE_OIIO_INCLUDE} ${NACRE_OIIO_INCLUDE}/Imath)
+  target_link_libraries(nacre_oiio INTERFACE ${NACRE_OIIO_LIBRARY} ${NACRE_OIIO_UTIL_LIBRARY})
+endif()
 
 # Debian's OpenColorIO package has no CMake configuration.
-find_path(NACRE_OCIO_INCLUDE OpenColorIO/OpenColorIO.h REQUIRED)
-find_library(NACRE_OCIO_LIBRARY OpenColorIO REQUIRED)
-add_library(nacre_opencolorio INTERFACE)
-target_include_directories(nacre_opencolorio SYSTEM INTERFACE ${NACRE_OCIO_INCLUDE})
-target_link_libraries(nacre_opencolorio INTERFACE ${NACRE_OCIO_LIBRARY})
+if(NACRE_WITH_OPENCOLORIO)
+  find_path(NACRE_OCIO_INCLUDE OpenColorIO/OpenColorIO.h REQUIRED)
+  find_library(NACRE_OCIO_LIBRARY OpenColorIO REQUIRED)
+  add_library(nacre_opencolorio INTERFACE)
+  target_include_directories(nacre_opencolorio SYSTEM INTERFACE ${NACRE_OCIO_INCLUDE})
+  target_link_libraries(nacre_opencolorio INTERFACE ${NACRE_OCIO_LIBRARY})
+endif()
 
 if(NACRE_BUILD_TESTS)
   find_package(GTest REQUIRED)

@@ -1,11 +1,11 @@
-#include <dlfcn.h>
 #include <nacre/nacre.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <system_error>
+
+#include "runtime/own_file.h"
 
 namespace nacre::api {
 
@@ -13,28 +13,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool has_library(const fs::path& folder) {
-  std::error_code ignored;
-  return fs::is_regular_file(folder / "stdlib" / "stdlib_defs.mtlx", ignored);
-}
+/// What every data library has.
+constexpr const char* known_file = "stdlib/stdlib_defs.mtlx";
 
 /// From the place of the library, or of the program that has it inside: "" if it is not there.
 std::string find() {
   if (const char* named = std::getenv("NACRE_MATERIALX_LIBRARIES");
       named != nullptr && *named != '\0') {
     // When set it is the only answer, so that a wrong value is noticed.
-    return has_library(named) ? std::string(named) : std::string();
+    std::error_code ignored;
+    return fs::is_regular_file(fs::path(named) / known_file, ignored) ? named : "";
   }
-  Dl_info here{};
-  if (::dladdr(reinterpret_cast<const void*>(&nacre_data_library), &here) == 0) return {};
-  std::error_code ignored;
-  const fs::path folder = fs::weakly_canonical(here.dli_fname, ignored).parent_path();
-  // From lib and lib/x86_64-linux-gnu; from a build, where the configured one is.
-  for (const std::string_view up : {"../share", "../../share"}) {
-    const fs::path place = (folder / up / "nacre" / "libraries").lexically_normal();
-    if (has_library(place)) return place;
-  }
-  return has_library(NACRE_MATERIALX_LIBRARIES_DIR) ? NACRE_MATERIALX_LIBRARIES_DIR : "";
+  // A build uses the one that it was configured with.
+  const fs::path found = find_own_file({fs::path("share/nacre/libraries") / known_file,
+                                        fs::path(NACRE_MATERIALX_LIBRARIES_DIR) / known_file});
+  return found.parent_path().parent_path();
 }
 
 }  // namespace

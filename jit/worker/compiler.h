@@ -43,7 +43,7 @@ std::unique_ptr<Compiler> make_compiler_apart(std::filesystem::path program,
                                               const WorkerLimits& limits = {});
 
 /// The nacre-compile-worker that came with this library or tool: what NACRE_COMPILE_WORKER
-/// names, or beside it, or where it is installed. Empty if there is none.
+/// names, or from where that lies (runtime/own_file.h). Empty if there is none.
 std::filesystem::path find_worker();
 
 }  // namespace nacre
