@@ -12,6 +12,8 @@
 
 namespace nacre {
 
+class ImageDecoder;
+
 /// Numbers of the file, as far as the choice of a texel format goes.
 enum class SampleType { unsigned8, unsigned16, half, floating };
 
@@ -27,8 +29,9 @@ struct ImageInfo {
 };
 
 /// One image of a file, decoded row by row: the only reader of images there is, for
-/// textures, environments and whatever else. Values are the file's own: integers become
-/// value / largest, alpha is not multiplied in (where the format says whether it was).
+/// textures, environments and whatever else. The first one loads OpenImageIO. Values are the file's
+/// own: integers become value / largest, alpha is not multiplied in (where the format says whether
+/// it was).
 ///
 /// `layer` names a subimage (a part of an EXR, or a number for the pages of a TIFF), or
 /// else the channels "layer.*". Empty: the first subimage, its first channels. A depth
@@ -54,12 +57,10 @@ class ImageReader {
   std::optional<Diagnostic> read(const std::function<void(int, const float*)>& row);
 
  private:
-  struct Open;
   std::optional<Diagnostic> open_image(const std::string& layer, const ImageLimits& limits);
-  std::optional<Diagnostic> read_rows(const std::function<void(int, const float*)>& row);
   std::optional<Diagnostic> guarded(const std::function<std::optional<Diagnostic>()>& work);
 
-  std::unique_ptr<Open> open_;
+  std::unique_ptr<ImageDecoder> decoder_;
   std::string path_;
   ImageInfo info_;
   Stop stop_;

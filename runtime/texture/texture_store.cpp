@@ -123,11 +123,10 @@ TextureHandle TextureStore::open_tiled(const TextureKey& key, const ImageInfo& i
   std::shared_ptr<TileCache> cache;
   {
     const std::lock_guard lock(mutex_);
-    if (!tile_cache_)
-      tile_cache_ = std::make_shared<TileCache>(options_.tile_memory, options_.limits);
+    if (!tile_cache_) tile_cache_ = TileCache::make(options_.tile_memory, options_.limits);
     cache = tile_cache_;
   }
-  auto file = cache->open(key.path, info);
+  auto file = cache ? cache->open(key.path, info) : nullptr;
   if (!file) {
     return std::make_shared<Texture>(
         image_error("broken-image", key.path, "the image cannot be opened in the tile cache"));

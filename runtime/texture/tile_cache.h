@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "runtime/texture/image_io.h"
 
@@ -14,36 +16,45 @@ namespace nacre {
 class TileCache {
  public:
   /// A file of the cache; valid while the cache lives.
-  struct File;
+  struct File {
+    /// Sizes of the full window.
+    struct Level {
+      int width = 0;
+      int height = 0;
+    };
+    std::vector<Level> levels;  ///< At least one, the finest first.
+  };
 
-  /// Tiles of all files together stay within the budget.
-  TileCache(std::uint64_t budget_bytes, const ImageLimits& limits);
-  ~TileCache();
+  /// Tiles of all files together stay within the budget. Null where images cannot be read.
+  static std::shared_ptr<TileCache> make(std::uint64_t budget_bytes, const ImageLimits& limits);
+  TileCache() = default;
+  virtual ~TileCache() = default;
   TileCache(const TileCache&) = delete;
   TileCache& operator=(const TileCache&) = delete;
 
   /// Null when the cache cannot open the file. `info` as an ImageReader gave it. Tiles are
   /// of that file alone: once another has its name, or it was written again, what is not in
   /// the cache yet cannot be read any more.
-  std::shared_ptr<File> open(const std::string& path, const ImageInfo& info);
+  virtual std::shared_ptr<File> open(const std::string& path, const ImageInfo& info) = 0;
 
   /// At least 1.
-  static int level_count(const File& file);
+  static int level_count(const File& file) { return static_cast<int>(file.levels.size()); }
   /// Of the full window, at a level less than level_count().
-  static int width(const File& file, int level);
+  static int width(const File& file, int level) {
+    return file.levels[static_cast<std::size_t>(level)].width;
+  }
   /// Of the full window, at a level less than level_count().
-  static int height(const File& file, int level);
+  static int height(const File& file, int level) {
+    return file.levels[static_cast<std::size_t>(level)].height;
+  }
 
   /// Pixels [x0, x1) x [y0, y1) of a level into `samples`, channels together, y from the
   /// TOP; the range lies inside the level. False: the file could not be read there.
-  bool read(const File& file, int level, int x0, int x1, int y0, int y1, float* samples) const;
+  virtual bool read(const File& file, int level, int x0, int x1, int y0, int y1,
+                    float* samples) const = 0;
 
   /// How often `read` gave false.
-  std::uint64_t read_failures() const;
-
- private:
-  struct Cache;
-  std::unique_ptr<Cache> cache_;
+  virtual std::uint64_t read_failures() const = 0;
 };
 
 }  // namespace nacre

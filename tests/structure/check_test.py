@@ -80,6 +80,11 @@ class Checks(unittest.TestCase):
         self.write("jit/graph/bad.cpp", "#include <pugixml.hpp>\n")
         self.assert_finds(dependencies.quarantine, "jit/graph/bad.cpp:1:")
 
+    def test_openimageio_outside_its_module(self):
+        self.write("runtime/texture/openimageio/good.cpp", "#include <OpenImageIO/imageio.h>\n")
+        self.write("runtime/texture/bad.cpp", "#include <OpenImageIO/imageio.h>\n")
+        self.assert_finds(dependencies.quarantine, "runtime/texture/bad.cpp:1:")
+
     def test_embree_outside_examples(self):
         self.write("runtime/bad.cpp", "#include <embree3/rtcore.h>\n")
         self.assert_finds(dependencies.quarantine, "runtime/bad.cpp:1:")

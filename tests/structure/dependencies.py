@@ -28,7 +28,9 @@ JIT_STAGES = ("jit/document", "jit/graph/look", "jit/graph", "jit/graph/color",
 
 # Start of an include from outside -> the folders that may have it.
 QUARANTINE = {
-    "OpenColorIO/": ("jit/ocio", "tests/jit/ocio"),
+    "OpenColorIO/": ("jit/ocio/opencolorio", "tests/jit/ocio"),
+    "OpenImageIO/": ("bench/textures", "examples/image_writer", "runtime/texture/openimageio",
+                     "tests/examples", "tests/runtime/texture"),
     "benchmark/": ("bench",),
     "embree": ("examples",),
     "gtest/": ("tests",),

@@ -8,8 +8,7 @@ import tree
 MOST_LINES = 500
 
 # Calls of CMake whose arguments are a list in alphabetical order, and how many come first.
-SORTED_CALLS = {"nacre_bench": 1, "nacre_library": 1, "nacre_module": 1, "nacre_public_headers": 0,
-                "nacre_test": 1}
+SORTED_CALLS = {"nacre_bench": 1, "nacre_library": 1, "nacre_module": 1, "nacre_test": 1}
 KEYWORDS = {"CONCURRENT", "FULL"}
 
 # Folders of tests that are of more than one folder of the project.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <thread>
 #include <vector>
 
 #include "runtime/texture/image_format.h"
@@ -226,6 +228,25 @@ TEST_F(ImageIo, LimitsHold) {
   EXPECT_EQ(code_of(file("a.png"), "", with(&ImageLimits::max_file_bytes, file_bytes)), "");
   EXPECT_EQ(code_of(file("a.png"), "", with(&ImageLimits::max_file_bytes, file_bytes - 1)),
             "image-too-large");
+}
+
+/// Who comes first loads what reads images, the others wait for it.
+TEST_F(ImageIo, TheFirstImageByManyThreads) {
+  const TestImage image = random_image(5, 7, 3, 255);
+  ASSERT_TRUE(write_image(file("a.png"), image));
+  std::array<std::vector<float>, 8> read;
+  {
+    std::vector<std::jthread> threads;
+    for (std::vector<float>& samples : read) {
+      threads.emplace_back([&samples, path = file("a.png")] {
+        ImageReader reader;
+        if (reader.open(path, "", {})) return;
+        (void)reader.read(
+            [&](int, const float* row) { samples.insert(samples.end(), row, row + 15); });
+      });
+    }
+  }
+  for (const std::vector<float>& samples : read) EXPECT_EQ(samples, image.samples);
 }
 
 }  // namespace

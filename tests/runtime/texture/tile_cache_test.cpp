@@ -25,14 +25,15 @@ TEST(TileCacheTest, AnEarlierRowIsOfTheSameFile) {
     std::vector<float> all;
     ASSERT_FALSE(reader.read(
         [&](int, const float* samples) { all.insert(all.end(), samples, samples + row); }));
-    TileCache cache(std::uint64_t{16} << 20, {});
-    const auto file = cache.open(path, reader.info());
+    const auto cache = TileCache::make(std::uint64_t{16} << 20, {});
+    ASSERT_NE(cache, nullptr);
+    const auto file = cache->open(path, reader.info());
     ASSERT_NE(file, nullptr) << name;
     std::vector<float> tiles(tile * row);
-    ASSERT_TRUE(cache.read(*file, 0, 0, side, side - tile, side, tiles.data())) << name;
+    ASSERT_TRUE(cache->read(*file, 0, 0, side, side - tile, side, tiles.data())) << name;
     EXPECT_TRUE(std::equal(tiles.begin(), tiles.end(), all.end() - tile * row)) << name;
     write_file(path, "something else");
-    ASSERT_TRUE(cache.read(*file, 0, 0, side, 0, tile, tiles.data())) << name;
+    ASSERT_TRUE(cache->read(*file, 0, 0, side, 0, tile, tiles.data())) << name;
     EXPECT_TRUE(std::equal(tiles.begin(), tiles.end(), all.begin())) << name;
   }
 }

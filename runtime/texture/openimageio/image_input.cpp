@@ -1,4 +1,4 @@
-#include "runtime/texture/image_input.h"
+#include "runtime/texture/openimageio/image_input.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -72,9 +72,6 @@ Essence essence_of(ImageFormat format) {
 /// LZMA and Zstandard. Others are old, broken, or for faxes.
 constexpr std::array tiff_packings{1, 5, 7, 8, 32946, 32773, 34925, 50000};
 
-constexpr std::uint64_t always_taken = std::uint64_t{256} << 20;  // Bytes in memory.
-constexpr std::uint64_t no_coder_packs = 8192;                    // Bytes into one.
-
 bool within(int value, int limit) { return value >= 1 && value <= limit; }
 
 std::uint64_t area(int width, int height) {
@@ -119,36 +116,6 @@ std::optional<Diagnostic> check_bytes(const OIIO::ImageSpec& spec, const ImageFi
 }
 
 }  // namespace
-
-std::optional<Diagnostic> check_image_size(const std::string& path, std::int64_t width,
-                                           std::int64_t height, const ImageLimits& limits) {
-  if (width >= 1 && width <= limits.max_size && height >= 1 && height <= limits.max_size) {
-    return std::nullopt;
-  }
-  return image_error("image-too-large", path, "the size of the image is outside the limits",
-                     fmt::format("1 to {} on either side", limits.max_size),
-                     fmt::format("{} x {}", width, height));
-}
-
-std::optional<Diagnostic> check_image_bytes(const ImageFile& file, const PixelBytes& bytes,
-                                            const ImageLimits& limits) {
-  if (bytes.decoded > limits.max_bytes) {
-    return too_large(file, "the image is too large",
-                     fmt::format("at most {} bytes of pixels", limits.max_bytes),
-                     fmt::format("{}", bytes.decoded));
-  }
-  if (bytes.kept / no_coder_packs > file.bytes()) {
-    return broken_image(file.path(), "the header promises more than the file can hold");
-  }
-  if (bytes.in_memory > always_taken &&
-      bytes.decoded / std::max<std::uint64_t>(1, limits.max_expansion) > file.bytes()) {
-    return too_large(
-        file, "a large image comes from a file that is too small for it",
-        fmt::format("at most {} bytes of pixels for each byte of the file", limits.max_expansion),
-        fmt::format("{}", bytes.decoded / file.bytes()));
-  }
-  return std::nullopt;
-}
 
 bool GuardedInput::seek(int subimage, int level) {
   const bool has_one = essence_of(file->format()) != nullptr;

@@ -10,8 +10,7 @@
 #include "runtime/stop.h"
 #include "runtime/texture/image_file.h"
 
-/// The one place that hands files to OpenImageIO. Only image_input.cpp, image_io.cpp and
-/// tile_cache.cpp see its headers.
+/// The one place that hands files to OpenImageIO, whose headers no file outside this folder sees.
 namespace nacre {
 
 /// A reader with what it reads from.
