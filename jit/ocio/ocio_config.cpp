@@ -1,170 +1,41 @@
 #include "jit/ocio/ocio_config.h"
 
-#include <OpenColorIO/OpenColorIO.h>
-
-#include <algorithm>
-#include <array>
-#include <exception>
-#include <map>
-#include <mutex>
+#include <system_error>
 #include <utility>
-#include <vector>
 
+#include "jit/ocio/ocio_module.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {
 
-namespace {
-
-namespace ocio = OCIO_NAMESPACE;
-
-/// No logging while it lives. The level belongs to the whole process, so it is lent to
-/// one of us at a time.
-class Quiet {
- public:
-  Quiet() : lock_(mutex()), level_(ocio::GetLoggingLevel()) {
-    ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);
-  }
-  ~Quiet() { ocio::SetLoggingLevel(level_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-
-  std::lock_guard<std::mutex> lock_;
-  ocio::LoggingLevel level_;
-};
-
-/// OpenColorIO's reason on one line.
-std::string reason(const std::exception& exception) {
-  std::string text = exception.what();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text.empty() ? "no reason given by OpenColorIO" : text;
-}
-
-/// Tetrahedral interpolation is worked out in the text, from texels read at their
-/// centres.
-TextTable::Filter filter_of(ocio::Interpolation interpolation) {
-  const bool is_nearest =
-      interpolation == ocio::INTERP_NEAREST || interpolation == ocio::INTERP_TETRAHEDRAL;
-  return is_nearest ? TextTable::Filter::nearest : TextTable::Filter::linear;
-}
-
-TextTable make_table(const char* name, std::array<std::size_t, 3> size, std::size_t channels,
-                     ocio::Interpolation interpolation, const float* values) {
-  TextTable table{name, size, channels, filter_of(interpolation), nullptr};
-  const std::size_t count = channels * size[0] * size[1] * size[2];
-  table.values = std::make_shared<TableValues>(std::vector<float>(values, values + count));
-  return table;
-}
-
-std::vector<TextTable> tables_of(const ocio::GpuShaderDesc& shader) {
-  std::vector<TextTable> tables;
-  const char* texture = nullptr;
-  const char* sampler = nullptr;
-  ocio::Interpolation interpolation = ocio::INTERP_LINEAR;
-  const float* values = nullptr;
-  for (unsigned i = 0; i < shader.getNumTextures(); ++i) {
-    unsigned width = 0, height = 0;
-    auto kind = ocio::GpuShaderDesc::TEXTURE_RGB_CHANNEL;
-    shader.getTexture(i, texture, sampler, width, height, kind, interpolation);
-    shader.getTextureValues(i, values);
-    const std::size_t channels = kind == ocio::GpuShaderDesc::TEXTURE_RED_CHANNEL ? 1 : 3;
-    tables.push_back(
-        make_table(sampler, {width, std::max(height, 1u), 1}, channels, interpolation, values));
-  }
-  for (unsigned i = 0; i < shader.getNum3DTextures(); ++i) {
-    unsigned edge = 0;
-    shader.get3DTexture(i, texture, sampler, edge, interpolation);
-    shader.get3DTextureValues(i, values);
-    tables.push_back(make_table(sampler, {edge, edge, edge}, 3, interpolation, values));
-  }
-  return tables;
-}
-
-class OcioConfig : public ColorConfig {
- public:
-  OcioConfig(std::string name, ocio::ConstConfigRcPtr config)
-      : name_(std::move(name)), config_(std::move(config)) {}
-
-  std::string name() const override { return name_; }
-
-  std::optional<Space> find(std::string_view name) const override {
-    const auto space = config_->getColorSpace(std::string(name).c_str());
-    if (space == nullptr) return std::nullopt;
-    return Space{space->getName(), space->isData()};
-  }
-
-  std::shared_ptr<const ColorTransform> transform(const std::string& from, const std::string& to,
-                                                  std::string& fault) const override {
-    const std::lock_guard lock(mutex_);
-    auto& known = transforms_[{from, to}];
-    if (known == nullptr) known = make(from, to, fault);
-    return known;
-  }
-
- private:
-  std::shared_ptr<const ColorTransform> make(const std::string& from, const std::string& to,
-                                             std::string& fault) const {
-    const Quiet quiet;
-    try {
-      const auto processor =
-          config_->getProcessor(from.c_str(), to.c_str())
-              ->getOptimizedGPUProcessor(static_cast<ocio::OptimizationFlags>(
-                  ocio::OPTIMIZATION_LOSSLESS | ocio::OPTIMIZATION_NO_DYNAMIC_PROPERTIES));
-      auto shader = ocio::GpuShaderDesc::CreateShaderDesc();
-      shader->setLanguage(ocio::GPU_LANGUAGE_GLSL_4_0);
-      shader->setFunctionName("color_transform");
-      processor->extractGpuShaderInfo(shader);
-      if (shader->getNumUniforms() != 0) {
-        fault = "it has properties that change from frame to frame";
-        return nullptr;
-      }
-      auto made = std::make_shared<ColorTransform>();
-      made->text = shader->getShaderText();
-      made->function = "color_transform";
-      made->tables = tables_of(*shader);
-      return made;
-    } catch (const std::exception& exception) {
-      fault = reason(exception);
-      return nullptr;
-    }
-  }
-
-  std::string name_;
-  ocio::ConstConfigRcPtr config_;
-  mutable std::mutex mutex_;
-  mutable std::map<std::pair<std::string, std::string>, std::shared_ptr<const ColorTransform>>
-      transforms_;
-};
-
-}  // namespace
-
 std::shared_ptr<const ColorConfig> load_ocio_config(const std::filesystem::path& path,
                                                     Diagnostics& diagnostics) {
   const ScopedDefaultFloatEnvironment environment;
-  const auto fail = [&](const std::string& found) {
-    diagnostics.error("bad-color-config", {path.string(), 0, 0, {}},
-                      "the OpenColorIO configuration cannot be read", "a file config.ocio", found);
+  const auto fail = [&](std::string code, std::string message, std::string expected,
+                        std::string found) {
+    diagnostics.error(std::move(code), {path.string(), 0, 0, {}}, std::move(message),
+                      std::move(expected), std::move(found));
     return nullptr;
   };
+  const auto bad = [&](std::string found) {
+    return fail("bad-color-config", "the OpenColorIO configuration cannot be read",
+                "a file config.ocio", std::move(found));
+  };
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return fail("no such file");
-  const Quiet quiet;
-  try {
-    // OpenColorIO keeps tables by their files' names, however old; one that is opened
-    // again has what its files hold now.
-    ocio::ClearAllCaches();
-    return std::make_shared<OcioConfig>(path.string(),
-                                        ocio::Config::CreateFromFile(path.string().c_str()));
-  } catch (const std::exception& exception) {
-    return fail(reason(exception));
+  if (!std::filesystem::is_regular_file(path, error)) return bad("no such file");
+  if (!NACRE_WITH_OPENCOLORIO) {
+    return fail("no-color-reader", "this build of Nacre knows no OpenColorIO configurations",
+                "one with OpenColorIO", "NACRE_WITH_OPENCOLORIO=OFF");
   }
+  ModuleFault fault;
+  const ModuleHead* const module = open_module("nacre_colors", fault);
+  if (module == nullptr) {
+    return fail("no-color-reader", "what reads OpenColorIO configurations cannot be loaded",
+                std::move(fault.expected), std::move(fault.found));
+  }
+  std::string found;
+  auto config = static_cast<const OcioModule*>(module)->load(path.string(), found);
+  return config == nullptr ? bad(std::move(found)) : config;
 }
 
 }  // namespace nacre

@@ -10,7 +10,8 @@ namespace nacre {
 
 /// The colour spaces of an OpenColorIO configuration, a file config.ocio. Null, with a
 /// diagnostic, if it cannot be read. Look-up tables that it names are read when a
-/// transform that needs them is asked for first.
+/// transform that needs them is asked for first. OpenColorIO itself is loaded by the first
+/// configuration.
 ///
 /// Transforms are those that OpenColorIO gives to graphics cards, optimised without
 /// loss: what it has no exact form for there it approximates, which is the inverse of
