@@ -5,12 +5,12 @@
 namespace nacre::host {
 
 const Format* format_of(std::string_view extension) {
-  using OIIO::TypeDesc;
-  constexpr TypeDesc unknown = TypeDesc::UNKNOWN;
+  using enum SampleType;
+  constexpr auto none = std::nullopt;
   static const std::array formats = std::to_array<Format>({
-      {".exr", "openexr", 32, unknown, TypeDesc::HALF, TypeDesc::FLOAT, false},
-      {".png", "png", 8, TypeDesc::UINT8, TypeDesc::UINT16, unknown, true},
-      {".tx", "tiff", 32, unknown, TypeDesc::HALF, TypeDesc::FLOAT, false},
+      {".exr", ImageKind::exr, 32, none, half, floating, false},
+      {".png", ImageKind::png, 8, unsigned8, unsigned16, none, true},
+      {".tx", ImageKind::tx, 32, none, half, floating, false},
   });
   for (const Format& format : formats) {
     if (format.extension == extension) return &format;
@@ -18,12 +18,12 @@ const Format* format_of(std::string_view extension) {
   return nullptr;
 }
 
-OIIO::TypeDesc type_of(const Format& format, int bits) {
+std::optional<SampleType> type_of(const Format& format, int bits) {
   switch (bits == 0 ? format.default_bits : bits) {
     case 8: return format.of_8;
     case 16: return format.of_16;
     case 32: return format.of_32;
-    default: return OIIO::TypeDesc::UNKNOWN;
+    default: return std::nullopt;
   }
 }
 

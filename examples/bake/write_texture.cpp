@@ -1,8 +1,5 @@
 #include "examples/bake/write_texture.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,10 +9,9 @@
 #include <memory>
 #include <optional>
 
-#include "examples/bake/copy_levels.h"
 #include "examples/bake/texture_format.h"
 #include "examples/common/atomic_file.h"
-#include "examples/common/checked_file.h"
+#include "examples/common/image_writer.h"
 #include "examples/common/srgb.h"
 #include "jit/graph/color/colorspace.h"
 
@@ -74,24 +70,22 @@ struct Job {
   bool is_direction() const {
     return encoding.is_direction || (encoding.encodes_vectors && is_vector(output().type));
   }
-  OIIO::TypeDesc type() const { return type_of(format, encoding.bits); }
+  std::optional<SampleType> type() const { return type_of(format, encoding.bits); }
   bool is_srgb() const {
     return host::is_srgb(
         texture_colorspace(output().type, std::string(format.extension), encoding));
   }
 };
 
-OIIO::ImageSpec spec_of(const Job& job) {
-  const int channels = job.channels();
-  OIIO::ImageSpec spec(job.settings.width, job.settings.height, channels, job.type());
-  spec.channelnames = channel_names(channels);
-  spec.attribute("compression", "zip");
-  // A fourth channel is a number like the others: nothing is multiplied by it.
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  spec.attribute("oiio:ColorSpace", job.file_colorspace());
-  spec.attribute("DateTime", "");  // Else the writers note the time.
-  spec.attribute("tiff:half", 1);  // Else 16-bit floats become 32-bit ones.
-  return spec;
+ImageHeader header_of(const Job& job) {
+  return {.kind = job.format.kind,
+          .width = job.settings.width,
+          .height = job.settings.height,
+          .channels = channel_names(job.channels()),
+          .samples = job.type().value(),
+          .colorspace = job.file_colorspace(),
+          .is_multiplied = false,  // A fourth channel is a number like the others.
+          .repeats = !job.encoding.is_tile};
 }
 
 void widen(TexelRange& range, const std::vector<float>& texels, std::size_t channels) {
@@ -132,7 +126,7 @@ BakeResult bake_encoded(const Job& job, const std::function<bool(const BakedRows
   const auto channels = static_cast<std::size_t>(job.channels());
   const bool srgb = job.is_srgb();
   const bool direction = job.is_direction();
-  const bool is_half = job.type() == OIIO::TypeDesc::HALF;
+  const bool is_half = job.type() == SampleType::half;
   BakedRows encoded;
   const auto encode = [&](const BakedRows& rows) {
     encoded = chosen_channels(job, rows);
@@ -166,50 +160,15 @@ std::string reason(BakeResult result, const std::string& unwritten) {
   return unwritten;
 }
 
-/// Rows to an open file, in the file's own format.
-std::string write_rows(const Job& job, const std::string& file) {
-  CheckedFile written(file);
-  const auto out = OIIO::ImageOutput::create(job.format.plugin);
-  if (out == nullptr) return failure(OIIO::geterror());
-  out->set_ioproxy(&written);
-  if (!out->open(file, spec_of(job))) return failure(out->geterror());
+/// "", or why there is no such file.
+std::string write_image(const Job& job, const std::string& file) {
+  std::string problem;
+  const auto image = open_image(file, header_of(job), problem);
+  if (image == nullptr) return problem;
   const BakeResult result = bake_encoded(job, [&](const BakedRows& rows) {
-    return out->write_scanlines(rows.first, rows.first + rows.rows, 0, OIIO::TypeDesc::FLOAT,
-                                rows.texels.data());
+    return image->write(rows.first, rows.rows, rows.texels.data());
   });
-  if (result != BakeResult::done) return reason(result, failure(out->geterror()));
-  const bool closed = out->close();
-  const std::string problem = written.finish();
-  return closed || !problem.empty() ? problem : failure(out->geterror());
-}
-
-std::string write_tx(const Job& job, const std::string& file) {
-  OIIO::ImageBuf image(spec_of(job));
-  const BakeResult result = bake_encoded(job, [&](const BakedRows& rows) {
-    const OIIO::ROI roi(0, job.settings.width, rows.first, rows.first + rows.rows, 0, 1, 0,
-                        image.nchannels());
-    return image.set_pixels(roi, OIIO::TypeDesc::FLOAT, rows.texels.data());
-  });
-  if (result != BakeResult::done) return reason(result, failure(image.geterror()));
-  // Else tiles lie in the order they are ready. The smaller levels have no attribute of
-  // their own for it, only the process has.
-  OIIO::attribute("tiff:multithread", 0);
-  OIIO::ImageSpec config;
-  config.attribute("maketx:highlightcomp", 0);
-  config.attribute("tiff:half", 1);
-  config.attribute("DateTime", "");
-  config.attribute("wrapmodes", job.encoding.is_tile ? "clamp,clamp" : "periodic,periodic");
-  const std::string levels = file + ".levels.tx";
-  std::string why;
-  if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image, levels, config)) {
-    why = copy_levels(levels, file);
-  } else {
-    why = OIIO::geterror();
-    if (why.empty()) why = "the texture could not be made";
-  }
-  std::error_code ignored;
-  std::filesystem::remove(levels, ignored);
-  return why;
+  return result == BakeResult::done ? image->finish() : reason(result, image->problem());
 }
 
 /// What there is to say of numbers that were cut off; nothing if there are none.
@@ -217,7 +176,7 @@ std::optional<Diagnostic> complaint_of(const Job& job, const std::string& path) 
   const Cut& cut = *job.cut;
   if (cut.count == 0) return std::nullopt;
   const bool is_refused = is_vector(job.output().type);
-  const bool is_half = job.type() == OIIO::TypeDesc::HALF;
+  const bool is_half = job.type() == SampleType::half;
   Diagnostic complaint;
   complaint.severity = is_refused ? Severity::error : Severity::warning;
   complaint.code = "out-of-range";
@@ -238,7 +197,7 @@ std::optional<Diagnostic> complaint_of(const Job& job, const std::string& path) 
 /// What makes a job impossible, or "".
 std::string fault_of(const Job& job) {
   const TextureEncoding& encoding = job.encoding;
-  if (type_of(job.format, encoding.bits) == OIIO::TypeDesc::UNKNOWN) {
+  if (!job.type()) {
     return fmt::format("a {} file does not hold {}-bit channels", job.format.extension.substr(1),
                        encoding.bits);
   }
@@ -265,9 +224,8 @@ std::unique_ptr<PartialFile> bake_to_partial_file(const OutputKernel& kernel, st
                   control, range,  &cut,     too_many_steps};
     const std::string fault = fault_of(job);
     if (!fault.empty()) return fault;
-    const std::string problem =
-        format->extension == ".tx" ? write_tx(job, file) : write_rows(job, file);
-    if (problem.empty() && (range == nullptr || job.type() == OIIO::TypeDesc::HALF)) {
+    const std::string problem = write_image(job, file);
+    if (problem.empty() && (range == nullptr || job.type() == SampleType::half)) {
       complaint = complaint_of(job, path);
     }
     return problem;

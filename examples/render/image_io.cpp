@@ -1,21 +1,22 @@
 #include "examples/render/image_io.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "examples/common/atomic_file.h"
-#include "examples/common/checked_file.h"
+#include "examples/common/image_writer.h"
 #include "examples/common/srgb.h"
 
 namespace nacre::host {
 
 namespace {
 
-std::uint8_t byte_of(float v) { return static_cast<std::uint8_t>(255.f * v + 0.5f); }
+/// As a byte holds it.
+float rounded(float v) {
+  return static_cast<float>(static_cast<std::uint8_t>(255.f * v + 0.5f)) / 255.f;
+}
 
 /// Linear radiance as a screen shows it, 0 to 1.
 Vec3 toned(Vec3 pixel, const WriteOptions& options) {
@@ -27,18 +28,18 @@ Vec3 toned(Vec3 pixel, const WriteOptions& options) {
   return {srgb_encode(rgb.x), srgb_encode(rgb.y), srgb_encode(rgb.z)};
 }
 
-std::vector<std::uint8_t> developed(const Film& film, const WriteOptions& options) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(film.pixels().size() * (film.has_alpha() ? 4 : 3));
+std::vector<float> developed(const Film& film, const WriteOptions& options) {
+  std::vector<float> values;
+  values.reserve(film.pixels().size() * (film.has_alpha() ? 4 : 3));
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) {
       const float alpha = film.alpha(x, y);
       const Vec3 rgb = toned(alpha > 0.f ? (1.f / alpha) * film.mean(x, y) : Vec3{}, options);
-      for (const float v : {rgb.x, rgb.y, rgb.z}) bytes.push_back(byte_of(v));
-      if (film.has_alpha()) bytes.push_back(byte_of(alpha));
+      for (const float v : {rgb.x, rgb.y, rgb.z}) values.push_back(rounded(v));
+      if (film.has_alpha()) values.push_back(rounded(alpha));
     }
   }
-  return bytes;
+  return values;
 }
 
 /// The linear channels, side by side.
@@ -58,22 +59,20 @@ std::vector<float> interleaved(const Film& film) {
 /// Empty when written; otherwise why not.
 std::string write_file(const Film& film, const std::string& path, bool exr,
                        const WriteOptions& options) {
-  CheckedFile written(path);
-  const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(exr ? "openexr" : "png");
-  if (!out) return failure(OIIO::geterror());
-  out->set_ioproxy(&written);
-  const OIIO::TypeDesc type =
-      !exr ? OIIO::TypeDesc::UINT8 : (options.half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-  OIIO::ImageSpec spec(film.width(), film.height(), film.has_alpha() ? 4 : 3, type);
-  spec.attribute("oiio:ColorSpace", exr ? "Linear" : "sRGB");
-  spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // Else the writer notes the time.
-  if (!exr) spec.attribute("oiio:UnassociatedAlpha", 1);
-  if (!out->open(path, spec)) return failure(out->geterror());
-  const bool ok = exr ? out->write_image(OIIO::TypeDesc::FLOAT, interleaved(film).data())
-                      : out->write_image(OIIO::TypeDesc::UINT8, developed(film, options).data());
-  if (!ok || !out->close()) return failure(out->geterror());
-  return written.finish();
+  ImageHeader header{.kind = exr ? ImageKind::exr : ImageKind::png,
+                     .width = film.width(),
+                     .height = film.height(),
+                     .channels = {"R", "G", "B"},
+                     .samples = SampleType::unsigned8,
+                     .colorspace = exr ? "Linear" : "sRGB",
+                     .is_multiplied = exr};
+  if (exr) header.samples = options.half ? SampleType::half : SampleType::floating;
+  if (film.has_alpha()) header.channels.emplace_back("A");
+  std::string problem;
+  const auto image = open_image(path, header, problem);
+  if (image == nullptr) return problem;
+  const std::vector<float> pixels = exr ? interleaved(film) : developed(film, options);
+  return image->write(0, film.height(), pixels.data()) ? image->finish() : image->problem();
 }
 
 }  // namespace

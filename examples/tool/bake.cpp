@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "examples/bake/write_texture.h"
-#include "examples/common/atomic_file.h"
+#include "examples/common/image_writer.h"
 #include "examples/tool/bake_document.h"
 #include "examples/tool/file_stems.h"
 #include "examples/tool/material_inputs.h"
@@ -140,7 +140,7 @@ void bake_outputs(const BakeOptions& options, const Opened& opened,
   for (const Piece& piece : all) {
     promise_files(piece.files);
     for (const std::string& file : piece.files) {
-      if (!host::prepare_output(file, diagnostics)) return;
+      if (!host::prepare_image(file, diagnostics)) return;
     }
   }
   PlaneReads reads(diagnostics);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "examples/common/atomic_file.h"
+#include "examples/common/image_writer.h"
 #include "examples/tool/baked_document.h"
 #include "examples/tool/file_stems.h"
 #include "examples/tool/plane_reads.h"
@@ -192,7 +193,7 @@ class MaterialBaker {
                                                const host::BakeSettings& settings,
                                                const TextureSettings& texture, const fs::path& file,
                                                host::TexelRange& range) {
-    if (!host::prepare_output(file.string(), diagnostics_)) return nullptr;
+    if (!host::prepare_image(file.string(), diagnostics_)) return nullptr;
     ProgressLine line(file.stem().string(), options_.quiet);
     const host::BakeControl control{.stop = stop().token(),
                                     .progress = [&](double share) { line.update(share); }};

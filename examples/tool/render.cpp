@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "examples/common/atomic_file.h"
+#include "examples/common/image_writer.h"
 #include "examples/render/builtin_scene.h"
 #include "examples/render/camera.h"
 #include "examples/render/image_io.h"
@@ -189,7 +189,7 @@ int run(RenderOptions& options) {
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
   if (!host::is_image_name(options.out, diagnostics) ||
-      !host::prepare_output(options.out, diagnostics)) {
+      !host::prepare_image(options.out, diagnostics)) {
     return report(diagnostics);
   }
   host::Scene world = scene(options, diagnostics);

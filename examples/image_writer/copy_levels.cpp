@@ -1,4 +1,4 @@
-#include "examples/bake/copy_levels.h"
+#include "examples/image_writer/copy_levels.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "examples/common/checked_file.h"
+#include "examples/image_writer/spec.h"
 
 namespace nacre::host {
 

@@ -8,12 +8,6 @@
 
 namespace nacre::host {
 
-/// What went wrong, for what certainly did: some writers fail without a word, and "" would
-/// mean that nothing did.
-inline std::string failure(const std::string& words) {
-  return words.empty() ? "the image could not be written" : words;
-}
-
 /// A file that OpenImageIO writes through and that remembers what went wrong: its PNG
 /// writer drops every error of the system (a full disk), OpenEXR's those while it closes.
 class CheckedFile final : public OIIO::Filesystem::IOProxy {

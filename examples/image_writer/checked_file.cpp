@@ -1,4 +1,4 @@
-#include "examples/common/checked_file.h"
+#include "examples/image_writer/checked_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,0 +1,63 @@
+#include "examples/image_writer/levels.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "examples/image_writer/copy_levels.h"
+#include "examples/image_writer/spec.h"
+
+namespace nacre::host {
+
+namespace {
+
+class LevelWriter final : public ImageWriter {
+ public:
+  LevelWriter(std::string file, const ImageHeader& header)
+      : file_(std::move(file)), repeats_(header.repeats), image_(spec_of(header)) {}
+
+  bool write(int first, int rows, const float* samples) override {
+    const OIIO::ROI roi(0, image_.spec().width, first, first + rows, 0, 1, 0, image_.nchannels());
+    return image_.set_pixels(roi, OIIO::TypeDesc::FLOAT, samples);
+  }
+
+  std::string finish() override {
+    // Else tiles lie in the order they are ready. The smaller levels have no attribute of
+    // their own for it, only the process has.
+    OIIO::attribute("tiff:multithread", 0);
+    OIIO::ImageSpec config;
+    config.attribute("maketx:highlightcomp", 0);
+    config.attribute("tiff:half", 1);
+    config.attribute("DateTime", "");
+    config.attribute("wrapmodes", repeats_ ? "periodic,periodic" : "clamp,clamp");
+    const std::string levels = file_ + ".levels.tx";
+    std::string why;
+    if (OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image_, levels,
+                                         config)) {
+      why = copy_levels(levels, file_);
+    } else {
+      why = OIIO::geterror();
+      if (why.empty()) why = "the texture could not be made";
+    }
+    std::error_code ignored;
+    std::filesystem::remove(levels, ignored);
+    return why;
+  }
+
+  std::string problem() const override { return failure(image_.geterror()); }
+
+ private:
+  std::string file_;
+  bool repeats_;
+  OIIO::ImageBuf image_;
+};
+
+}  // namespace
+
+std::unique_ptr<ImageWriter> write_levels(const std::string& file, const ImageHeader& header) {
+  return std::make_unique<LevelWriter>(file, header);
+}
+
+}  // namespace nacre::host
