@@ -15,12 +15,21 @@ if(TARGET nacre_python)
   list(APPEND nacre_benches nacre_python)
   list(APPEND nacre_bench_programs "${PROJECT_SOURCE_DIR}/bench/python/bench_python.py")
 endif()
+set(nacre_bench_hosts startup_host)
+set(nacre_bench_tool "")
+if(TARGET nacre_tool)
+  list(APPEND nacre_bench_hosts nacre_tool)
+  set(nacre_bench_tool --tool $<TARGET_FILE:nacre_tool>)
+endif()
 add_custom_target(bench
   COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=${CMAKE_BINARY_DIR}/python"
     "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/run.py"
     --out "${nacre_bench_results}" ${nacre_bench_programs}
   COMMAND "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/report.py"
     "${nacre_bench_results}" --out "${nacre_bench_results}/report"
+  COMMAND "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/startup.py"
+    --host $<TARGET_FILE:startup_host> ${nacre_bench_tool}
+    --out "${nacre_bench_results}/report/startup.md"
   COMMAND ${CMAKE_COMMAND} -E echo "Tables and plots: ${nacre_bench_results}/report"
-  DEPENDS ${nacre_benches}
+  DEPENDS ${nacre_benches} ${nacre_bench_hosts}
   USES_TERMINAL VERBATIM)
