@@ -201,6 +201,10 @@ def hosts(run: results.Run) -> str:
                          "begin_sample_evaluate", "shade")]
     one = run.get("hosts/evaluate/one_point")
     made = run.get("hosts/instance")
+    topologies = [[live, number(figure.counters["compile_cpu_s"]), cell(figure),
+                   number(figure.counters["instance_bytes"])]
+                  for live, figure in ((live, run.get(f"hosts/topologies/{live}"))
+                                       for live in ("few", "all")) if figure]
     return ("What a host pays for the way it keeps its points: standard_surface with every number "
             "live, time for each point that is shaded. Half of the points are picked by a list, "
             "at random, and their state is kept by place in the list, but in the row half_of_state; "
@@ -212,7 +216,12 @@ def hosts(run: results.Run) -> str:
             "fractal noise of six octaves: begin alone; with albedo, emission and opacity; with "
             "normal, roughness and base colour too; those three by kernels of their own after it; "
             "begin, sample and evaluate one after another; and all at once.\n\n"
-            + table(["asked", "ns"], ways))
+            + table(["asked", "ns"], ways)
+            + "\nTwenty topologies of standard_surface compiled for a path tracer (begin, sample, "
+            "evaluate), and fifty instances of each, with a roughness of their own: processor "
+            "seconds of all compiles, nanoseconds and bytes of an instance, with few parameters "
+            "live and with all.\n\n"
+            + table(["live", "compiles, s", "instance, ns", "instance, bytes"], topologies))
 
 
 def python(run: results.Run) -> str:

@@ -19,8 +19,9 @@ namespace nacre::bench {
 
 /// See bench/common/benchmarks.h, which a host does not know.
 void register_benchmarks();
-/// Of point_results.cpp.
+/// Of point_results.cpp and topologies.cpp.
 void register_point_results();
+void register_topologies();
 
 namespace {
 
@@ -156,6 +157,7 @@ void run_instances(benchmark::State& state) {
 
 void register_benchmarks() {
   register_point_results();
+  register_topologies();
   for (const Case& host : cases) {
     for (const Entry& entry : entries) {
       const std::string name = "hosts/" + std::string(entry.name) + '/' + host.name;

@@ -21,6 +21,7 @@ std::unique_ptr<ImageWriter> open(const std::string& file, const ImageHeader& he
 }  // namespace nacre::host
 
 const nacre::ModuleHead* nacre_module() {
-  static constexpr nacre::host::ImageWriterModule module{{NACRE_BUILD_KEY, "nacre_image_writer"}, nacre::host::open};
+  static constexpr nacre::host::ImageWriterModule module{{NACRE_BUILD_KEY, "nacre_image_writer"},
+                                                         nacre::host::open};
   return &module;
 }

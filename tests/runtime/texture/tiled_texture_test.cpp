@@ -29,16 +29,16 @@ struct Lookups {
 
   void run(const TiledTexture& texture, const ReferenceModes& modes) {
     TextureLookup lookup{static_cast<int>(u.size()),
-                      u.data(),
-                      v.data(),
-                      nullptr,
-                      nullptr,
-                      nullptr,
-                      nullptr,
-                      modes.filter,
-                      modes.u,
-                      modes.v,
-                      modes.max_anisotropy};
+                         u.data(),
+                         v.data(),
+                         nullptr,
+                         nullptr,
+                         nullptr,
+                         nullptr,
+                         modes.filter,
+                         modes.u,
+                         modes.v,
+                         modes.max_anisotropy};
     if (!dudx.empty()) {
       lookup.dudx = dudx.data();
       lookup.dvdx = dvdx.data();
