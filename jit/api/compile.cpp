@@ -30,6 +30,7 @@ GraphOptions graph_options(const nacre_compile_options& asked, const Document& d
         {text_or_empty(asked.variants[i].set), text_or_empty(asked.variants[i].variant)});
   }
   if (asked.max_nodes != 0) options.max_nodes = asked.max_nodes;
+  if (asked.max_inputs != 0) options.max_inputs = asked.max_inputs;
   if (asked.geometry != nullptr) {
     Diagnostics of_the_document;  // nacre_check says them.
     options.geometry_tokens = GeometryRules(document, of_the_document).tokens_of(asked.geometry);
@@ -49,6 +50,7 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   options.compile.priority = asked.priority;
   options.compile.stop = stop_of(asked.stop);
   if (asked.max_instructions != 0) options.compile.max_instructions = asked.max_instructions;
+  if (asked.max_steps != 0) options.compile.max_steps = asked.max_steps;
   if (asked.max_seconds > 0) options.compile.max_seconds = asked.max_seconds;
   options.live = texts_of(asked.live, asked.live_count);
   options.varying = texts_of(asked.varying, asked.varying_count);

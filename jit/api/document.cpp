@@ -20,6 +20,13 @@ ReadOptions read_options(const nacre_read_options* given) {
   options.includes_anywhere = asked.includes_anywhere != 0;
   if (asked.max_file_bytes != 0) options.limits.file_bytes = asked.max_file_bytes;
   if (asked.max_total_bytes != 0) options.limits.total_bytes = asked.max_total_bytes;
+  if (asked.max_elements != 0) options.limits.elements = asked.max_elements;
+  if (asked.max_files > 0) options.limits.files = asked.max_files;
+  if (asked.max_include_depth > 0) options.limits.include_depth = asked.max_include_depth;
+  if (asked.max_xml_depth > 0) options.limits.xml_depth = asked.max_xml_depth;
+  if (asked.max_inheritance > 0) {
+    options.limits.inheritance = static_cast<std::size_t>(asked.max_inheritance);
+  }
   options.stop = stop_of(asked.stop);
   if (asked.resolver != nullptr) {
     nacre_file_resolver resolver = options_of(asked.resolver);

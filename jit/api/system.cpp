@@ -27,6 +27,10 @@ TextureOptions texture_options(const nacre_system_options& asked) {
   if (asked.max_image_size != 0) options.limits.max_size = asked.max_image_size;
   if (asked.max_image_bytes != 0) options.limits.max_bytes = asked.max_image_bytes;
   if (asked.max_image_file_bytes != 0) options.limits.max_file_bytes = asked.max_image_file_bytes;
+  if (asked.max_image_channels > 0) options.limits.max_channels = asked.max_image_channels;
+  if (asked.max_image_layers > 0) options.limits.max_layers = asked.max_image_layers;
+  if (asked.max_image_expansion != 0) options.limits.max_expansion = asked.max_image_expansion;
+  if (asked.max_image_tiles != 0) options.tiles.max_tiles = asked.max_image_tiles;
   if (asked.textures != nullptr) options.system = host_texture_system(*asked.textures);
   if (asked.allocator != nullptr) options.memory = host_memory(*asked.allocator);
   return options;

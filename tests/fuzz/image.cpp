@@ -18,7 +18,7 @@ const fuzz::MemoryFile& file() {
   return file;
 }
 
-void look_up(const TiledTexture& texture) {
+void look_up(const TextureSampler& texture) {
   const std::vector<float> u{-0.5f, 0.1f, 0.5f, 0.99f};
   const std::vector<float> zero(u.size());
   std::vector<std::vector<float>> rgba(4, std::vector<float>(u.size()));

@@ -67,14 +67,47 @@ TEST(ApiOptions, LimitsAreErrors) {
              "type=\"float\" nodename=\"n" + std::to_string(i - 1) + "\"/></sin>";
   }
   chain += R"(<output name="out" type="float" nodename="n19"/></materialx>)";
+  const std::string noise = R"(<materialx version="1.39"><noise3d name="n" type="float"/>
+    <output name="out" type="float" nodename="n"/></materialx>)";
   CompileOptions options;
   options.engine = NACRE_INTERPRETER;
   EXPECT_EQ(fault_of(chain, options), "");
   options.max_nodes = 10;
   EXPECT_NE(fault_of(chain, options), "");
-  ReadOptions reading;
-  reading.max_file_bytes = 100;
-  EXPECT_THROW(Document::parse(chain, "chain.mtlx", reading), Error);
+  options.max_nodes = 0;
+  options.max_inputs = 1;
+  EXPECT_EQ(fault_of(chain, options), "");
+  const std::string two = R"(<materialx version="1.39"><add name="a" type="float">
+    <input name="in1" type="float" value="1"/></add>
+    <output name="out" type="float" nodename="a"/></materialx>)";
+  EXPECT_NE(fault_of(two, options), "");
+  options.max_inputs = 0;
+  options.max_instructions = 2;
+  EXPECT_NE(fault_of(noise, options), "");
+  options.max_instructions = 0;
+  options.max_steps = 2;
+  EXPECT_NE(fault_of(noise, options), "");
+  options.max_steps = 0;
+  EXPECT_EQ(fault_of(noise, options), "");
+}
+
+TEST(ApiOptions, LimitsOfReadingAreErrors) {
+  const std::string text = R"(<materialx version="1.39"><nodegraph name="NG">
+    <constant name="c" type="float"/></nodegraph></materialx>)";
+  EXPECT_NO_THROW(Document::parse(text));
+  const auto is_refused = [&](auto member) {
+    ReadOptions reading;
+    reading.*member = 1;
+    try {
+      Document::parse(text, "x.mtlx", reading);
+      return false;
+    } catch (const Error&) {
+      return true;
+    }
+  };
+  EXPECT_TRUE(is_refused(&ReadOptions::max_file_bytes));
+  EXPECT_TRUE(is_refused(&ReadOptions::max_elements));
+  EXPECT_TRUE(is_refused(&ReadOptions::max_xml_depth));
 }
 
 TEST(ApiOptions, WhatIsStoppedFails) {

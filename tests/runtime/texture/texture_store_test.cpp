@@ -242,7 +242,7 @@ TEST_F(TextureStoreTest, AChangedFileOnTheHostIsAnotherTexture) {
     lookup.u = &u;
     lookup.v = &v;
     lookup.filter = TextureFilter::closest;
-    texture.host()->lookup(lookup, {&value[0], &value[1], &value[2], &value[3]});
+    texture.sampler()->lookup(lookup, {&value[0], &value[1], &value[2], &value[3]});
     return value[0];
   };
   const TextureHandle seen = store.acquire(key, diagnostics_);

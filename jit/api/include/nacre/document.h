@@ -20,7 +20,12 @@ typedef struct nacre_read_options {
   int includes_anywhere;    /* 1: also outside the main file's folder and the search paths. */
   uint64_t max_file_bytes;  /* Of one file. 0: 64 MiB. */
   uint64_t max_total_bytes; /* Of all files of the document. 0: 256 MiB. */
-  const nacre_stop* stop;   /* NULL: never. */
+  uint64_t max_elements;    /* In one file. 0: 4,000,000. */
+  int max_files;            /* The document with its includes. 0: 1024. */
+  int max_include_depth;    /* Files that include one another. 0: 256. */
+  int max_xml_depth;        /* Elements within one another. 0: 256. */
+  int max_inheritance; /* Nodedefs, nodes, looks or types that inherit from one another. 0: 64. */
+  const nacre_stop* stop;              /* NULL: never. */
   const nacre_file_resolver* resolver; /* Of includes; NULL: none. Called by this call alone, which
                                           does not destroy it. */
 } nacre_read_options;

@@ -20,6 +20,11 @@ struct ReadOptions {
   bool includes_anywhere = false;
   std::uint64_t max_file_bytes = 0;   ///< 0: 64 MiB.
   std::uint64_t max_total_bytes = 0;  ///< 0: 256 MiB.
+  std::uint64_t max_elements = 0;
+  int max_files = 0;
+  int max_include_depth = 0;
+  int max_xml_depth = 0;
+  int max_inheritance = 0;
   const StopSource* stop = nullptr;
   FileResolver resolver;  ///< Of includes.
 };
@@ -143,6 +148,11 @@ class Document {
     asked.includes_anywhere = options.includes_anywhere;
     asked.max_file_bytes = options.max_file_bytes;
     asked.max_total_bytes = options.max_total_bytes;
+    asked.max_elements = options.max_elements;
+    asked.max_files = options.max_files;
+    asked.max_include_depth = options.max_include_depth;
+    asked.max_xml_depth = options.max_xml_depth;
+    asked.max_inheritance = options.max_inheritance;
     asked.stop = options.stop != nullptr ? options.stop->get() : nullptr;
     nacre_file_resolver resolver{};
     if (options.resolver) {

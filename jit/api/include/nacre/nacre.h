@@ -59,6 +59,10 @@ typedef struct nacre_system_options {
   int max_image_size;            /* Of either side. 0: 16384, which is also the most. */
   uint64_t max_image_bytes;      /* Of decoded pixels. 0: 2 GiB. */
   uint64_t max_image_file_bytes; /* 0: 2 GiB. */
+  int max_image_channels;        /* In the file. 0: 1024. */
+  int max_image_layers;          /* Parts, pages or levels. 0: 1024. */
+  uint64_t max_image_expansion;  /* Decoded bytes a byte of the file, of large ones. 0: 256. */
+  uint64_t max_image_tiles;      /* Files that a name with <UDIM> stands for. 0: 10,000. */
   /* See hooks.h; each may be NULL. */
   const nacre_file_resolver* resolver; /* Of images; for includes see nacre_read_options. */
   const nacre_texture_system* textures;
@@ -203,7 +207,10 @@ typedef struct nacre_compile_options {
   const nacre_variant* variants;
   size_t variant_count;
   uint64_t max_nodes;        /* Of a graph; more are an error. 0: 250,000. */
+  uint64_t max_inputs;       /* Of a node; more are an error. 0: 1024. */
   uint64_t max_instructions; /* Of a kernel; more are an error. 0: 500,000. */
+  uint64_t max_steps;        /* Of a pass of points through a kernel, roughly instructions: more are
+                                NACRE_TOO_MANY_STEPS, or an error if known before. 0: 4,000,000. */
   const nacre_stop* stop;    /* NULL: never. */
   int prefer; /* Where a nodedef has several implementations: NACRE_BODY, NACRE_GRAPH, NACRE_TEXT.
                */

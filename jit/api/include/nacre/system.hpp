@@ -59,6 +59,10 @@ struct SystemOptions {
   int max_image_size = 0;
   std::uint64_t max_image_bytes = 0;
   std::uint64_t max_image_file_bytes = 0;
+  int max_image_channels = 0;
+  int max_image_layers = 0;
+  std::uint64_t max_image_expansion = 0;
+  std::uint64_t max_image_tiles = 0;
   FileResolver resolver = {};                   ///< Of images; for includes see ReadOptions.
   TextureSystem textures = {};                  ///< Looks images up in place of the library.
   Executor executor = {};                       ///< Runs what compiles.
@@ -113,7 +117,9 @@ struct CompileOptions {
   std::vector<Variant> variants;
   int prefer = NACRE_BODY;
   std::uint64_t max_nodes = 0;
+  std::uint64_t max_inputs = 0;
   std::uint64_t max_instructions = 0;
+  std::uint64_t max_steps = 0;
   const StopSource* stop = nullptr;
 };
 
@@ -146,6 +152,10 @@ class System {
     asked.max_image_size = options.max_image_size;
     asked.max_image_bytes = options.max_image_bytes;
     asked.max_image_file_bytes = options.max_image_file_bytes;
+    asked.max_image_channels = options.max_image_channels;
+    asked.max_image_layers = options.max_image_layers;
+    asked.max_image_expansion = options.max_image_expansion;
+    asked.max_image_tiles = options.max_image_tiles;
     nacre_file_resolver resolver{};
     if (options.resolver) asked.resolver = &(resolver = detail::resolver_of(options.resolver));
     nacre_texture_system textures{};
@@ -302,7 +312,9 @@ class System {
     asked.variant_count = variants.size();
     asked.prefer = options.prefer;
     asked.max_nodes = options.max_nodes;
+    asked.max_inputs = options.max_inputs;
     asked.max_instructions = options.max_instructions;
+    asked.max_steps = options.max_steps;
     asked.stop = options.stop != nullptr ? options.stop->get() : nullptr;
     call(asked);
   }
