@@ -87,6 +87,17 @@ void merge_points(const ArrayView& view, std::size_t components, const ChannelUs
   placement.stride = length == 1 ? static_cast<std::ptrdiff_t>(number_bytes) : stride;
 }
 
+bool is_matrix(const std::string& name, const ChannelUse& use) {
+  return use.most > 4 && name != "state";
+}
+
+/// Of a matrix: "m.x" to "m.w", then "m.4". They have to be bound one by one.
+std::string component_name(const std::string& name, int component) {
+  constexpr std::array letters{".x", ".y", ".z", ".w"};
+  const auto i = static_cast<std::size_t>(component);
+  return name + (i < letters.size() ? letters[i] : "." + std::to_string(component));
+}
+
 void bind_array(nacre_binder* binder, const std::string& name, const nacre_layout& layout) {
   detail::check(nacre_binder_array(binder, name.c_str(), &layout));
 }
@@ -108,16 +119,11 @@ void place_array(nacre_binder* binder, std::vector<Placement>& placements, Place
   layout.stride = placement.stride;
   layout.component_stride = *axes > 0 ? view.strides[last - 1] : 0;
   bind_array(binder, placement.name, layout);
-  // Those of a matrix have names of their own: "m.x" to "m.w", then "m.4".
   const std::ptrdiff_t columns = *axes > 0 ? view.shape[last - 1] : 1;
-  const bool is_matrix = use.most > 4 && placement.name != "state";
-  for (int i = 0; is_matrix && i < use.most; ++i) {
+  for (int i = 0; is_matrix(placement.name, use) && i < use.most; ++i) {
     layout.offset = view.strides[last - 1] * (i % columns);
     if (*axes == 2) layout.offset += view.strides[last - 2] * (i / columns);
-    constexpr std::array letters{".x", ".y", ".z", ".w"};
-    const auto k = static_cast<std::size_t>(i);
-    bind_array(binder, placement.name + (k < letters.size() ? letters[k] : "." + std::to_string(i)),
-               layout);
+    bind_array(binder, component_name(placement.name, i), layout);
   }
   placements.push_back(std::move(placement));
 }
@@ -163,6 +169,10 @@ void place_constant(nacre_binder* binder, const std::string& name, const Channel
     to = static_cast<std::uint32_t>(static_cast<std::int64_t>(number));
   }
   detail::check(nacre_binder_constant(binder, name.c_str(), bits.data(), bits.size()));
+  for (int i = 0; is_matrix(name, use) && i < count; ++i) {
+    const std::string component = component_name(name, i);
+    detail::check(nacre_binder_constant(binder, component.c_str(), &bits[i], 1));
+  }
 }
 
 }  // namespace

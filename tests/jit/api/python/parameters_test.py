@@ -121,3 +121,14 @@ def test_matrices_are_sixteen_numbers(system, documents):
     out = numpy.zeros((3, 4, 4), "float32")
     shader.run({"out": out}, instance=instance)
     assert numpy.array_equal(out, [2 * rows.T] * 3)
+
+
+def test_varying_matrices_come_with_points(system, documents):
+    document = nacre.Document.parse(documents["matrix"])
+    shader = system.compile_outputs(document, ["out"], live=["*"], varying=["m/value"])
+    rows = numpy.arange(48, dtype="float32").reshape(3, 4, 4)
+    expected = rows.transpose(0, 2, 1).reshape(3, 16)
+    assert numpy.array_equal(shader.run({"m/value": rows})["out"], expected)
+    assert numpy.array_equal(shader.run({"m/value": rows.reshape(3, 16)})["out"], expected)
+    one = shader.run({"m/value": rows[1].ravel().tolist()}, count=1)["out"]
+    assert numpy.array_equal(one, expected[1:2])
