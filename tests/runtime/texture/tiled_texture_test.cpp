@@ -27,7 +27,7 @@ struct Lookups {
   std::vector<float> u, v, dudx, dvdx, dudy, dvdy;
   std::array<std::vector<float>, 4> rgba;
 
-  void run(const TiledTexture& texture, const ReferenceModes& modes) {
+  void run(const TextureSampler& texture, const ReferenceModes& modes) {
     TextureLookup lookup{static_cast<int>(u.size()),
                          u.data(),
                          v.data(),
@@ -63,7 +63,7 @@ class TiledTextureTest : public testing::Test {
     return texture;
   }
 
-  double worst(const TiledTexture& texture, Lookups& lookups, const ReferenceModes& modes) const {
+  double worst(const TextureSampler& texture, Lookups& lookups, const ReferenceModes& modes) const {
     lookups.run(texture, modes);
     double result = 0;
     for (std::size_t i = 0; i < lookups.u.size(); ++i) {
