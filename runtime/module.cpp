@@ -2,7 +2,10 @@
 
 #include <dlfcn.h>
 #include <pthread.h>
+#include <sys/mman.h>
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -38,6 +41,41 @@ struct Modules {
   }
 };
 
+/// Address space that has to be free before a module is loaded, and threads that have to be had:
+/// the libraries that come with it (some 250) allocate and start threads while they are loaded, and
+/// what they do not get there ends the process or stops it for ever.
+constexpr std::size_t room = std::size_t{768} << 20;
+constexpr int threads = 12;
+
+/// Whether they can be had now; they are given back.
+bool has_room(ModuleFault& fault) {
+  void* const space = ::mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (space == MAP_FAILED) {
+    fault.expected = std::to_string(room >> 20) + " MB of address space to load it into";
+    fault.found = "less";
+    return false;
+  }
+  ::munmap(space, room);
+  int had = 0;
+  std::array<pthread_t, threads> made{};
+  std::mutex gate;
+  gate.lock();  // All of them at once.
+  const auto wait = [](void* at) -> void* {
+    const std::lock_guard pass(*static_cast<std::mutex*>(at));
+    return nullptr;
+  };
+  while (had < threads &&
+         ::pthread_create(&made[static_cast<std::size_t>(had)], nullptr, wait, &gate) == 0) {
+    ++had;
+  }
+  gate.unlock();
+  for (int i = 0; i < had; ++i) ::pthread_join(made[static_cast<std::size_t>(i)], nullptr);
+  if (had == threads) return true;
+  fault.expected = std::to_string(threads) + " threads to load it with";
+  fault.found = std::to_string(had);
+  return false;
+}
+
 /// The first place that has the file; empty, with the fault, if there is none.
 fs::path find(const std::string& name, ModuleFault& fault) {
   const std::string file = name + ".so";
@@ -52,6 +90,7 @@ fs::path find(const std::string& name, ModuleFault& fault) {
 
 /// Its head, if it is that module and of this build.
 const ModuleHead* open_file(const fs::path& path, const std::string& name, ModuleFault& fault) {
+  if (!has_room(fault)) return nullptr;
   fault.expected = path.string() + " of this build";
   void* const opened = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (opened == nullptr) {
