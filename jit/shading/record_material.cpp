@@ -128,15 +128,16 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   if (wants(entry_evaluate)) {
     add_entry(&MaterialKernels::evaluate, "evaluate", surface_kernels.evaluate, Keeps::load);
   }
-  kernels.state.assign(state.begin(), state.end());
   if (wants(entry_evaluate_at) && !surface_kernels.evaluate.empty()) {
     const auto is_of_point = [](std::string_view channel) { return !channel.starts_with("wi."); };
     const Program evaluate =
         slice(recorder_.program(), "evaluate_at", surface_kernels.evaluate, Keeps::load);
     std::ranges::copy_if(evaluate.inputs, std::back_inserter(kernels.of_point),
                          [&](const Channel& input) { return is_of_point(input.name); });
+    for (const std::uint32_t k : state_channels(evaluate)) state.insert(k);
     add(&MaterialKernels::evaluate_at, fix_inputs(evaluate, is_of_point));
   }
+  kernels.state.assign(state.begin(), state.end());
   add_entry(&MaterialKernels::albedo, "albedo", surface_kernels.albedo, Keeps::pass);
   add_entry(&MaterialKernels::emission, "emission", surface_kernels.emission, Keeps::pass);
   add_entry(&MaterialKernels::opacity, "opacity", surface_kernels.opacity, Keeps::pass);

@@ -283,6 +283,17 @@ TEST_F(PointResults, OfShadeAreThoseOfOneKernelAfterAnother) {
   }
 }
 
+TEST_F(PointResults, OfOnePointAloneComeWithTheirState) {
+  CompileOptions options;
+  options.entries = 1u << NACRE_EVALUATE_AT;
+  const Shader alone = compile(noisy, options);
+  options.entries |= 1u << NACRE_EVALUATE;
+  const Shader with_evaluate = compile(noisy, options);
+  EXPECT_TRUE(alone.has(NACRE_BEGIN));
+  EXPECT_GT(alone.state_count(), 0u);
+  EXPECT_EQ(alone.state_count(), with_evaluate.state_count());
+}
+
 TEST_F(PointResults, OfOnePointAndManyDirectionsAreThoseOfEvaluate) {
   CompileOptions options;
   options.entries = 1u << NACRE_EVALUATE | 1u << NACRE_EVALUATE_AT;
