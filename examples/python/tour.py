@@ -90,6 +90,7 @@ for degrees, anisotropy in (20, 0.6), (50, 0.6), (50, 0.0):
     f = metal.run(point | {"wi": wi}, nacre.Entry.EVALUATE, instance=look)["f"]
     axes.plot(angles, f[:, 0], label=f"{degrees}°, anisotropy {anisotropy}")
 axes.set(theta_zero_location="N", theta_direction=-1, thetamin=-90, thetamax=90)
+axes.yaxis.set_major_locator(plt.MaxNLocator(4))
 axes.set_title("Brushed brass: f |cos|, red")
 axes.legend(loc="lower center", bbox_to_anchor=(0.5, -0.25), fontsize="small")
 figure.savefig(out / "lobe.png", dpi=120, bbox_inches="tight")

@@ -59,7 +59,14 @@ std::optional<ArrayView> of_buffer(nb::handle object) {
   view.device = "cpu";
   view.is_read_only = buffer->readonly != 0;
   view.shape.assign(buffer->shape, buffer->shape + buffer->ndim);
-  view.strides.assign(buffer->strides, buffer->strides + buffer->ndim);
+  if (buffer->strides != nullptr) {
+    view.strides.assign(buffer->strides, buffer->strides + buffer->ndim);
+  } else {  // Those of ctypes say nothing: they are packed.
+    view.strides.assign(view.shape.size(), buffer->itemsize);
+    for (std::size_t i = view.shape.size(); i-- > 1;) {
+      view.strides[i - 1] = view.strides[i] * view.shape[i];
+    }
+  }
   view.holder = std::shared_ptr<void>(buffer.release(), [](void* held) {
     auto* const released = static_cast<Py_buffer*>(held);
     PyBuffer_Release(released);

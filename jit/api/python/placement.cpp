@@ -2,7 +2,6 @@
 
 #include <nanobind/stl/string.h>
 
-#include <array>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -91,11 +90,9 @@ bool is_matrix(const std::string& name, const ChannelUse& use) {
   return use.most > 4 && name != "state";
 }
 
-/// Of a matrix: "m.x" to "m.w", then "m.4". They have to be bound one by one.
+/// Of a matrix, "m.0" to "m.15". They have to be bound one by one.
 std::string component_name(const std::string& name, int component) {
-  constexpr std::array letters{".x", ".y", ".z", ".w"};
-  const auto i = static_cast<std::size_t>(component);
-  return name + (i < letters.size() ? letters[i] : "." + std::to_string(component));
+  return name + '.' + std::to_string(component);
 }
 
 void bind_array(nacre_binder* binder, const std::string& name, const nacre_layout& layout) {
