@@ -8,6 +8,7 @@ LIBDIR is the library's folder below the prefix.
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -98,9 +99,11 @@ class Modules(unittest.TestCase):
 
     def test_another_build(self):
         content = self.images.read_bytes()
-        at = content.index(b"\x000.1.0 ") + 7  # Behind the version: sixteen digits.
-        other = bytes(b"0"[0] if digit != b"0"[0] else b"1"[0] for digit in content[at:at + 16])
-        self.images.write_bytes(content[:at] + other + content[at + 16:])
+        # The version and sixteen digits, of which the last one becomes another.
+        key = re.search(rb"\d+\.\d+\.\d+ [0-9a-f]{16}\0", content)
+        last = key.end() - 2
+        other = b"1" if content[last:last + 1] == b"0" else b"0"
+        self.images.write_bytes(content[:last] + other + content[last + 1:])
         self.assert_no_image("one of another build")
 
     def test_the_tool(self):
