@@ -43,7 +43,8 @@ struct Modules {
 
 /// Address space that has to be free before a module is loaded, and threads that have to be had:
 /// the libraries that come with it (some 250) allocate and start threads while they are loaded, and
-/// what they do not get there ends the process or stops it for ever.
+/// what they do not get there ends the process or stops it for ever: Memory and Processes of
+/// tests/examples/tool/resources_test.cpp.
 constexpr std::size_t room = std::size_t{768} << 20;
 constexpr int threads = 12;
 

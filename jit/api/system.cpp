@@ -20,8 +20,7 @@ bool is_meant(const nacre_system_options& asked) {
          has_size(asked.executor) && has_size(asked.allocator);
 }
 
-TextureOptions texture_options(const nacre_system_options& asked) {
-  TextureOptions options;
+void limit_textures(const nacre_system_options& asked, TextureOptions& options) {
   if (asked.texture_memory != 0) options.budget = asked.texture_memory;
   if (asked.tile_memory != 0) options.tile_memory = asked.tile_memory;
   if (asked.max_image_size != 0) options.limits.max_size = asked.max_image_size;
@@ -31,9 +30,22 @@ TextureOptions texture_options(const nacre_system_options& asked) {
   if (asked.max_image_layers > 0) options.limits.max_layers = asked.max_image_layers;
   if (asked.max_image_expansion != 0) options.limits.max_expansion = asked.max_image_expansion;
   if (asked.max_image_tiles != 0) options.tiles.max_tiles = asked.max_image_tiles;
-  if (asked.textures != nullptr) options.system = host_texture_system(*asked.textures);
-  if (asked.allocator != nullptr) options.memory = host_memory(*asked.allocator);
-  return options;
+}
+
+/// What is the host's is destroyed with the options, or with the last that was made of them: from
+/// here on whatever else goes wrong.
+void take_hooks(const nacre_system_options& asked, SystemOptions& options) {
+  if (asked.colors != nullptr) options.colors = host_colors(*asked.colors);
+  if (asked.resolver != nullptr) options.resolver = host_resolver(*asked.resolver);
+  if (asked.textures != nullptr) options.textures.system = host_texture_system(*asked.textures);
+  if (asked.executor != nullptr) options.executor = host_executor(*asked.executor);
+  if (asked.allocator != nullptr) options.textures.memory = host_memory(*asked.allocator);
+  const auto* bodies = reinterpret_cast<const std::byte*>(asked.bodies);
+  for (std::size_t i = 0; bodies != nullptr && i < asked.body_count; ++i) {
+    // As far apart as the host's version of them is long.
+    options.bodies.push_back(
+        host_body(*reinterpret_cast<const nacre_body*>(bodies + i * asked.bodies->size)));
+  }
 }
 
 }  // namespace
@@ -48,6 +60,7 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
     if (!is_meant(asked)) return nacre_status{NACRE_WRONG_ARGUMENTS};
     Said said(report);
     SystemOptions options;
+    take_hooks(asked, options);
     for (const std::string& path : texts_of(asked.libraries, asked.library_count)) {
       options.libraries.emplace_back(path);
     }
@@ -62,20 +75,11 @@ nacre_status nacre_system_create(const nacre_system_options* given, nacre_report
       options.libraries.emplace_back(own);
     }
     options.ocio_config = text_or_empty(asked.ocio_config);
-    if (asked.colors != nullptr) options.colors = host_colors(*asked.colors);
     options.cache = text_or_empty(asked.cache);
     options.compile_threads = asked.compile_threads;
     options.compile_apart = asked.compile_apart != 0;
-    const auto* bodies = reinterpret_cast<const std::byte*>(asked.bodies);
-    for (std::size_t i = 0; bodies != nullptr && i < asked.body_count; ++i) {
-      // As far apart as the host's version of them is long.
-      options.bodies.push_back(
-          host_body(*reinterpret_cast<const nacre_body*>(bodies + i * asked.bodies->size)));
-    }
     options.standard_texts = asked.standard_texts != 0;
-    options.textures = texture_options(asked);
-    if (asked.resolver != nullptr) options.resolver = host_resolver(*asked.resolver);
-    if (asked.executor != nullptr) options.executor = host_executor(*asked.executor);
+    limit_textures(asked, options.textures);
     std::shared_ptr<ShadingSystem> made = ShadingSystem::create(options, said.diagnostics());
     if (made == nullptr) return nacre_status{NACRE_FAILED};
     *system = new nacre_system{std::move(made), {}};

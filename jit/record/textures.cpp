@@ -17,8 +17,8 @@ std::string RecordedTextures::accept(const ResolvedFile& file) {
     return file.path;
   }
   auto contents = store_.keep_file(*file.bytes);
-  if (contents == nullptr) return file.path;  // There is no such file.
-  const std::string path = contents->path();
+  // Without room for it a place that leads nowhere: a file of the disk must not stand in for it.
+  const std::string path = contents != nullptr ? contents->path() : MemoryFile::nowhere;
   given_[path] = {file.path, std::move(contents)};
   return path;
 }

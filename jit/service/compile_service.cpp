@@ -94,7 +94,8 @@ class Workshop {
         continue;
       }
       auto shared = std::make_shared<const Program>(std::move(program));
-      const std::shared_ptr<CompileJob> job = joined_job(key, shared, options, 0, true);
+      const std::shared_ptr<CompileJob> job =
+          joined_job(key, shared, options, CompileThreads::awaited);
       kernels.push_back(std::make_shared<ServiceKernel>(shared, options, job, nullptr));
       jobs.push_back(job);
     }
@@ -124,8 +125,7 @@ class Workshop {
     }
     auto interpreter = make_interpreter(program, options.max_steps);
     auto shared = std::make_shared<const Program>(std::move(program));
-    const std::shared_ptr<CompileJob> job =
-        joined_job(request.key, shared, options, priority, false);
+    const std::shared_ptr<CompileJob> job = joined_job(request.key, shared, options, priority);
     return std::make_shared<ServiceKernel>(shared, options, job, std::move(interpreter));
   }
 
@@ -149,7 +149,7 @@ class Workshop {
   /// The job for this code, new and begun or one that is under way or done.
   std::shared_ptr<CompileJob> joined_job(const std::string& key,
                                          const std::shared_ptr<const Program>& program,
-                                         const CodegenOptions& options, int priority, bool urgent) {
+                                         const CodegenOptions& options, int priority) {
     std::shared_ptr<CompileJob> job;
     {
       const std::scoped_lock lock(mutex_);
@@ -162,7 +162,7 @@ class Workshop {
       forget_dead();
     }
     threads_.add([this, job] { job->run(*session_, *compiler_, cache_.get(), compiling_); },
-                 priority, urgent);
+                 priority);
     return job;
   }
 

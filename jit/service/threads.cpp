@@ -21,11 +21,10 @@ constexpr std::size_t stack_bytes = 16u << 20;
 /// What is to be done, and who is doing it.
 class CompileThreads::Queue {
  public:
-  void add(std::function<void()> task, int priority, bool urgent) {
+  void add(std::function<void()> task, int priority) {
     {
       const std::scoped_lock lock(mutex_);
-      const auto place = urgent ? tasks_.lower_bound(priority) : tasks_.upper_bound(priority);
-      tasks_.emplace_hint(place, priority, std::move(task));
+      tasks_.emplace(priority, std::move(task));  // Behind those of its priority.
     }
     changed_.notify_one();
   }
@@ -96,9 +95,9 @@ CompileThreads::~CompileThreads() {
   for (const pthread_t thread : threads_) pthread_join(thread, nullptr);
 }
 
-void CompileThreads::add(std::function<void()> task, int priority, bool urgent) {
+void CompileThreads::add(std::function<void()> task, int priority) {
   if (executor_ == nullptr && threads_.empty()) return task();
-  queue_->add(std::move(task), priority, urgent);
+  queue_->add(std::move(task), priority);
   if (executor_ == nullptr) return;
   executor_->submit([queue = queue_] {
     const ScopedDefaultFloatEnvironment environment;

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -16,8 +17,8 @@ class Executor {
 };
 
 /// Who runs the tasks that compile: threads with stacks large enough for LLVM, whatever the host's
-/// limits are, which std::thread can't choose; or the host's own. Higher priorities go first; of
-/// equal ones urgent tasks, then others in order of arrival.
+/// limits are, which std::thread can't choose; or the host's own. Higher priorities go first, equal
+/// ones in order of arrival.
 class CompileThreads {
  public:
   /// `count` 0: one a core; never more than 64, or four a core. Threads that can't be had
@@ -29,7 +30,10 @@ class CompileThreads {
   CompileThreads(const CompileThreads&) = delete;
   CompileThreads& operator=(const CompileThreads&) = delete;
 
-  void add(std::function<void()> task, int priority, bool urgent);
+  /// Of what somebody waits for: the highest.
+  static constexpr int awaited = std::numeric_limits<int>::max();
+
+  void add(std::function<void()> task, int priority);
 
  private:
   class Queue;

@@ -18,8 +18,8 @@
 #include "pbs/kernels.h"
 #include "runtime/texture/texture_store.h"
 
-/// The interface of libnacre. A ShadingSystem makes kernels of documents or graphs; hosts bind
-/// arrays to them and run them.
+/// A ShadingSystem makes kernels of documents or graphs, and programs of ours run them. Hosts have
+/// the same by jit/api/include/nacre.
 namespace nacre {
 
 /// A node implemented by the host: `record` reads the inputs of the call and

@@ -9,6 +9,9 @@ namespace nacre {
 /// A file that lies in memory alone, for readers that want a path.
 class MemoryFile {
  public:
+  /// A path that leads to no file.
+  static constexpr const char* nowhere = "/proc/self/fd/none";
+
   /// Null, with errno, where the system has no room for it.
   static std::shared_ptr<const MemoryFile> create(std::string_view bytes);
   ~MemoryFile();

@@ -266,6 +266,7 @@ TextureStatistics TextureStore::statistics() const {
   const std::lock_guard lock(mutex_);
   TextureStatistics result = statistics_;
   if (tile_cache_) result.read_failures = tile_cache_->read_failures();
+  result.resident_textures = named_.size();
   for (const auto& [key, entry] : entries_) {
     if (!entry.texture) continue;
     if (entry.texture->missing()) {

@@ -56,7 +56,7 @@ struct TextureOptions {
 struct TextureStatistics {
   std::uint64_t resident_bytes = 0;       ///< Of the arrays of all resident textures, used or not.
   std::uint64_t peak_resident_bytes = 0;  ///< The most that there were at once.
-  std::uint64_t resident_textures = 0;    ///< Known to the store now, texels in memory.
+  std::uint64_t resident_textures = 0;    ///< Texels in memory now; those of set_image too.
   std::uint64_t tiled_textures = 0;       ///< Known to the store now, read by tiles.
   std::uint64_t missing_textures = 0;     ///< Known to the store now, with a problem.
   std::uint64_t loads = 0;                ///< Times an image was opened.

@@ -114,7 +114,7 @@ TEST(Motion, ShadingStandsWhereRaysMeet) {
     const SurfacePoint p = {hit.mesh, hit.triangle, hit.u, hit.v,        -ray.direction,
                             false,    0.f,          0.f,   hit.instance, ray.time};
     const Vec3 shaded = surface_position(scene, p);
-    EXPECT_LT(length(shaded - (ray.origin + hit.distance * ray.direction)), 1e-4f) << i;
+    EXPECT_LT(length(shaded - (ray.origin + hit.distance * ray.direction)), 2e-5f) << i;
     EXPECT_LT(std::abs(dot(surface_normal(scene, p), surface_normal(scene, p)) - 1.f), 1e-5f);
     met.insert({hit.mesh, hit.instance});
     moved += hit.mesh == 0 && hit.instance == 0;

@@ -34,6 +34,10 @@ class Shelf {
     lock.unlock();
     task();
   }
+  void wait_for(std::size_t count) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return tasks_.size() >= count; });
+  }
   std::size_t size() {
     const std::scoped_lock lock(mutex_);
     return tasks_.size();
@@ -115,14 +119,50 @@ TEST(ApiExecutor, WhatIsCancelledIsNotCompiled) {
   EXPECT_FALSE(shader.is_pending());
   EXPECT_THROW(shader.wait(), Error);  // It stays interpreted.
   Binder binder;
-  binder.constant("P", {1, 2, 3});
+  for (const char* place : {"P", "Po"}) binder.constant(place, {1, 2, 3});
   binder.array("out", {0, 0, sizeof(Color)});
-  for (const char* change : {"Po", "dPdx", "dPdy", "dPodx", "dPody"}) binder.constant(change, {0});
+  for (const char* change : {"dPdx", "dPdy", "dPodx", "dPody"}) binder.constant(change, {0});
   const Binding binding(binder, shader);
   Color color{};
   Batch batch;
   batch.count = 1;
-  EXPECT_NO_THROW(binding.run(NACRE_OUTPUTS, std::vector<void*>{&color}, batch));
+  binding.run(NACRE_OUTPUTS, std::vector<void*>{&color}, batch);
+  EXPECT_EQ(color, (Color{5, 2, 3}));
+}
+
+TEST(ApiExecutor, WhatIsWaitedForGoesBeforeAnyPriority) {
+  Shelf shelf;
+  System system(with(shelf));
+  bool was_first = false;
+  const Shader behind = system.compile_outputs(number_document(7), {"out"}, in_background(1000));
+  std::thread worker([&] {
+    shelf.wait_for(2);
+    shelf.run_one();
+    was_first = behind.is_pending();
+    shelf.run_one();
+  });
+  const Shader awaited = system.compile_outputs(number_document(8), {"out"});
+  worker.join();
+  EXPECT_TRUE(was_first);
+  EXPECT_FALSE(behind.is_pending());
+}
+
+TEST(ApiExecutor, HooksAreDestroyedWhereTheSystemCannotBeMade) {
+  int destroyed = 0;
+  nacre_executor executor{};
+  executor.size = sizeof executor;
+  executor.user = &destroyed;
+  executor.submit = [](void*, void (*run)(void*), void* task) { run(task); };
+  executor.destroy = [](void* user) { ++*static_cast<int*>(user); };
+  const char* const nowhere = "/nowhere";
+  nacre_system_options options{};
+  options.size = sizeof options;
+  options.libraries = &nowhere;
+  options.library_count = 1;
+  options.executor = &executor;
+  nacre_system* system = nullptr;
+  EXPECT_EQ(nacre_system_create(&options, nullptr, &system), NACRE_FAILED);
+  EXPECT_EQ(destroyed, 1);
 }
 
 TEST(ApiExecutor, TasksThatComeTooLateDoNothing) {

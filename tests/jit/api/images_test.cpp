@@ -28,6 +28,7 @@ TEST(ApiImages, AnImageInMemoryIsReplacedUnderShaders) {
   const Shader shader = system.compile_outputs(image_document("painted"), {"out"});
   EXPECT_EQ(colors_at(shader, {0.25f, 0.75f}), (std::vector<Color>{red, blue}));
   const std::uint64_t bytes = system.texture_statistics().resident_bytes;
+  EXPECT_EQ(system.texture_statistics().resident_textures, 1u);
 
   // Of another size, and with samples that are kept as the first ones are: in eight bits.
   const std::vector<float> second{0, 1, 0, 1, 0, 0, 0, 0, 0.21f, 2, 0, 0};

@@ -1,8 +1,9 @@
 /* What a host may do in place of the library: part of <nacre/nacre.h>.
  *
  * All of it is optional. The functions may be called by any thread, by several at once; those that
- * a batch calls run with denormals flushed to zero. `user` is the host's; `destroy`, which may be
- * NULL, is called when nothing can call the others any more.
+ * a batch calls run with denormals flushed to zero. None may throw. `user` is the host's;
+ * `destroy`, which may be NULL, is called when nothing can call the others any more: at once where
+ * the system cannot be made, but not where that is NACRE_WRONG_ARGUMENTS.
  */
 #ifndef NACRE_HOOKS_H
 #define NACRE_HOOKS_H

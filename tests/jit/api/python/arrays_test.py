@@ -7,6 +7,7 @@ import nacre
 import numpy
 import pytest
 from conftest import refused
+from dlpack import DLPack
 
 COUNT = 100
 UV = numpy.random.default_rng(1).random((COUNT, 2), "float32")
@@ -15,19 +16,6 @@ UV = numpy.random.default_rng(1).random((COUNT, 2), "float32")
 def run(twice, uv, out, **arguments):
     assert twice.bind({"uv0": uv, "out": out}).run(nacre.Entry.OUTPUTS, **arguments)
     return out
-
-
-class DLPack:
-    """What torch's tensors on the CPU are: DLPack and no buffer protocol."""
-
-    def __init__(self, of):
-        self.of = of
-
-    def __dlpack__(self, **arguments):
-        return self.of.__dlpack__()
-
-    def __dlpack_device__(self):
-        return self.of.__dlpack_device__()
 
 
 class OnDevice(DLPack):

@@ -10,6 +10,7 @@ import nacre
 import numpy
 import pytest
 from conftest import refused
+from dlpack import DLPack
 
 OUTPUTS = nacre.Entry.OUTPUTS
 COUNT = 1000
@@ -122,7 +123,7 @@ def test_arrays_live_as_long_as_the_binding(twice):
     assert sys.getrefcount(out) == references[1]
 
 
-@pytest.mark.parametrize("wrap", [lambda a: a, lambda a: _DLPack(a)], ids=["buffer", "dlpack"])
+@pytest.mark.parametrize("wrap", [lambda a: a, lambda a: DLPack(a)], ids=["buffer", "dlpack"])
 def test_arrays_are_let_go(twice, wrap):
     out = zeros(COUNT, 2)
     before = sys.getrefcount(out)
@@ -132,17 +133,6 @@ def test_arrays_are_let_go(twice, wrap):
             twice.bind({"out": wrap(out), "uv0": numpy.zeros(3)})
     gc.collect()
     assert sys.getrefcount(out) == before
-
-
-class _DLPack:
-    def __init__(self, of):
-        self.of = of
-
-    def __dlpack__(self, **arguments):
-        return self.of.__dlpack__()
-
-    def __dlpack_device__(self):
-        return self.of.__dlpack_device__()
 
 
 def test_memory_that_is_bound_cannot_be_resized(twice):
