@@ -86,7 +86,7 @@ void CommonOptions::add_limits(CLI::App& command) {
   add_count("--max-elements", read_limits.elements, "Elements of one file");
   add_count("--max-inheritance", read_limits.inheritance,
             "Nodedefs, nodes, looks or types that inherit from one another");
-  add_count("--max-nodes", graph_limits.max_nodes, "Nodes of a graph, all graphs inlined");
+  add_count("--max-nodes", graph_limits.max_nodes, "Nodes of a graph, and of all graphs in it");
   add_count("--max-inputs", graph_limits.max_inputs, "Inputs of one node");
   add_count("--max-instructions", compile_limits.max_instructions, "Instructions of a kernel");
   add_count("--max-steps", compile_limits.max_steps,

@@ -74,7 +74,7 @@ struct GraphOptions {
   /// Inputs of the document's own nodes that have a default and no author are parameters too
   /// (Parameter::is_default).
   bool default_parameters = false;
-  /// A graph with more nodes is refused.
+  /// A graph with more nodes is refused: those that graphs stand for count too.
   std::size_t max_nodes = 250'000;
   /// A node with more inputs is refused.
   std::size_t max_inputs = 1024;

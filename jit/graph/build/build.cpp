@@ -245,7 +245,7 @@ void try_all_graphs(const Document& document, const Definitions& definitions,
                     const GraphOptions& options, Diagnostics& diagnostics) {
   // One build serves many, so that what they share is resolved once; it is renewed
   // before it could become too large for any single one.
-  constexpr double most = 8;  // Times the limit of one graph, for all together.
+  constexpr double most = 4;  // Times the limit of one graph, for all together.
   std::optional<GraphBuild> build;
   double done = 0;
   const auto renewed = [&]() -> GraphBuild& {

@@ -13,8 +13,8 @@ std::optional<Resolver::Key> Resolver::step_input(Task& task) {
   if (task.stage == Stage::start) return start_input(task, instance, input);
   if (task.stage == Stage::received) {
     task.result = waited(task);
-    const auto* port = static_cast<const Element*>(task.waiting_for.subject);
-    if (port->parent() == instance.element) slots_.erase(task.waiting_for);
+    const auto* port = static_cast<const Element*>(task.waiting_for->first.subject);
+    if (port->parent() == instance.element) forget_waited(task);
     return check_input(task, instance, input);
   }
   if (task.stage == Stage::retyped) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "jit/document/inheritance.h"
 #include "jit/document/value_text.h"
 
@@ -25,6 +27,11 @@ std::string join(const Context* context, std::string_view name) {
 }
 
 }  // namespace
+
+std::size_t Instances::PlaceHash::operator()(const Place& place) const {
+  const std::hash<const void*> hash;
+  return hash(place.first) ^ ((hash(place.second) * 0x9E3779B97F4A7C15u) >> 7);
+}
 
 const Instance* Instances::of(const Element& element, const Context* context) {
   const auto [place, is_new] = of_element_.try_emplace({&element, context}, nullptr);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -88,11 +89,18 @@ class Instances {
   Implementations& implementations_;
   Complaints& complaints_;
 
-  std::deque<Instance> instances_;
-  std::deque<Context> contexts_;
-  std::map<std::pair<const Element*, const Context*>, const Instance*> of_element_;
-  std::map<std::pair<const Element*, const Context*>, const Context*> compounds_;
-  std::unordered_map<const Instance*, const Context*> functionals_;
+  /// An element where it stands.
+  using Place = std::pair<const Element*, const Context*>;
+  struct PlaceHash {
+    std::size_t operator()(const Place& place) const;
+  };
+
+  std::pmr::monotonic_buffer_resource memory_;
+  std::pmr::deque<Instance> instances_{&memory_};
+  std::pmr::deque<Context> contexts_{&memory_};
+  std::pmr::unordered_map<Place, const Instance*, PlaceHash> of_element_{&memory_};
+  std::pmr::unordered_map<Place, const Context*, PlaceHash> compounds_{&memory_};
+  std::pmr::unordered_map<const Instance*, const Context*> functionals_{&memory_};
   std::map<std::string_view, const Instance*> geomprops_;
   std::size_t bytes_ = 0;
 };

@@ -60,7 +60,7 @@ std::optional<Resolver::Key> Resolver::step_output(Task& task) {
     case Stage::start: return start_output(task, instance);
     case Stage::received: {
       const std::optional<Key> next = finish_native_output(task, instance);
-      if (instance.def->outputs.size() == 1) slots_.erase(task.waiting_for);
+      if (instance.def->outputs.size() == 1) forget_waited(task);
       return next;
     }
     case Stage::switched: {

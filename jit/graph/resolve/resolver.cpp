@@ -33,11 +33,12 @@ std::size_t Resolver::KeyHash::operator()(const Key& key) const {
 Resolved Resolver::run(Key key) {
   if (const auto known = slots_.find(key); known != slots_.end()) return known->second.result;
   std::deque<Task> stack;
-  const auto open = [&](const Key& wanted) {
-    Slot& slot = slots_[wanted];
-    stack.push_back({wanted, &slot, slot.result, Stage::start, 0, {}});
+  const auto open = [&](Slots::value_type& wanted) {
+    Slot& slot = wanted.second;
+    stack.push_back({wanted.first, &slot, slot.result, Stage::start, 0, nullptr});
   };
-  open(key);
+  Slots::value_type& first = *slots_.try_emplace(key).first;
+  open(first);
   while (!stack.empty()) {
     Task& task = stack.back();
     // Graphs within graphs may double at each level: stop at once.
@@ -52,11 +53,11 @@ Resolved Resolver::run(Key key) {
       stack.pop_back();
       continue;
     }
-    task.waiting_for = *wanted;
-    const auto known = slots_.find(*wanted);
-    if (known == slots_.end()) {
-      open(*wanted);
-    } else if (!known->second.done) {
+    const auto [waited, is_new] = slots_.try_emplace(*wanted);
+    task.waiting_for = &*waited;
+    if (is_new) {
+      open(*waited);
+    } else if (!waited->second.done) {
       // In a cycle each waits for the next; whoever closes it fails, and the
       // failure travels back along the stack.
       report_cycle(stack, *wanted);
@@ -65,7 +66,7 @@ Resolved Resolver::run(Key key) {
       stack.pop_back();
     }
   }
-  return slots_.at(key).result;
+  return first.second.result;
 }
 
 Resolved Resolver::failure() {
@@ -74,13 +75,12 @@ Resolved Resolver::failure() {
   return result;
 }
 
-// Instances count as well as nodes: they take memory, and a graph may consist of
-// nothing but other graphs.
+// Each node has an instance, and so has each that a graph stands for: a document may consist of
+// nothing but graphs of graphs.
 double Resolver::fullness() const {
   const auto limit = static_cast<double>(options_.max_nodes);
-  return std::max({static_cast<double>(graph_.nodes.size()) / limit,
-                   static_cast<double>(instances_.count()) / (1.5 * limit),
-                   static_cast<double>(bytes_ + instances_.bytes()) / (bytes_of_node * limit)});
+  return std::max(static_cast<double>(instances_.count()) / limit,
+                  static_cast<double>(bytes_ + instances_.bytes()) / (bytes_of_node * limit));
 }
 
 bool Resolver::is_too_large(const Task& task) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -78,6 +79,7 @@ class Resolver {
     bool done = false;
     Resolved result;
   };
+  using Slots = std::pmr::unordered_map<Key, Slot, KeyHash>;
   enum class Stage : std::uint8_t {
     start,
     received,   ///< The source is known, still to be checked.
@@ -93,7 +95,7 @@ class Resolver {
     Resolved& result;
     Stage stage = Stage::start;
     std::uint32_t next_input = 0;  ///< Of a node.
-    Key waiting_for{};
+    const Slots::value_type* waiting_for = nullptr;
   };
 
   // The machine (resolver.cpp).
@@ -105,7 +107,9 @@ class Resolver {
   bool is_due(const Task& task);
   static const Element& where(const Task& task);
   void report_cycle(const std::deque<Task>& stack, const Key& again);
-  const Resolved& waited(const Task& task) { return slots_.at(task.waiting_for).result; }
+  static const Resolved& waited(const Task& task) { return task.waiting_for->second.result; }
+  /// Of what nothing else will ask for.
+  void forget_waited(Task& task) { slots_.erase(Key(task.waiting_for->first)); }
 
   // One step of each kind: what it has to wait for, or nothing when the task's result
   // stands. Nodes and their outputs (output_steps.cpp).
@@ -162,7 +166,8 @@ class Resolver {
   Instances instances_;
   Literals literals_;
 
-  std::unordered_map<Key, Slot, KeyHash> slots_;
+  std::pmr::unsynchronized_pool_resource memory_;
+  Slots slots_{&memory_};
   std::unordered_set<std::string_view> with_source_;  ///< Nodedefs in Graph::sources.
   /// What names and values take: a value is written once and copied to wherever it goes.
   std::size_t bytes_ = 0;
