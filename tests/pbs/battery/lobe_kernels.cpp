@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "jit/compile/compile.h"
 #include "jit/service/compile_service.h"
 #include "tests/support/random.h"
@@ -23,13 +20,6 @@ CompileService* service() {
 std::vector<float> take(Columns& columns, const char* name) { return std::move(columns.at(name)); }
 
 }  // namespace
-
-Direction direction(double degrees, double azimuth_degrees) {
-  const double theta = degrees * std::numbers::pi / 180.0;
-  const double phi = azimuth_degrees * std::numbers::pi / 180.0;
-  return {static_cast<float>(std::sin(theta) * std::cos(phi)),
-          static_cast<float>(std::sin(theta) * std::sin(phi)), static_cast<float>(std::cos(theta))};
-}
 
 LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile) {
   Recorder recorder;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <nacre/lobe_test/direction.hpp>
 #include <vector>
 
 #include "jit/compile/options.h"
@@ -10,13 +11,6 @@
 #include "tests/support/run_kernel.h"
 
 namespace nacre {
-
-struct Direction {
-  float x, y, z;
-};
-
-/// Unit, at `degrees` from the normal z; beyond 90 below the surface.
-Direction direction(double degrees, double azimuth_degrees = 30.0);
 
 struct Evaluated {
   std::vector<float> f, pdf, pdf_reverse;  ///< f: red, times the cosine.

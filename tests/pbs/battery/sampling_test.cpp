@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nacre/lobe_test/chi_square.hpp>
+#include <nacre/lobe_test/sphere_partition.hpp>
 #include <tuple>
+#include <utility>
 
-#include "tests/pbs/battery/chi_square.h"
 #include "tests/pbs/battery/lobe_kernels.h"
-#include "tests/pbs/battery/sphere_partition.h"
 
 namespace nacre {
 namespace {
@@ -39,9 +40,12 @@ struct Trial {
   Trial(const LobeKernels& kernels, float roughness, Direction wo, std::uint64_t number,
         std::size_t count)
       : samples(kernels.sample(roughness, wo, count, seed + number)),
-        cells([&](const std::vector<Direction>& wi) { return kernels.evaluate(roughness, wo, wi); },
-              kernels.sample(roughness, wo, 4096, ~(seed + number)).wi,
-              static_cast<double>(count)) {}
+        cells(
+            [&](const std::vector<Direction>& wi) {
+              Evaluated values = kernels.evaluate(roughness, wo, wi);
+              return SpherePartition::Densities{std::move(values.pdf), std::move(values.f)};
+            },
+            kernels.sample(roughness, wo, 4096, ~(seed + number)).wi, static_cast<double>(count)) {}
 
   double valid_fraction() const {
     return static_cast<double>(std::ranges::count(samples.valid, true)) /

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nacre/lobe_test/chi_square.hpp>
+#include <nacre/lobe_test/sphere_partition.hpp>
 
-#include "tests/pbs/battery/chi_square.h"
-#include "tests/pbs/battery/sphere_partition.h"
 #include "tests/support/random.h"
 
 namespace nacre {
@@ -29,7 +29,7 @@ double probability(double bias, double claimed) {
   const auto number = [&] { return static_cast<double>(random.word() >> 11) * 0x1p-53; };
   const SpherePartition cells(
       [&](const std::vector<Direction>& wi) {
-        Evaluated out;
+        SpherePartition::Densities out;
         for (const Direction& w : wi) {
           out.pdf.push_back(static_cast<float>((1.0 + claimed * w.z) * 0.25 / 3.14159265358979));
         }

@@ -1,14 +1,19 @@
-#include "tests/pbs/battery/chi_square.h"
+/// \file
+/// Pearson's test: part of <nacre/lobe_test.hpp>.
+#ifndef NACRE_LOBE_TEST_CHI_SQUARE_HPP
+#define NACRE_LOBE_TEST_CHI_SQUARE_HPP
 
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace nacre {
+inline namespace v0 {
 
-namespace {
+namespace detail {
 
 /// Regularised upper incomplete gamma function (DLMF 8.11.4 and 8.9.2).
-double upper_gamma(double a, double x) {
+inline double upper_gamma(double a, double x) {
   if (x <= 0.0) return 1.0;
   const double scale = std::exp(a * std::log(x) - x - std::lgamma(a));
   if (x < a + 1.0) {
@@ -29,12 +34,17 @@ double upper_gamma(double a, double x) {
   return scale * h;
 }
 
-}  // namespace
+}  // namespace detail
 
-double chi_square_tail(double x, double degrees) { return upper_gamma(0.5 * degrees, 0.5 * x); }
+/// Probability that a chi-square variable of so many degrees of freedom exceeds x.
+inline double chi_square_tail(double x, double degrees) {
+  return detail::upper_gamma(0.5 * degrees, 0.5 * x);
+}
 
-double chi_square_probability(const std::vector<double>& counts,
-                              const std::vector<double>& expected) {
+/// Pearson's test: the probability of counts at least as far from `expected`, which is scaled to
+/// the same sum. Neighbours are pooled until 8 are expected.
+inline double chi_square_probability(const std::vector<double>& counts,
+                                     const std::vector<double>& expected) {
   double all = 0.0, mass = 0.0;
   for (const double n : counts) all += n;
   for (const double e : expected) mass += e;
@@ -52,6 +62,11 @@ double chi_square_probability(const std::vector<double>& counts,
   return bins < 2 ? 1.0 : chi_square_tail(x, bins - 1);
 }
 
-double level_of_one(double tests) { return -std::expm1(std::log1p(-1e-3) / tests); }
+/// The level of one of `tests` so that all of them together fail by chance with probability 1e-3
+/// (Sidak 1967).
+inline double level_of_one(double tests) { return -std::expm1(std::log1p(-1e-3) / tests); }
 
+}  // namespace v0
 }  // namespace nacre
+
+#endif
