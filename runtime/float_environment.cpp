@@ -15,11 +15,13 @@ constexpr std::uint32_t default_mxcsr = 0x1f80u;
 
 }  // namespace
 
-ScopedFloatEnvironment::ScopedFloatEnvironment() : saved_(_mm_getcsr()) {
+std::uint32_t enter_float_environment() {
+  const std::uint32_t own = _mm_getcsr();
   _mm_setcsr(kernel_mxcsr);
+  return own;
 }
 
-ScopedFloatEnvironment::~ScopedFloatEnvironment() { _mm_setcsr(saved_); }
+void leave_float_environment(std::uint32_t own) { _mm_setcsr(own); }
 
 ScopedDefaultFloatEnvironment::ScopedDefaultFloatEnvironment() : saved_() {
   std::fegetenv(&saved_);

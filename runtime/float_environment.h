@@ -5,14 +5,19 @@
 
 namespace nacre {
 
-/// The floating-point environment that every Program runs in, whatever the
-/// host's is: round to nearest even, denormals flushed to zero on the way in
-/// and out, exceptions masked. Set on construction, the host's restored on
-/// destruction, sticky flags included.
+/// Sets the floating-point environment that every Program runs in, whatever the host's is: round to
+/// nearest even, denormals flushed to zero on the way in and out, exceptions masked. Returns the
+/// host's, to be restored, sticky flags included.
+/// @{
+std::uint32_t enter_float_environment();
+void leave_float_environment(std::uint32_t own);
+/// @}
+
+/// The same from construction to destruction.
 class ScopedFloatEnvironment {
  public:
-  ScopedFloatEnvironment();
-  ~ScopedFloatEnvironment();
+  ScopedFloatEnvironment() : saved_(enter_float_environment()) {}
+  ~ScopedFloatEnvironment() { leave_float_environment(saved_); }
   ScopedFloatEnvironment(const ScopedFloatEnvironment&) = delete;
   ScopedFloatEnvironment& operator=(const ScopedFloatEnvironment&) = delete;
 

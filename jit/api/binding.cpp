@@ -9,6 +9,7 @@
 
 #include "jit/api/call.h"
 #include "jit/api/handles.h"
+#include "jit/api/run_status.h"
 
 using namespace nacre;
 using namespace nacre::api;
@@ -83,16 +84,6 @@ bool take_point(const nacre_binding& binding, const Batch& batch, std::uint32_t 
     block.set(binding.point_slots[i], bits);
   }
   return true;
-}
-
-nacre_status status_of(RunStatus status) {
-  switch (status) {
-    case RunStatus::done: return NACRE_OK;
-    case RunStatus::stopped: return NACRE_STOPPED;
-    case RunStatus::too_many_steps: return NACRE_TOO_MANY_STEPS;
-    case RunStatus::wrong_arguments: return NACRE_WRONG_ARGUMENTS;
-  }
-  return NACRE_FAILED;
 }
 
 }  // namespace

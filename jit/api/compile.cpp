@@ -46,6 +46,7 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   options.compile.backend = backends.at(static_cast<std::size_t>(asked.engine));
   options.compile.accuracy = accuracies.at(static_cast<std::size_t>(asked.accuracy));
   options.compile.lanes = asked.lanes;
+  options.compile.single_points = asked.single_points != 0;
   options.compile.asynchronous = asked.background != 0;
   options.compile.priority = asked.priority;
   options.compile.stop = stop_of(asked.stop);

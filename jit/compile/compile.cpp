@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "jit/compile/lower.h"
+#include "jit/compile/two_widths.h"
 #include "jit/llvm/codegen.h"
 #include "jit/service/compile_service.h"
 #include "runtime/float_environment.h"
@@ -59,6 +60,51 @@ void dump(const Program& program, const CompileOptions& options, std::vector<Sta
   if (options.dump_assembly) add("assembly", dump_assembly);
 }
 
+/// What Programs become machine code for: one number of lanes, and what the service makes for it.
+class Width {
+ public:
+  Width(std::size_t count, const CodegenOptions& codegen) : codegen_(codegen), made_(count) {}
+
+  const CodegenOptions& codegen() const { return codegen_; }
+  /// Takes what the service has already.
+  bool find(std::size_t place, const Program& program, const std::string& key,
+            CompileService& service, Diagnostics& diagnostics) {
+    std::shared_ptr<CompiledKernel> found = service.find(program, key, codegen_);
+    if (found == nullptr) return false;
+    const Diagnostics said = found->diagnostics();
+    for (const Diagnostic& one : said.all()) diagnostics.add(one);
+    made_[place] = std::move(found);
+    return true;
+  }
+  void add(std::size_t place, Program program, std::string key) {
+    if (made_[place] != nullptr) return;
+    places_.push_back(place);
+    requests_.push_back({std::move(program), std::move(key)});
+  }
+  /// Null where the service refuses.
+  std::vector<std::shared_ptr<CompiledKernel>> take(CompileService& service,
+                                                    const CompileOptions& options,
+                                                    Diagnostics& diagnostics) {
+    std::vector<std::shared_ptr<CompiledKernel>> asked;
+    if (options.asynchronous) {
+      for (CodeRequest& request : requests_) {
+        asked.push_back(service.request_async(std::move(request), codegen_, options.priority));
+      }
+    } else {
+      asked = service.request_all(std::move(requests_), codegen_, diagnostics,
+                                  options.stop.within(options.max_seconds));
+    }
+    for (std::size_t i = 0; i < places_.size(); ++i) made_[places_[i]] = std::move(asked[i]);
+    return std::move(made_);
+  }
+
+ private:
+  CodegenOptions codegen_;
+  std::vector<std::shared_ptr<CompiledKernel>> made_;  ///< By place.
+  std::vector<std::size_t> places_;                    ///< Of the requests.
+  std::vector<CodeRequest> requests_;
+};
+
 /// Programs on their way to kernels, each to its place.
 class Kernels {
  public:
@@ -66,38 +112,56 @@ class Kernels {
 
   Kernels(std::size_t count, const CompileOptions& options, CompileService* service,
           Diagnostics& diagnostics)
-      : options_(options), service_(service), diagnostics_(diagnostics), made_(count) {}
+      : options_(options), service_(service), diagnostics_(diagnostics), made_(count) {
+    // What a target is needs LLVM, which the other engines do without.
+    if (options_.backend != Backend::jit) return;
+    CodegenOptions codegen = codegen_options(options_);
+    widths_.emplace_back(count, codegen);
+    if (!options_.single_points || codegen.lanes == 1) return;
+    codegen.lanes = 1;
+    widths_.emplace_back(count, codegen);
+  }
 
   /// Lowers one, as far as is needed. False once time is up, after a diagnostic.
   bool add(std::size_t place, Program program, std::vector<StageReport>* reports) {
     program = lower_to_interface(std::move(program), options_, reports);
     if (is_over(program)) return false;
-    const bool is_jit = options_.backend == Backend::jit;
-    std::string key;
-    if (is_jit && !is_too_large(program, options_)) {
-      key = key_of(program, options_, codegen_);
-      const bool may_skip = !options_.whole && !options_.dump_ir && !options_.dump_assembly;
-      if (auto found = may_skip ? service_->find(program, key, codegen_) : nullptr) {
-        const Diagnostics said = found->diagnostics();
-        for (const Diagnostic& one : said.all()) diagnostics_.add(one);
-        made_[place] = std::move(found);
-        return true;
-      }
-    }
+    std::vector<std::string> keys;
     if (!is_too_large(program, options_)) {
+      const bool may_skip = !options_.whole && !options_.dump_ir && !options_.dump_assembly;
+      std::size_t found = 0;
+      for (Width& width : widths_) {
+        keys.push_back(key_of(program, options_, width.codegen()));
+        found += may_skip && width.find(place, program, keys.back(), *service_, diagnostics_);
+      }
+      if (found != 0 && found == widths_.size()) return true;
       program = lower_to_engine(std::move(program), options_, reports);
     }
     if (is_over(program)) return false;
     if (is_refused(program, options_, diagnostics_)) return true;
-    if (is_jit && reports != nullptr) dump(program, options_, *reports, diagnostics_);
-    places_.push_back(place);
-    requests_.push_back({std::move(program), std::move(key)});
+    if (widths_.empty()) {
+      made_[place] = on_this_thread(std::move(program));
+      return true;
+    }
+    if (reports != nullptr) dump(program, options_, *reports, diagnostics_);
+    for (std::size_t i = 1; i < widths_.size(); ++i) widths_[i].add(place, program, keys[i]);
+    widths_.front().add(place, std::move(program), keys.front());
     return true;
   }
 
   List take() {
-    List others = options_.backend == Backend::jit ? by_service() : by_this_thread();
-    for (std::size_t i = 0; i < places_.size(); ++i) made_[places_[i]] = std::move(others[i]);
+    std::vector<std::vector<std::shared_ptr<CompiledKernel>>> made;
+    for (Width& width : widths_) {
+      // What is refused at one width is at the other.
+      if (!made.empty() && std::ranges::count(made.front(), nullptr) != 0) break;
+      made.push_back(width.take(*service_, options_, diagnostics_));
+    }
+    for (std::size_t i = 0; !made.empty() && i < made_.size(); ++i) {
+      std::shared_ptr<CompiledKernel>& kernel = made.front()[i];
+      const bool has_single = kernel != nullptr && made.size() > 1 && made.back()[i] != nullptr;
+      made_[i] = has_single ? of_two_widths(std::move(kernel), std::move(made.back()[i]))
+                            : std::move(kernel);
+    }
     return std::move(made_);
   }
 
@@ -107,38 +171,17 @@ class Kernels {
                          diagnostics_);
   }
 
-  List by_service() {
-    if (!options_.asynchronous) {
-      auto kernels = service_->request_all(std::move(requests_), codegen_, diagnostics_,
-                                           options_.stop.within(options_.max_seconds));
-      return {kernels.begin(), kernels.end()};
-    }
-    List kernels;
-    for (CodeRequest& request : requests_) {
-      kernels.push_back(service_->request_async(std::move(request), codegen_, options_.priority));
-    }
-    return kernels;
-  }
-
-  List by_this_thread() {
-    List kernels;
-    for (auto& [program, key] : requests_) {
-      kernels.push_back(options_.backend == Backend::reference
-                            ? make_reference(std::move(program), options_.max_steps)
-                            : make_interpreter(std::move(program), options_.max_steps));
-    }
-    return kernels;
+  std::unique_ptr<Kernel> on_this_thread(Program program) const {
+    return options_.backend == Backend::reference
+               ? make_reference(std::move(program), options_.max_steps)
+               : make_interpreter(std::move(program), options_.max_steps);
   }
 
   const CompileOptions& options_;
-  /// Of the JIT; what it is needs LLVM, which the other engines do without.
-  const CodegenOptions codegen_ =
-      options_.backend == Backend::jit ? codegen_options(options_) : CodegenOptions{};
   CompileService* service_;
   Diagnostics& diagnostics_;
-  List made_;                        ///< By place; null where refused.
-  std::vector<std::size_t> places_;  ///< Of the requests.
-  std::vector<CodeRequest> requests_;
+  List made_;                  ///< By place; null where refused.
+  std::vector<Width> widths_;  ///< None but for the JIT.
 };
 
 }  // namespace

@@ -22,6 +22,8 @@ struct CompileOptions {
   Backend backend = Backend::jit;          ///< What runs the kernel.
   /// 1, 4, 8, 16; 0: the widest that pays on this machine; else an error. JIT only.
   int lanes = 0;
+  /// Code of one lane as well, which runs of one point take. JIT only.
+  bool single_points = false;
   /// Treat every value as varying: slower, and must change no result.
   bool all_varying = false;
   /// Answer through the interpreter while the JIT compiles in the background.

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,16 @@ class CompiledKernel : public Kernel {
  public:
   enum class State { waiting, ready, failed, cancelled };
 
+  /// The code itself; see run_code.h for what it wants.
+  struct Code {
+    LoadedCode::Entry entry;
+    int lanes;
+    std::uint64_t max_steps;  ///< Of a pass.
+  };
+
   virtual State state() const = 0;
+  /// Nothing unless ready. `single`: of one lane, where CompileOptions::single_points asked for it.
+  virtual std::optional<Code> code(bool single) const = 0;
   /// Waits for the code; true if it is there.
   virtual bool wait() const = 0;
   /// Withdraws the request: if no other kernel wants the same code, compiling

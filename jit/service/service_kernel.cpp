@@ -21,6 +21,7 @@ class InterpretingKernel final : public CompiledKernel {
   int lanes() const override { return interpreter_->lanes(); }
   const char* engine() const override { return interpreter_->engine(); }
   State state() const override { return State::failed; }
+  std::optional<Code> code(bool) const override { return std::nullopt; }
   bool wait() const override { return false; }
   void cancel() override {}
   void when_ended(std::function<void()> call) override { call(); }
@@ -57,6 +58,12 @@ int ServiceKernel::lanes() const {
 
 const char* ServiceKernel::engine() const {
   return job_->entry() == nullptr ? interpreter_->engine() : "jit";
+}
+
+std::optional<CompiledKernel::Code> ServiceKernel::code(bool single) const {
+  const LoadedCode::Entry entry = job_->entry();
+  if (entry == nullptr || (single && lanes_ != 1)) return std::nullopt;
+  return Code{entry, lanes_, limit_.max_steps()};
 }
 
 void ServiceKernel::cancel() {

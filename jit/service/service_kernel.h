@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "jit/service/compile_service.h"
@@ -26,6 +27,7 @@ class ServiceKernel final : public CompiledKernel {
   const char* engine() const override;
 
   State state() const override { return job_->state(); }
+  std::optional<Code> code(bool single) const override;
   bool wait() const override { return job_->wait(); }
   void cancel() override;
   void when_ended(std::function<void()> call) override { job_->when_ended(std::move(call)); }

@@ -4,6 +4,7 @@
 
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
+#include "jit/shading/bound_code.h"
 #include "runtime/batch/run_bound.h"
 
 namespace nacre {
@@ -40,6 +41,23 @@ void BoundKernel::when_ended(std::function<void()> call) const {
 
 Diagnostics BoundKernel::diagnostics() const {
   return made() != nullptr ? made()->diagnostics() : Diagnostics();
+}
+
+std::unique_ptr<const BoundCode> BoundKernel::code(std::vector<std::uint32_t> parameters,
+                                                  bool single) const {
+  const auto code = made() != nullptr ? made()->code(single) : std::nullopt;
+  if (!code || parameters.size() != parameters_.size()) return nullptr;
+  auto bound = std::make_unique<BoundCode>();
+  bound->code = *code;
+  bound->parameters = std::move(parameters);
+  if (textures_ != nullptr) bound->images = textures_->snapshot();
+  bound->arguments = {.parameters = bound->parameters.data(),
+                      .textures = bound->images.bindings.data(),
+                      .texture_callback = &RecordedTextures::look_up,
+                      .texture_user = const_cast<RecordedTextures*>(textures_.get())};
+  bound->kernel = kernel_;
+  bound->textures = textures_;
+  return bound;
 }
 
 std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) const {

@@ -17,6 +17,7 @@
 
 namespace nacre {
 
+struct BoundCode;
 class CompiledKernel;
 class RecordedTextures;
 
@@ -67,6 +68,11 @@ class BoundKernel {
   /// kernel's Program.
   [[nodiscard]] RunStatus run(const Binding& binding, const Batch& batch,
                               std::span<const std::uint32_t> parameters = {}) const;
+
+  /// The code itself with values of its parameters, as many as the Program has, and the images that
+  /// are bound now; null where there is none. `single`: for one point at a time, see
+  /// CompileOptions::single_points.
+  std::unique_ptr<const BoundCode> code(std::vector<std::uint32_t> parameters, bool single) const;
 
  private:
   /// Null for what is not machine code.

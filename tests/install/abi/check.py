@@ -47,8 +47,8 @@ def interface(includes: list[pathlib.Path], folder: pathlib.Path) -> pathlib.Pat
     source = folder / "interface.c"
     texts = [COMMENT.sub("", header.read_text(encoding="utf-8")) for header in headers(includes)]
     functions = [match for text in texts for match in FUNCTION.findall(text)]
-    source.write_text("#include <nacre/nacre.h>\n#include <stdlib.h>\n"
-                      + "".join(f"NACRE_API {one.strip()} {{ abort(); }}\n" for one in functions),
+    source.write_text("".join(f"#include <nacre/{header.name}>\n" for header in headers(includes))
+                      + "#include <stdlib.h>\n" + "".join(f"NACRE_API {one.strip()} {{ abort(); }}\n" for one in functions),
                       encoding="utf-8")
     described = folder / "interface.abi"
     library = compiled(source, includes, "-shared", "-fPIC")

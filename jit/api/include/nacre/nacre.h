@@ -214,6 +214,8 @@ typedef struct nacre_compile_options {
   const nacre_stop* stop;    /* NULL: never. */
   int prefer; /* Where a nodedef has several implementations: NACRE_BODY, NACRE_GRAPH, NACRE_TEXT.
                */
+  int single_points; /* 1: code for one point is made too, and taken by batches of one: the same
+                        bits, at a fraction of the cost of a pass of many lanes. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;

@@ -121,6 +121,7 @@ struct CompileOptions {
   std::uint64_t max_instructions = 0;
   std::uint64_t max_steps = 0;
   const StopSource* stop = nullptr;
+  bool single_points = false;
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -316,6 +317,7 @@ class System {
     asked.max_instructions = options.max_instructions;
     asked.max_steps = options.max_steps;
     asked.stop = options.stop != nullptr ? options.stop->get() : nullptr;
+    asked.single_points = options.single_points;
     call(asked);
   }
 
