@@ -24,7 +24,8 @@ def main() -> int:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text("#error a header of the host\n", encoding="utf-8")
     include = prefix / "include"
-    headers = sorted(header.name for header in (include / "nacre").glob("*.h*"))
+    folder_of_ours = include / "nacre"
+    headers = sorted(str(header.relative_to(folder_of_ours)) for header in folder_of_ours.rglob("*.h*"))
     faults = 0
     for header in headers:
         for compiler, standard in (C if header.endswith(".h") else []) + CXX:
