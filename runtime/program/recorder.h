@@ -139,7 +139,7 @@ class Recorder {
  private:
   /// A function under construction and the regions open in it.
   struct Open {
-    std::uint32_t number;
+    std::uint32_t number = 0;
     Function function;  ///< Joins the Program when it ends, after what it calls; not the entry.
     std::string key;
     ValueTable values;

@@ -22,7 +22,8 @@ def build() -> None:
               ("OIIO_INCLUDE", "OIIO_LIBRARY", "OIIO_UTIL_LIBRARY", "OCIO_INCLUDE", "OCIO_LIBRARY")]
     subprocess.run(["cmake", "-S", SOURCE, "-B", FOLDER / "build", "-G", "Ninja",
                     "-DCMAKE_BUILD_TYPE=Release", "-DNACRE_WITH_OPENIMAGEIO=OFF",
-                    "-DNACRE_WITH_OPENCOLORIO=OFF", "-DNACRE_WERROR=ON",
+                    "-DNACRE_WITH_OPENCOLORIO=OFF", "-DNACRE_WERROR=ON", "-DNACRE_BUILD_TESTS=OFF",
+                    "-DNACRE_BUILD_BENCH=OFF", "-DNACRE_BUILD_PYTHON=OFF",
                     f"-DNACRE_MATERIALX_LIBRARIES={DATA}", *hidden], check=True)
     subprocess.run(["cmake", "--build", FOLDER / "build"], check=True)
     subprocess.run(["cmake", "--install", FOLDER / "build", "--prefix", PREFIX], check=True,
