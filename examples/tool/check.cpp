@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "examples/tool/check_lobes.h"
+#include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
 #include "jit/graph/build/build.h"
@@ -11,16 +13,19 @@ namespace nacre::tool {
 
 namespace {
 
-/// Builds every graph of the document; kernels are not compiled.
-int run(const CommonOptions& options) {
+/// Builds every graph of the document; kernels are compiled for their lobes alone.
+int run(const CommonOptions& options, const LobeCheck& lobes) {
   Diagnostics diagnostics;
   const Opened opened = open(options, diagnostics);
   if (opened) {
     opened.system->check(*opened.document, options.shader_options(), diagnostics);
+    if (lobes.is_wanted && !diagnostics.has_errors()) {
+      check_lobes(options, lobes, opened, diagnostics);
+    }
   }
   report(diagnostics);
   const int status = diagnostics.all().empty() ? status_ok : status_problems;
-  if (!options.quiet && status == status_ok) fmt::print("{}: ok\n", options.file);
+  if (!options.quiet && !lobes.json && status == status_ok) fmt::print("{}: ok\n", options.file);
   return status;
 }
 
@@ -30,9 +35,24 @@ void add_check(CLI::App& app, int& status) {
   auto options = std::make_shared<CommonOptions>();
   CLI::App& command = *app.add_subcommand("check", "Say what is wrong with a document");
   options->add_document(command);
+  const auto lobes = std::make_shared<LobeCheck>();
+  CLI::Option* const wanted = command.add_flag(
+      "--lobes", lobes->is_wanted,
+      "Also try what every closure must hold on each material, at texture coordinates 0: samples "
+      "follow the density, no more light leaves than arrives, all is finite");
+  command.add_option("--samples", lobes->effort.samples, "Of each view of a material")
+      ->needs(wanted)
+      ->check(CLI::Range(1000, 100'000'000))
+      ->capture_default_str();
+  command.add_option("--most-energy", lobes->effort.most_energy, "Light that may leave of 1")
+      ->needs(wanted)
+      ->check(number_within(0))
+      ->capture_default_str();
+  command.add_flag("--json", lobes->json, "What --lobes finds, for programs to read")
+      ->needs(wanted);
   command.footer("Exit status: 0 clean, 1 problems, 2 usage.");
   command.callback(
-      [options, &status] { status = guarded(options->file, [&] { return run(*options); }); });
+      [=, &status] { status = guarded(options->file, [&] { return run(*options, *lobes); }); });
 }
 
 }  // namespace nacre::tool

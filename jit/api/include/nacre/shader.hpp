@@ -46,6 +46,9 @@ struct LobeInfo {
 /// The compiled kernels of a material or of outputs.
 class Shader {
  public:
+  /// Takes a handle of the C interface, which is destroyed with it.
+  static Shader adopt(nacre_shader* shader) { return Shader(shader); }
+
   bool has(nacre_entry entry) const { return nacre_shader_has(get(), entry) != 0; }
   std::vector<Channel> inputs(nacre_entry entry) const {
     return channels(entry, nacre_shader_input_count, nacre_shader_input);

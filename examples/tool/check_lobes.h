@@ -1,0 +1,20 @@
+#pragma once
+
+#include "examples/tool/lobe_laws.h"
+#include "examples/tool/options.h"
+
+namespace nacre::tool {
+
+/// How `nacre check --lobes` looks at the materials of a document.
+struct LobeCheck {
+  bool is_wanted = false;
+  bool json = false;
+  LobeEffort effort;
+};
+
+/// Compiles every material with a closure and prints what leaves of the light; a fault for each law
+/// that does not hold.
+void check_lobes(const CommonOptions& options, const LobeCheck& check, const Opened& opened,
+                 Diagnostics& diagnostics);
+
+}  // namespace nacre::tool

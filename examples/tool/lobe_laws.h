@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct nacre_shader;
+
+namespace nacre {
+struct MaterialKernels;
+}
+
+namespace nacre::tool {
+
+/// What leaves of the light that arrives where a material is looked at from `degrees` to its
+/// normal; see <nacre/lobe_test.hpp>. Red, green and blue.
+struct LobeView {
+  double degrees = 0;
+  std::array<double, 3> light{}, albedo{};
+  double valid = 0;
+  double reciprocity = 1;
+};
+
+/// A law that does not hold.
+struct LobeFault {
+  std::string law, text;
+  double found = 0, expected = 0;
+};
+
+struct LobeFindings {
+  std::vector<LobeView> views;
+  std::vector<LobeFault> faults;
+};
+
+/// How hard a material is looked at.
+struct LobeEffort {
+  std::size_t samples = 100'000;  ///< Of each view.
+  double most_energy = 1.01;       ///< More light than that is a fault.
+};
+
+/// The public handle of kernels that this program has compiled, for try_lobes().
+nacre_shader* public_handle(std::unique_ptr<MaterialKernels> kernels);
+
+/// Tries the laws, by the public interface alone; destroys the shader. It has a closure.
+LobeFindings try_lobes(nacre_shader* shader, const LobeEffort& effort);
+
+}  // namespace nacre::tool

@@ -1,0 +1,53 @@
+// `nacre check --lobes`: what closures must hold, said of the materials of a document.
+#include <nlohmann/json.hpp>
+
+#include "tests/examples/tool/tool_fixture.h"
+
+namespace nacre {
+namespace {
+
+std::string material(const std::string& bsdf) {
+  return R"(<materialx version="1.39">
+  )" + bsdf +
+         R"(
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
+  <surfacematerial name="M" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+</materialx>)";
+}
+
+class LobeTool : public Tool {};
+
+TEST_F(LobeTool, PrintsWhatLeavesOfTheLight) {
+  write("metal.mtlx", material(R"(<conductor_bsdf name="b" type="BSDF">
+    <input name="ior" type="color3" value="0, 0, 0"/>
+    <input name="roughness" type="vector2" value="0.3, 0.3"/></conductor_bsdf>)"));
+  const std::string check = "check " + file("metal.mtlx") + " --lobes --samples 20000";
+  ASSERT_EQ(run(check), 0) << errors_;
+  EXPECT_NE(printed_.find("M (front)"), std::string::npos) << printed_;
+  ASSERT_EQ(run(check + " --json"), 0) << errors_;
+  const auto found = nlohmann::json::parse(printed_);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0]["material"], "M");
+  EXPECT_TRUE(found[0]["faults"].empty());
+  ASSERT_FALSE(found[0]["views"].empty());
+  for (const auto& view : found[0]["views"]) {
+    for (const double light : view["light"]) EXPECT_NEAR(light, 1.0, 0.02) << view;
+  }
+}
+
+// Burley's diffuse gains at grazing angles where it is rough: a property of the model.
+TEST_F(LobeTool, NamesTheLawThatDoesNotHold) {
+  write("rough.mtlx", material(R"(<burley_diffuse_bsdf name="b" type="BSDF">
+    <input name="color" type="color3" value="1, 1, 1"/>
+    <input name="roughness" type="float" value="1"/></burley_diffuse_bsdf>)"));
+  const std::string check = "check " + file("rough.mtlx") + " --lobes --samples 20000";
+  EXPECT_EQ(run(check), 1);
+  EXPECT_NE(errors_.find("rough.mtlx:6:"), std::string::npos) << errors_;
+  EXPECT_NE(errors_.find("[lobe-energy]"), std::string::npos) << errors_;
+  EXPECT_EQ(run(check + " --most-energy 1.6"), 0) << errors_;
+  EXPECT_EQ(run("check " + file("rough.mtlx") + " --samples 20000"), 2);
+}
+
+}  // namespace
+}  // namespace nacre
