@@ -199,7 +199,12 @@ def hosts(run: results.Run) -> str:
     ways = [[name.replace("_", " "), cell(run.get(f"hosts/point/{name}"))]
             for name in ("begin", "begin_with", "begin_and_aovs", "apart",
                          "begin_sample_evaluate", "shade")]
-    one = run.get("hosts/evaluate/one_point")
+    calls = [[what, cell(run.get(f"hosts/call/{name}"))]
+             for name, what in (("wide", "a binding, code of all lanes"),
+                                ("single", "a binding, code for single points"),
+                                ("code", "the code for single points itself"),
+                                ("empty", "a binding, no point"),
+                                ("empty_code", "the code itself, no point"))]
     made = run.get("hosts/instance")
     topologies = [[live, number(figure.counters["compile_cpu_s"]), cell(figure),
                    number(figure.counters["instance_bytes"])]
@@ -210,8 +215,9 @@ def hosts(run: results.Run) -> str:
             "at random, and their state is kept by place in the list, but in the row half_of_state; "
             "instances differ in colour and roughness from point to point.\n\n"
             + table(["points"] + list(entries), rows)
-            + f"\nA call for one point (evaluate): {cell(one)} ns. An instance, made and given a "
-            f"colour: {cell(made)} ns.\n\n"
+            + f"\nAn instance, made and given a colour: {cell(made)} ns. A call for one point "
+            "(evaluate):\n\n"
+            + table(["call", "ns"], calls) + "\n"
             "More of a point, of a standard_surface whose colour, emission and presence are one "
             "fractal noise of six octaves: begin alone; with albedo, emission and opacity; with "
             "normal, roughness and base colour too; those three by kernels of their own after it; "

@@ -19,7 +19,8 @@ namespace nacre::bench {
 
 /// See bench/common/benchmarks.h, which a host does not know.
 void register_benchmarks();
-/// Of point_results.cpp and topologies.cpp.
+/// Of calls.cpp, point_results.cpp and topologies.cpp.
+void register_calls();
 void register_point_results();
 void register_topologies();
 
@@ -125,17 +126,6 @@ void run_case(benchmark::State& state, const Case& host, nacre_entry entry) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(batch.count));
 }
 
-/// A call of one point: what it costs to ask.
-void run_one_point(benchmark::State& state) {
-  Points points(false);
-  const Binding binding = points.bind(shader(false));
-  const std::vector<void*> arrays = points.arrays();
-  Batch batch;
-  batch.count = 1;
-  for (auto _ : state) binding.run(NACRE_EVALUATE, arrays, batch);
-  state.SetItemsProcessed(state.iterations());
-}
-
 /// A thousand instances, each with a colour of its own: time and bytes of one.
 void run_instances(benchmark::State& state) {
   const Shader& of = shader(false);
@@ -166,7 +156,7 @@ void register_benchmarks() {
       });
     }
   }
-  benchmark::RegisterBenchmark("hosts/evaluate/one_point", run_one_point);
+  register_calls();
   benchmark::RegisterBenchmark("hosts/instance", run_instances);
 }
 

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <nacre/nacre.hpp>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -89,6 +90,26 @@ class Points {
   std::vector<void*> arrays() {
     return {numbers_.data(), state_.data(), results_.data(), looks_.data()};
   }
+  /// Of a channel, where every number is an array of its own; of what a material does not read or
+  /// a host does not keep, numbers that count for nothing.
+  float* column(const Channel& channel) {
+    constexpr std::pair<const char*, std::size_t> groups[] = {
+        {"P", 0},  {"Po", 0}, {"N", 3},  {"No", 3},  {"Ng", 3}, {"T", 6},
+        {"To", 6}, {"B", 9},  {"Bo", 9}, {"wo", 12}, {"u", 15}, {"wi", 18}};
+    constexpr std::pair<const char*, std::size_t> results[] = {
+        {"f", 0}, {"weight", 3}, {"pdf", 6}, {"flags", 7}, {"lobe", 8}, {"albedo", 9}};
+    const auto component = static_cast<std::size_t>(std::max(channel.component, 0));
+    const std::string group = channel.name.substr(0, channel.name.find('.'));
+    if (group == "state") return state_.data() + component * all;
+    for (const auto& [name, first] : groups) {
+      if (group == name) return numbers_.data() + (first + component) * all;
+    }
+    for (const auto& [name, first] : results) {
+      if (group == name) return results_.data() + (first + component) * all;
+    }
+    spare_.resize(all);
+    return spare_.data();
+  }
   const std::uint32_t* instances() const { return instances_.data(); }
   /// Result number `k` of a point.
   float result(std::size_t i, std::size_t k) const {
@@ -97,7 +118,7 @@ class Points {
 
  private:
   bool structures_, state_by_place_;
-  std::vector<float> numbers_, state_, results_, looks_;
+  std::vector<float> numbers_, state_, results_, looks_, spare_;
   std::vector<std::uint32_t> instances_;
 };
 
