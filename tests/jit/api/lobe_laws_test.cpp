@@ -143,7 +143,7 @@ TEST(LobeLaws, FindWhatIsWrong) {
 
   Planted on_no_side;
   on_no_side.kind = NACRE_GLOSSY_TRANSMISSION;
-  EXPECT_EQ(laws(report_of(on_no_side)), "flags");
+  EXPECT_EQ(laws(report_of(on_no_side)), "sides");
 }
 
 TEST(LobeLaws, SayWhereAndHowMuch) {
