@@ -25,7 +25,9 @@ def main() -> None:
     def run(*command: object, folder: pathlib.Path = work) -> str:
         print("+", *command, flush=True)
         done = subprocess.run([str(each) for each in command], cwd=folder, env=environment,
-                              stdout=subprocess.PIPE, text=True, check=True)
+                              stdout=subprocess.PIPE, text=True, check=False)
+        if done.returncode != 0:
+            sys.exit(f"{done.stdout}\nstatus {done.returncode}")
         return done.stdout
 
     venv = work / "venv"
