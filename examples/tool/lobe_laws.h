@@ -37,7 +37,7 @@ struct LobeFindings {
 /// How hard a material is looked at.
 struct LobeEffort {
   std::size_t samples = 100'000;  ///< Of each view.
-  double most_energy = 1.01;       ///< More light than that is a fault.
+  double most_energy = 1.01;      ///< More light than that is a fault.
 };
 
 /// The public handle of kernels that this program has compiled, for try_lobes().

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   nacre::tool::prepare_process();
   const nacre::tool::StopOnSignal signals;
   CLI::App app{"nacre: MaterialX shading on the CPU, compiled to SIMD machine code", "nacre"};
-  app.set_version_flag("--version", NACRE_VERSION);
+  app.set_version_flag("--version", NACRE_TOOL_VERSION);
   app.require_subcommand(1);
   app.footer(footer);
   int status = nacre::tool::status_ok;

@@ -16,6 +16,7 @@ constexpr std::atomic<std::uint32_t> never = 0;
 RunStatus BoundCode::run(const void* const* inputs, void* const* outputs,
                          std::uint64_t count) const {
   if (count % static_cast<std::uint64_t>(code.lanes) != 0) return RunStatus::wrong_arguments;
+  if (count == 0) return RunStatus::done;  // The code makes one pass at least.
   RunState state;
   state.arguments = arguments;
   state.arguments.inputs = inputs;

@@ -44,7 +44,7 @@ Diagnostics BoundKernel::diagnostics() const {
 }
 
 std::unique_ptr<const BoundCode> BoundKernel::code(std::vector<std::uint32_t> parameters,
-                                                  bool single) const {
+                                                   bool single) const {
   const auto code = made() != nullptr ? made()->code(single) : std::nullopt;
   if (!code || parameters.size() != parameters_.size()) return nullptr;
   auto bound = std::make_unique<BoundCode>();
