@@ -35,6 +35,7 @@ void add_check(CLI::App& app, int& status) {
   auto options = std::make_shared<CommonOptions>();
   CLI::App& command = *app.add_subcommand("check", "Say what is wrong with a document");
   options->add_document(command);
+  options->add_compile(command);
   const auto lobes = std::make_shared<LobeCheck>();
   CLI::Option* const wanted = command.add_flag(
       "--lobes", lobes->is_wanted,

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "jit/api/handles.h"
 #include "jit/graph/find.h"
 
 namespace nacre::tool {
@@ -12,7 +13,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// For try_lobes(), which destroys it.
+nacre_shader* public_handle(std::unique_ptr<MaterialKernels> kernels) {
+  return new nacre_shader{std::make_shared<const api::ShaderData>(std::move(kernels))};
+}
+
 void print_table(const std::string& material, const char* side, const LobeFindings& findings) {
+  if (findings.views.empty()) {
+    fmt::print("{} ({}): no closure\n", material, side);
+    return;
+  }
   fmt::print("{} ({}): light that leaves, and what `albedo` says\n", material, side);
   fmt::print("  {:>7}  {:>23}  {:>23}  {:>7}  {:>11}\n", "degrees", "light", "albedo", "valid",
              "reciprocity");
@@ -56,8 +66,9 @@ void check_lobes(const CommonOptions& options, const LobeCheck& check, const Ope
         opened.system->compile_material(*opened.document, material.name, asked, diagnostics);
     if (kernels == nullptr) return false;
     const bool has_back = kernels->has_back;
-    if (!kernels->sample || !kernels->evaluate || !kernels->albedo) return has_back;
-    const LobeFindings findings = try_lobes(public_handle(std::move(kernels)), check.effort);
+    const bool has_closure = kernels->sample && kernels->evaluate && kernels->albedo;
+    const LobeFindings findings =
+        has_closure ? try_lobes(public_handle(std::move(kernels)), check.effort) : LobeFindings{};
     if (check.json) {
       all.push_back(to_json(material.name, name, findings));
     } else {

@@ -12,8 +12,8 @@ struct LobeCheck {
   LobeEffort effort;
 };
 
-/// Compiles every material with a closure and prints what leaves of the light; a fault for each law
-/// that does not hold.
+/// Compiles every material and prints what leaves of the light, or that it has no closure; a fault
+/// for each law that does not hold.
 void check_lobes(const CommonOptions& options, const LobeCheck& check, const Opened& opened,
                  Diagnostics& diagnostics);
 

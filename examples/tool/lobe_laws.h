@@ -2,15 +2,10 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <vector>
 
 struct nacre_shader;
-
-namespace nacre {
-struct MaterialKernels;
-}
 
 namespace nacre::tool {
 
@@ -39,9 +34,6 @@ struct LobeEffort {
   std::size_t samples = 100'000;  ///< Of each view.
   double most_energy = 1.01;      ///< More light than that is a fault.
 };
-
-/// The public handle of kernels that this program has compiled, for try_lobes().
-nacre_shader* public_handle(std::unique_ptr<MaterialKernels> kernels);
 
 /// Tries the laws, by the public interface alone; destroys the shader. It has a closure.
 LobeFindings try_lobes(nacre_shader* shader, const LobeEffort& effort);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstring>
 #include <memory>
 
@@ -12,8 +11,6 @@
 namespace nacre {
 
 namespace {
-
-constexpr std::atomic<std::uint32_t> never = 0;
 
 /// Runs code on parts of a batch.
 class CodeRun {
@@ -25,14 +22,8 @@ class CodeRun {
         inputs_(program.inputs.size()),
         outputs_(program.outputs.size()),
         arguments_(arguments),
-        rows_(rows) {
-    state_.arguments = arguments;
-    if (state_.arguments.stop == nullptr) state_.arguments.stop = &never;
-    // Below zero is what the code writes, so there is no more than this.
-    state_.max_steps = static_cast<std::int64_t>(
-        std::min<std::uint64_t>(limit.max_steps(), std::uint64_t{1} << 62));
-    state_.steps_left = state_.max_steps;
-  }
+        rows_(rows),
+        state_(first_state(arguments, limit.max_steps())) {}
 
   /// Points [first, first + count): whole passes.
   RunStatus points(std::uint64_t first, std::uint64_t count) {

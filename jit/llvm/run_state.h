@@ -16,4 +16,7 @@ struct RunState {
   std::int64_t steps_left = 0;
 };
 
+/// At the beginning of a run. `max_steps`: of a pass; the code counts to 2^62 at most.
+RunState first_state(const KernelArguments& arguments, std::uint64_t max_steps);
+
 }  // namespace nacre

@@ -49,5 +49,22 @@ TEST_F(LobeTool, NamesTheLawThatDoesNotHold) {
   EXPECT_EQ(run("check " + file("rough.mtlx") + " --samples 20000"), 2);
 }
 
+// What has nothing to be tried is named too.
+TEST_F(LobeTool, SaysWhatHasNoClosure) {
+  write("light.mtlx", R"(<materialx version="1.39">
+  <uniform_edf name="e" type="EDF"/>
+  <surface name="s" type="surfaceshader"><input name="edf" type="EDF" nodename="e"/></surface>
+  <surfacematerial name="M" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+</materialx>)");
+  const std::string check = "check " + file("light.mtlx") + " --lobes";
+  ASSERT_EQ(run(check), 0) << errors_;
+  EXPECT_NE(printed_.find("M (front): no closure"), std::string::npos) << printed_;
+  ASSERT_EQ(run(check + " --json"), 0) << errors_;
+  const auto found = nlohmann::json::parse(printed_);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0]["views"].empty());
+}
+
 }  // namespace
 }  // namespace nacre

@@ -206,7 +206,7 @@ typedef struct nacre_compile_options {
   /* Applied in order: where two set the same input, the last one counts. */
   const nacre_variant* variants;
   size_t variant_count;
-  uint64_t max_nodes;        /* Of a graph; more are an error. 0: 250,000. */
+  uint64_t max_nodes;        /* Of a graph, those within it too; more are an error. 0: 250,000. */
   uint64_t max_inputs;       /* Of a node; more are an error. 0: 1024. */
   uint64_t max_instructions; /* Of a kernel; more are an error. 0: 500,000. */
   uint64_t max_steps;        /* Of a pass of points through a kernel, roughly instructions: more are
