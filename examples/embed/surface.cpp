@@ -141,7 +141,8 @@ int main(int argc, char** argv) try {
   out << "P6\n" << width << ' ' << height << "\n255\n";
   for (const Vec& sum : film) {
     for (const float v : {sum.x, sum.y, sum.z}) {
-      out.put(char(255.99f * std::pow(std::min(v / float(samples), 1.0f), 1 / 2.2f)));
+      // By an integer: from 128 on there is no such char.
+      out.put(char(int(255.99f * std::pow(std::min(v / float(samples), 1.0f), 1 / 2.2f))));
     }
   }
   return out.flush() ? 0 : 1;
