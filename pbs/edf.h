@@ -23,14 +23,15 @@ class Edf : public Closure {
   const Parts& parts() const { return parts_; }
 
   /// Radiance towards view.wo, at least 0, by that of the parts: black for those that are
-  /// not connected.
+  /// not connected. What overflows is radiance()'s to bound.
   virtual Color3 radiance(const View& view, Color3 first, Color3 second) const = 0;
 
  private:
   Parts parts_;
 };
 
-/// Radiance of all of it; a literal 0 where nothing emits. Each node is asked once.
+/// Radiance of all of it, finite and at least 0; a literal 0 where nothing emits. Each node is
+/// asked once.
 Color3 radiance(const EdfPtr& edf, const View& view);
 
 /// The Edf that a port carries; null where nothing is connected.

@@ -182,7 +182,9 @@ class SurfaceRecorder {
   }
 
   void finish_sample(const LobeSample& chosen, Int lobe, Color3 weight, Float probability) {
-    const Total total = evaluate(view_, terms_, chosen.wi);
+    // A step of Newton's: lobes give unit vectors up to the errors of frames and of fast sines.
+    const Float3 wi = chosen.wi * Float3(fma(-0.5f, dot(chosen.wi, chosen.wi), 1.5f));
+    const Total total = evaluate(view_, terms_, wi);
     const Bool smooth = chosen.valid & !chosen.delta & (total.pdf > 0.0f);
     const Bool delta = chosen.valid & chosen.delta & (chosen.delta_probability > 0.0f);
     const Bool valid = smooth | delta;
@@ -192,7 +194,6 @@ class SurfaceRecorder {
     const Color3 out = select(delta, discrete, ratio);
     const Float pdf =
         select(delta, chosen.delta_probability * probability, select(smooth, total.pdf, 0.0f));
-    const Float3 wi = chosen.wi;
     const Float3 ng = geometric_normal(recorder_);
     const Bool crosses = (dot(ng, wi) < 0.0f) ^ (dot(ng, view_.wo) < 0.0f);
     const Int flags = select(valid, Int(sample_valid), Int(0)) |
@@ -221,7 +222,7 @@ class SurfaceRecorder {
       const ScopedOrigin origin(recorder_, term.origin);
       total = fma(term.weight, term.lobe->albedo(view_), total);
     }
-    return total;
+    return saturate(total);
   }
 
   Color3 emission() const {

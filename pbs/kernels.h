@@ -60,7 +60,8 @@ bool is_point_result(std::string_view name);
 ///             out: wi.x wi.y wi.z, weight.x .y .z (f |cos| / pdf), pdf
 ///                  [, pdf_reverse], lobe (i32: which), flags (i32: SampleFlag)
 ///   by lobe   both: f.lobe<k>.*, weight.lobe<k>.*: what lobe k adds to f or weight
-///   albedo    out: albedo.x .y .z     fraction of light that scatters, at wo
+///   albedo    out: albedo.x .y .z     fraction of light that scatters, at wo; at most 1, also
+///                                     where weights above 1 let more leave than arrives
 ///   emission  out: emission.x .y .z   radiance towards wo
 ///   opacity   out: opacity, transmission.x .y .z: of a ray that meets the
 ///             surface, 1 - opacity + opacity * transmission goes straight on

@@ -76,8 +76,7 @@ Color3 MicrofacetReflection::albedo(const View& view) const {
 
 Color3 MicrofacetReflection::throughput(const View& view) const {
   if (options_.opaque) return Color3(0.0f);
-  const Color3 lost = reflected(view);
-  return Color3(1.0f) - (options_.grey_throughput ? Color3(grey(lost)) : lost);
+  return Color3(1.0f) - reflected(view);
 }
 
 }  // namespace nacre

@@ -15,7 +15,6 @@ class MicrofacetReflection final : public Lobe {
     Color3 tint = Color3(1.0f);    ///< Of the light, not of what passes below.
     Bool retroreflective = false;  ///< Sends light back to where it came from.
     bool opaque = false;           ///< Nothing passes below.
-    bool grey_throughput = false;  ///< What passes is the mean of the channels.
   };
   MicrofacetReflection(Facets facets, FacetFresnelPtr fresnel, Options options)
       : facets_(std::move(facets)), fresnel_(std::move(fresnel)), options_(std::move(options)) {}

@@ -52,7 +52,7 @@ std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
     }
     case Type::lightshader: {
       const LightPtr light = as_light(value.closure);
-      add(channels, "intensity", light == nullptr ? Color3(0.0f) : light->intensity);
+      add(channels, "intensity", light == nullptr ? Color3(0.0f) : finite_light(light->intensity));
       if (light != nullptr && light->direction) {
         add(channels, "direction", *light->direction);
       }

@@ -1,5 +1,7 @@
 #include "pbs/view.h"
 
+#include <limits>
+
 namespace nacre {
 
 Frame make_frame(Float3 n) {
@@ -32,6 +34,15 @@ Color3 product(Color3 x, Color3 y) {
     return a * b;
   };
   return {one(x.x, y.x), one(x.y, y.y), one(x.z, y.z)};
+}
+
+Color3 finite_light(Color3 light) {
+  if (is_zero(light)) return light;
+  constexpr float largest = std::numeric_limits<float>::max();
+  const auto one = [](Float x) {
+    return select(x == x, min(max(x, -largest), largest), Float(0.0f));
+  };
+  return {one(light.x), one(light.y), one(light.z)};
 }
 
 Float keep(Recorder& recorder, Float x) { return Float(recorder.keep(x.ref())); }

@@ -63,6 +63,10 @@ Float3 facing(Float3 n, Float3 wo);
 /// it weighs, and what is black stays so behind anything, infinities included.
 Color3 product(Color3 x, Color3 y);
 
+/// Emitted light, whatever numbers it was computed of: NaN is 0, and what is beyond the largest
+/// float is that.
+Color3 finite_light(Color3 light);
+
 /// Keeps a value for the kernels after `begin`; see Recorder::keep. A value
 /// that is an input channel itself is read again instead.
 /// @{

@@ -40,9 +40,10 @@ Float half_cosine(Float degrees) {
 /// outer_angle, and no falloff where the outer is the smaller. The text does not
 /// say how falloff goes, nor what an angle of a cone is: here smoothstep of the
 /// cosine, as the library's spot light, and the opening angle, side to side.
+/// Components below zero, and NaN, count as zero.
 void record_closure_conical_edf(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  call.set(std::make_shared<ConicalEdf>(prepare_tint(recorder, call.vector3("color")),
+  call.set(std::make_shared<ConicalEdf>(keep(recorder, max(call.vector3("color"), Color3(0.0f))),
                                         prepare_normal(recorder, call.vector3("normal")),
                                         keep(recorder, half_cosine(call.number("inner_angle"))),
                                         keep(recorder, half_cosine(call.number("outer_angle")))));

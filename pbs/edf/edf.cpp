@@ -29,7 +29,7 @@ Color3 radiance(const EdfPtr& edf, const View& view) {
     wanted.pop_back();
     if (!known.contains(at)) known.emplace(at, at->radiance(view, of_part[0], of_part[1]));
   }
-  return known.at(edf.get());
+  return finite_light(known.at(edf.get()));
 }
 
 EdfPtr as_edf(const ClosurePtr& closure) { return std::dynamic_pointer_cast<const Edf>(closure); }

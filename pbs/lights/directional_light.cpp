@@ -4,8 +4,7 @@
 namespace nacre {
 
 /// directional_light: the same everywhere; `direction` is where the light goes, and taken
-/// as it is given. MaterialX 1.39.5 data library, lights/. IEEE arithmetic: what is not
-/// finite stays so.
+/// as it is given. MaterialX 1.39.5 data library, lights/.
 void record_closure_directional_light(NodeCall& call) {
   auto light = std::make_shared<Light>();
   light->intensity = call.vector3("color") * Color3(call.number("intensity"));

@@ -1,5 +1,7 @@
 #include "pbs/light.h"
 
+#include <limits>
+
 #include "pbs/edf.h"
 #include "runtime/node/geometry.h"
 #include "runtime/node/node_call.h"
@@ -12,9 +14,13 @@ LightPtr as_light(const ClosurePtr& closure) {
 
 Light point_source(Recorder& recorder, Float3 position, Color3 power, Float decay_rate) {
   const Float3 way = position - nacre::position(recorder, Space::world);
-  const Float distance = sqrt(dot(way, way));
-  const Float3 unit = way * (1.0f / distance);
-  const Bool apart = distance > 0.0f;
+  // Over its largest component, so that no square overflows or vanishes.
+  const Float largest = max_component({abs(way.x), abs(way.y), abs(way.z)});
+  const Bool apart = (largest > 0.0f) & (largest <= std::numeric_limits<float>::max());
+  const Float3 scaled = way / Float3(select(apart, largest, 1.0f));
+  const Float length = sqrt(dot(scaled, scaled));
+  const Float distance = largest * length;
+  const Float3 unit = scaled * Float3(1.0f / length);
   const Float falloff = pow(distance + 1.0f, decay_rate);
   Light light;
   light.intensity = power / Float3(falloff);

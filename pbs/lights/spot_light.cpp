@@ -17,7 +17,7 @@ Float smooth_step(Float low, Float high, Float x) {
 /// spot_light: a point light within a cone around `direction`, which is taken as it is
 /// given. inner_angle and outer_angle are cosines: the data library's text compares them
 /// with one, and blends from the lesser of them up to the inner. MaterialX 1.39.5 data
-/// library, lights/. IEEE arithmetic: what is not finite stays so.
+/// library, lights/.
 void record_closure_spot_light(NodeCall& call) {
   const Color3 power = call.vector3("color") * Color3(call.number("intensity"));
   Light light =

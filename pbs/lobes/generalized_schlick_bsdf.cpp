@@ -65,8 +65,7 @@ void record_closure_generalized_schlick_bsdf(NodeCall& call) {
   const auto fresnel =
       std::make_shared<SchlickFresnel>(recorder, curve, mode != "RT", prepare_film(call));
   const MicrofacetReflection::Options options{.name = "generalized_schlick_bsdf",
-                                              .retroreflective = call.boolean("retroreflective"),
-                                              .grey_throughput = true};
+                                              .retroreflective = call.boolean("retroreflective")};
   set_lobe(call, microfacet_lobe(recorder, mode, prepare_facets(call), fresnel, options));
 }
 

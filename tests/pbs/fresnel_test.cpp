@@ -5,6 +5,8 @@
 #include <cmath>
 #include <complex>
 
+#include "runtime/interpreter/interpreter.h"
+#include "tests/support/random.h"
 #include "tests/support/run_kernel.h"
 
 namespace nacre {
@@ -75,6 +77,28 @@ TEST(Fresnel, ConductorIsFresnelsFormula) {
                                                               static_cast<float>(index.imag())});
       EXPECT_NEAR(out.at("f")[0], expected, 1e-7) << c << " " << index;
     }
+  }
+}
+
+// Of float kernels: black metal would be white at grazing angles if n^2 - sin^2 were taken apart.
+TEST(Fresnel, ConductorKeepsItsDigitsNearNoInterface) {
+  Random random(1);
+  const auto number = [&] { return static_cast<float>(random.word() >> 40) * 0x1p-24f; };
+  Columns in{{"c", {1e-4f, 1e-3f, 0.5f}}, {"n", {1, 1, 1}}, {"k", {0, 0, 0}}};
+  for (int i = 0; i < 20'000; ++i) {
+    in["c"].push_back(std::pow(10.0f, -4.5f * number()));
+    in["n"].push_back(1.0f + (number() - 0.5f) * std::pow(10.0f, -6.0f * number()));
+    in["k"].push_back(std::pow(10.0f, -2.0f - 6.0f * number()));
+  }
+  Recorder recorder;
+  const Float f =
+      fresnel_conductor_polarised(input(recorder, "c"), input(recorder, "n"), input(recorder, "k"))
+          .mean();
+  const auto kernel = make_interpreter(slice(recorder.program(), "test", {{"f", f.ref()}}));
+  const auto found = run(*kernel, in).at("f");
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double expected = fresnel(in["c"][i], {in["n"][i], in["k"][i]});
+    EXPECT_NEAR(found[i], expected, 5e-6) << in["c"][i] << " " << in["n"][i] << " " << in["k"][i];
   }
 }
 

@@ -4,7 +4,9 @@
 #include <numbers>
 
 #include "jit/passes/expand_math.h"
+#include "pbs/cosine_lobe.h"
 #include "runtime/interpreter/interpreter.h"
+#include "runtime/node/geometry.h"
 #include "tests/support/closure.h"
 #include "tests/support/run_kernel.h"
 
@@ -166,6 +168,29 @@ TEST(Furnace, SchlickInterfaceReturnsAllLight) {
             << "RT " << alpha << " f0 " << f0 << " angle " << angle;
       }
       EXPECT_NEAR(joint.light(160.0), 1.0, 2e-2) << "RT " << alpha << " f0 " << f0;
+    }
+  }
+}
+
+BsdfPtr white_diffuse(Recorder& recorder) {
+  const auto lobe = std::make_shared<LambertLobe>("white", CosineLobe::Hemisphere::viewer,
+                                                  normal(recorder, Space::world), Color3(1.0f));
+  return std::make_shared<LobeBsdf>(lobe, 1.0f);
+}
+
+// What a coloured layer reflects of a channel does not reach the base in that channel.
+TEST(Furnace, ColouredSchlickOverWhiteReturnsNoMoreThanArrives) {
+  for (const float alpha : {0.0f, 0.3f, 1.0f}) {
+    const Furnace furnace([&](Recorder& r) {
+      const BsdfPtr red =
+          microfacet_bsdf(r, "generalized_schlick_bsdf",
+                          {{"color0", Recorded{Type::color3, Color3(1.0f, 0.0f, 0.0f)}},
+                           {"roughness", roughness(alpha, alpha)}});
+      return std::make_shared<LayerBsdf>(red, white_diffuse(r));
+    });
+    for (const double angle : outside) {
+      EXPECT_NEAR(furnace.light(angle), 1.0, 1e-2) << alpha << " " << angle;
+      EXPECT_NEAR(furnace.albedo(angle), 1.0, 1e-2) << alpha << " " << angle;
     }
   }
 }

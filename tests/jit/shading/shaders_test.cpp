@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -188,6 +189,46 @@ TEST_P(Shaders, PointLightsFallOff) {
   const Numbers inside = evaluate(light, {{"P.x", 0}, {"P.y", 3}, {"P.z", 4}});
   expect_vector(inside, "intensity", 72, 36, 0);
   expect_vector(inside, "direction", 0, 0, 0);
+}
+
+// One rule: NaN is 0, what overflows is the largest float; directions stay unit wherever the point
+// is.
+TEST_P(Shaders, EmittedLightIsFinite) {
+  constexpr float largest = std::numeric_limits<float>::max();
+  const auto point_light = [](const char* position, const char* color, const char* intensity) {
+    return std::string(R"(<point_light name="n" type="lightshader">
+      <input name="decay_rate" type="float" value="0"/>
+      <input name="position" type="vector3" value=")") +
+           position + R"("/><input name="color" type="color3" value=")" + color +
+           R"("/><input name="intensity" type="float" value=")" + intensity +
+           R"("/></point_light>)";
+  };
+  expect_vector(evaluate(point_light("0, 0, 1", "1e30, -1e30, 0", "1e20"), origin), "intensity",
+                largest, -largest, 0);
+  for (const char* far : {"0, 3e20, 4e20", "0, 3e-25, 4e-25", "0, 1.5e38, 2e38"}) {
+    expect_vector(evaluate(point_light(far, "1, 1, 1", "1"), origin), "direction", 0, 0.6f, 0.8f);
+  }
+  expect_vector(evaluate(R"(<directional_light name="n" type="lightshader">
+      <input name="color" type="color3" value="1e30, -1e30, 0"/>
+      <input name="intensity" type="float" value="1e30"/></directional_light>)"),
+                "intensity", largest, -largest, 0);
+  for (
+      const std::string edf :
+      {R"(<uniform_edf name="e" type="EDF"><input name="color" type="color3" value="1e30, 2e6, -1"/>
+           </uniform_edf>)",
+       R"(<conical_edf name="e" type="EDF"><input name="color" type="color3" value="1e30, 2e6, -1"/>
+           </conical_edf>)"}) {
+    const Numbers facing{{"wo.x", 0}, {"wo.y", 0}, {"wo.z", 1}, {"N.x", 0}, {"N.y", 0}, {"N.z", 1}};
+    expect_vector(evaluate(edf + R"(<light name="n" type="lightshader">
+        <input name="edf" type="EDF" nodename="e"/><input name="exposure" type="float" value="100"/>
+        </light>)",
+                           facing),
+                  "intensity", largest, std::ldexp(2e6f, 100), 0);
+    expect_vector(evaluate(edf + R"(<light name="n" type="lightshader">
+        <input name="edf" type="EDF" nodename="e"/></light>)",
+                           facing),
+                  "intensity", 1e30f, 2e6f, 0);
+  }
 }
 
 // "Material Nodes" of the specification has it, the data library has not: pbs/library.
