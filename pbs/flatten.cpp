@@ -1,4 +1,5 @@
 #include <optional>
+#include <string>
 #include <unordered_map>
 
 #include "pbs/bsdf.h"
@@ -78,20 +79,26 @@ class Flattener {
     const LobeBsdf* leaf = bsdf->leaf();
     if (leaf == nullptr) {
       open_.push_back({bsdf});
-    } else if (!is_zero(state.weight)) {
+    } else {
       add(*leaf, state.weight);
     }
   }
 
   void add(const LobeBsdf& leaf, Color3 weight) {
     const Color3 total = product(weight, Color3(leaf.weight()));
-    if (is_zero(total)) return;
+    if (is_zero(total)) return note_unseen(leaf);
     ended_ = may_go_on_ && !may_go_on_();
     if (ended_) return;
     if (view_.left_out != nullptr) leaf.report(view_);
     const ScopedOrigin origin(*view_.recorder, leaf.origin());
     leaf.lobe()->prepare(view_, max_component(total) > 0.0f);
     lobes_.push_back({leaf.lobe(), total, leaf.origin()});
+  }
+
+  void note_unseen(const LobeBsdf& leaf) const {
+    if (view_.unseen == nullptr) return;
+    const std::string& path = view_.recorder->program().origins[leaf.origin()];
+    view_.unseen->add(std::string(leaf.lobe()->name()) + " at " + path + ": weight 0");
   }
 
   /// Of the parts first, without recursion; each node is asked once.

@@ -43,14 +43,18 @@ class SurfaceRecorder {
              .accuracy = accuracy,
              .wo = view_direction(recorder),
              .thin_walled = surface.thin_walled,
-             .left_out = &left_out_};
+             .left_out = &left_out_,
+             .unseen = &unseen_};
   }
 
   SurfaceKernels run() {
     terms_ = select_lobes(view_, true);
-    view_.left_out = nullptr;
+    view_.left_out = view_.unseen = nullptr;
     kernels_.not_modelled = left_out_.lines();
-    kernels_.manifest = kernels_.not_modelled;
+    kernels_.manifest.insert(kernels_.manifest.end(), left_out_.lines().begin(),
+                             left_out_.lines().end());
+    kernels_.manifest.insert(kernels_.manifest.end(), unseen_.lines().begin(),
+                             unseen_.lines().end());
     for (const Term& term : terms_) {
       kernels_.lobes.push_back({std::string(term.lobe->name()),
                                 recorder_.program().origins[term.origin], term.lobe->kinds()});
@@ -286,6 +290,7 @@ class SurfaceRecorder {
   const KernelRequest& request_;
   const std::function<bool()>& ask_;
   LeftOut left_out_;
+  LeftOut unseen_;
   View view_;
   std::vector<Term> terms_;
   SurfaceKernels kernels_;

@@ -10,7 +10,7 @@
 
 namespace nacre {
 
-/// What the kernels of a surface leave out though it would change the picture.
+/// What the kernels of a surface leave out, a line for each thing.
 class LeftOut {
  public:
   /// Each line once.
@@ -30,8 +30,11 @@ struct View {
   Accuracy accuracy = Accuracy::standard;  ///< What closures aim at.
   Float3 wo;                               ///< Unit, world space, from the point to the viewer.
   Bool thin_walled = false;                ///< Light that enters leaves at the same point.
-  /// Where closures put down what of them the kernels leave out; null: nowhere.
+  /// Where closures put down what of them the kernels leave out though it would change the
+  /// picture; null: nowhere.
   LeftOut* left_out = nullptr;
+  /// And where `flatten` puts down lobes that nothing is seen of; null: nowhere.
+  LeftOut* unseen = nullptr;
 };
 
 /// A local frame: x and y tangents, z the normal; unit and orthogonal.

@@ -90,6 +90,31 @@ float albedo(const MaterialKernels& kernels) {
   return results[0];
 }
 
+/// Every lobe that the shader's graph has, but for those that the kernels have, is in the manifest.
+TEST(Closures, TheManifestNamesEachLobeThatIsNotThere) {
+  ShaderOptions all_live = interpreted();
+  all_live.live = {"*"};
+  for (const char* const shader :
+       {"standard_surface", "open_pbr_surface", "gltf_pbr", "UsdPreviewSurface",
+        "disney_principled"}) {
+    const std::string body =
+        "<" + std::string(shader) + " name=\"s\" type=\"surfaceshader\"/>" + material("s");
+    Diagnostics diagnostics;
+    const auto whole = compile(body, diagnostics, all_live);
+    const auto plain = compile(body, diagnostics);
+    ASSERT_TRUE(whole != nullptr && plain != nullptr) << diagnostics.to_string();
+    EXPECT_LT(plain->lobes.size(), whole->lobes.size()) << shader;
+    for (const LobeInfo& lobe : whole->lobes) {
+      const bool is_there = std::ranges::any_of(
+          plain->lobes, [&](const LobeInfo& other) { return other.path == lobe.path; });
+      const bool is_named = std::ranges::any_of(plain->manifest, [&](const std::string& line) {
+        return line == lobe.name + " at " + lobe.path + ": weight 0";
+      });
+      EXPECT_NE(is_there, is_named) << shader << ' ' << lobe.path;
+    }
+  }
+}
+
 /// The weights of a lobe's uses add up to what two equal lobes would have.
 TEST(Closures, SharedWeighsAsMuchAsTwoOfAKind) {
   const std::string lobe =
