@@ -31,9 +31,10 @@ void LobeBsdf::report(const View& view) const {
   for (const std::string& line : left_out_) view.left_out->add(line);
 }
 
-void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out) {
+void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out, bool is_nothing) {
   Recorder& recorder = call.recorder();
-  const Float weight = keep(recorder, clamp(call.number("weight"), 0.0f, 1e6f));
+  const Float weight =
+      is_nothing ? Float(0.0f) : keep(recorder, clamp(call.number("weight"), 0.0f, 1e6f));
   call.set(
       std::make_shared<LobeBsdf>(std::move(lobe), weight, std::move(left_out), recorder.origin()));
 }

@@ -82,8 +82,10 @@ class LobeBsdf final : public Bsdf {
   std::uint32_t origin_;
 };
 
-/// Sets a node's output to its lobe, times its input "weight": in [0, 1e6].
-void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out = {});
+/// Sets a node's output to its lobe, times its input "weight": in [0, 1e6]. `is_nothing`: it
+/// scatters nothing and lets all pass, whatever its weight.
+void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out = {},
+              bool is_nothing = false);
 
 /// top over base: base is seen through what top lets pass. A medium behind top is the
 /// renderer's to trace, and left out.

@@ -36,11 +36,15 @@ void record_closure_dielectric_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Float index = clamp(call.number("ior"), 0.02f, 50.0f);
   const Color3 tint = prepare_tint(recorder, call.vector3("tint"));
-  const auto fresnel = std::make_shared<DielectricFresnel>(recorder, index, prepare_film(call));
+  const ThinFilm film = prepare_film(call);
+  const auto fresnel = std::make_shared<DielectricFresnel>(recorder, index, film);
   const MicrofacetReflection::Options options{
       .name = "dielectric_bsdf", .tint = tint, .retroreflective = call.boolean("retroreflective")};
-  set_lobe(call, microfacet_lobe(recorder, call.text("scatter_mode"), prepare_facets(call), fresnel,
-                                 options));
+  const std::string& mode = call.text("scatter_mode");
+  // What open_pbr_surface makes of a specular_weight of 0.
+  const bool is_nothing = mode == "R" && index.is_constant(1.0f) && !film.exists();
+  set_lobe(call, microfacet_lobe(recorder, mode, prepare_facets(call), fresnel, options), {},
+           is_nothing);
 }
 
 }  // namespace nacre

@@ -94,9 +94,8 @@ float albedo(const MaterialKernels& kernels) {
 TEST(Closures, TheManifestNamesEachLobeThatIsNotThere) {
   ShaderOptions all_live = interpreted();
   all_live.live = {"*"};
-  for (const char* const shader :
-       {"standard_surface", "open_pbr_surface", "gltf_pbr", "UsdPreviewSurface",
-        "disney_principled"}) {
+  for (const char* const shader : {"standard_surface", "open_pbr_surface", "gltf_pbr",
+                                   "UsdPreviewSurface", "disney_principled"}) {
     const std::string body =
         "<" + std::string(shader) + " name=\"s\" type=\"surfaceshader\"/>" + material("s");
     Diagnostics diagnostics;
@@ -113,6 +112,23 @@ TEST(Closures, TheManifestNamesEachLobeThatIsNotThere) {
       EXPECT_NE(is_there, is_named) << shader << ' ' << lobe.path;
     }
   }
+}
+
+TEST(Closures, AnInterfaceThatIsNoneHasNoLobe) {
+  const auto open_pbr = [](const char* weight) {
+    return R"(<open_pbr_surface name="s" type="surfaceshader">
+      <input name="specular_weight" type="float" value=")" +
+           std::string(weight) + R"("/></open_pbr_surface>)" + material("s");
+  };
+  Diagnostics diagnostics;
+  const auto with = compile(open_pbr("1"), diagnostics);
+  const auto without = compile(open_pbr("0"), diagnostics);
+  ASSERT_TRUE(with != nullptr && without != nullptr) << diagnostics.to_string();
+  const auto has_interface = [](const MaterialKernels& kernels) {
+    return std::ranges::count(kernels.lobes, "dielectric_bsdf", &LobeInfo::name) != 0;
+  };
+  EXPECT_TRUE(has_interface(*with));
+  EXPECT_FALSE(has_interface(*without));
 }
 
 /// The weights of a lobe's uses add up to what two equal lobes would have.
