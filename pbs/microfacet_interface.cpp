@@ -79,8 +79,9 @@ LobeValue MicrofacetInterface::evaluate_separate(const View& view, const Terms& 
                                                  Float3 wi) const {
   const LobeValue back = reflection_.evaluate(view, wi);
   const LobeValue forth = transmission_.evaluate(view, wi);
-  return {.f = fma(terms.passing, forth.f, back.f),
-          .pdf = fma(terms.probability, back.pdf, (1.0f - terms.probability) * forth.pdf)};
+  const Float pdf = fma(terms.probability, back.pdf, (1.0f - terms.probability) * forth.pdf);
+  // A part too dark to be sampled is dark.
+  return {.f = select(pdf > 0.0f, fma(terms.passing, forth.f, back.f), Color3(0.0f)), .pdf = pdf};
 }
 
 LobeValue MicrofacetInterface::evaluate_joint(const View& view, const Terms& terms,
@@ -95,8 +96,9 @@ LobeValue MicrofacetInterface::evaluate_joint(const View& view, const Terms& ter
   const Float probability = grey(fresnel);
   const Float scale = finite(event.pdf * event.shadowing);
   const Float pdf = event.pdf * select(reflects, probability, 1.0f - probability);
-  return {.f = options_.tint * share * terms.factor * Color3(select(event.possible, scale, 0.0f)),
-          .pdf = select(event.possible, max(pdf, 0.0f), 0.0f)};
+  const Bool seen = event.possible & (pdf > 0.0f);
+  return {.f = options_.tint * share * terms.factor * Color3(select(seen, scale, 0.0f)),
+          .pdf = select(seen, pdf, 0.0f)};
 }
 
 LobeSample MicrofacetInterface::sample(const View& view, Float3 u) const {

@@ -32,13 +32,14 @@ LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) cons
   const Float3 wi = turned(local.frame.to_local(wi_world));
   const Float3 h = wo + wi;
   const Float length2 = dot(h, h);
-  // Below 1e-8 the half-way vector of two grazing directions is rounding.
-  const Bool seen = (wo.z > 0.0f) & (wi.z > 0.0f) & (length2 > 1e-8f) & !facets_.delta;
   const Float cosine = saturate(0.5f * sqrt(length2));
   const Float root = ggx_root(wo, facets_.alpha);
   const Float half_d = 0.5f * ggx_distribution(h, facets_.alpha);
   const Float bound = reflection_bound(wo, facets_.alpha);
   const Float pdf = half_d / max(fma(bound, wo.z, root), 1e-30f);
+  // Below 1e-8 the half-way vector of two grazing directions is rounding.
+  const Bool seen =
+      (wo.z > 0.0f) & (wi.z > 0.0f) & (length2 > 1e-8f) & (pdf > 0.0f) & !facets_.delta;
   const Float wi_root = ggx_root(wi, facets_.alpha);
   const Float both = fma(wi.z, root, wo.z * wi_root);
   const Float f = half_d * wi.z / max(both, 1e-30f);

@@ -73,7 +73,7 @@ struct Trial {
 };
 
 void check_weights(const LobeKernels& kernels, float roughness, Direction wo,
-                   const Sampled& samples, float unit_error) {
+                   const Sampled& samples) {
   const Evaluated again = kernels.evaluate(roughness, wo, samples.wi);
   for (std::size_t i = 0; i < samples.wi.size(); ++i) {
     if (!samples.valid[i]) {
@@ -82,7 +82,7 @@ void check_weights(const LobeKernels& kernels, float roughness, Direction wo,
       continue;
     }
     const Direction w = samples.wi[i];
-    ASSERT_NEAR(w.x * w.x + w.y * w.y + w.z * w.z, 1.0f, unit_error);
+    ASSERT_NEAR(w.x * w.x + w.y * w.y + w.z * w.z, 1.0f, 1e-5f);
     ASSERT_GT(again.pdf[i], 0.0f);
     ASSERT_NEAR(samples.pdf[i], again.pdf[i], 1e-4f * again.pdf[i]);
     const float weight = again.f[i] / again.pdf[i];
@@ -123,8 +123,6 @@ class Lobes : public testing::TestWithParam<std::tuple<LobeCase, Accuracy>> {
 // Samples, density and scattering function are one thing seen from three sides.
 TEST_P(Lobes, SamplesFollowTheDensityAndCarryTheLight) {
   const double level = level_of_one(configurations());
-  // The sine and cosine of `fast` are that far from a circle.
-  const float unit_error = std::get<1>(GetParam()) == Accuracy::fast ? 2e-4f : 1e-5f;
   double brightest = 0.0;
   each_configuration([&](const LobeCase& row, const LobeKernels& kernels, float roughness,
                          Direction wo, std::uint64_t number) {
@@ -140,7 +138,7 @@ TEST_P(Lobes, SamplesFollowTheDensityAndCarryTheLight) {
     const auto [mean, deviation] = trial.light();
     EXPECT_NEAR(mean, trial.cells.f_integral(), 5.5 * deviation + 5e-4);
     check_energy(row, trial.cells.f_integral(), kernels.albedo(roughness, wo));
-    check_weights(kernels, roughness, wo, trial.samples, unit_error);
+    check_weights(kernels, roughness, wo, trial.samples);
   });
   const LobeCase& row = std::get<0>(GetParam());
   if (row.energy == Energy::exceeding) {
