@@ -36,7 +36,6 @@ const std::set<std::string>& without_kernels() {
       "ND_lightmaterial",
       "ND_surfacematerial",
       "ND_volumematerial",
-      "ND_chiang_hair_bsdf",
       "ND_measured_edf",
   };
   return names;

@@ -10,7 +10,7 @@ namespace nacre {
 
 namespace {
 
-/// All three nodes' defaults; a body asks only for its own.
+/// All nodes' defaults; a body asks only for its own.
 Ports defaults(Recorder& recorder) {
   return {{"weight", number(1.0f)},
           {"tint", colour(1.0f)},
@@ -26,6 +26,9 @@ Ports defaults(Recorder& recorder) {
           {"thinfilm_ior", number(1.5f)},
           {"normal", {Type::vector3, normal(recorder, Space::world)}},
           {"tangent", {Type::vector3, tangent(recorder, Space::world)}},
+          {"cuticle_angle", number(0.5f)},
+          {"absorption_coefficient", colour(0.0f)},
+          {"curve_direction", {Type::vector3, tangent(recorder, Space::world)}},
           {"distribution", text("ggx")},
           {"scatter_mode", text("R")}};
 }

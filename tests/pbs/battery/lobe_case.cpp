@@ -41,6 +41,24 @@ Ports schlick(const LobeInputs& in, const char* mode) {
           {"scatter_mode", text(mode)}};
 }
 
+/// Roughnesses by the fits of Chiang et al. 2016, as chiang_hair_roughness gives them.
+Ports hair(const LobeInputs& in, float cuticle_angle, float absorption) {
+  const Float r = in.roughness;
+  const Float r4 = square(square(r));
+  const Float r20 = r4 * square(square(r4));
+  const Float v = square(fma(3.7f, r20, r * fma(0.812f, r, 0.726f)));
+  const Float s = fma(5.372f, r20 * square(r), r * fma(1.194f, r, 0.265f));
+  return {{"tint_R", color(in.color)},
+          {"tint_TT", color(in.color)},
+          {"tint_TRT", color(in.color)},
+          {"ior", number(in.index)},
+          {"roughness_R", roughness(v, s)},
+          {"roughness_TT", roughness(0.25f * v, s)},
+          {"roughness_TRT", roughness(4.0f * v, s)},
+          {"cuticle_angle", number(cuticle_angle)},
+          {"absorption_coefficient", colour(absorption)}};
+}
+
 }  // namespace
 
 const std::vector<LobeCase>& lobe_cases() {
@@ -125,6 +143,18 @@ const std::vector<LobeCase>& lobe_cases() {
        .energy = Energy::preserving,
        .albedo_error = 1e-2,
        .reciprocity = 0.0},
+      {.name = "hair",
+       .category = "chiang_hair_bsdf",
+       .ports = [](In in) { return hair(in, 0.5f, 0.0f); },
+       .energy = Energy::preserving,
+       .preserving_error = 2e-3,
+       .reciprocity = 0.0,
+       .least_roughness = 0.1f},
+      {.name = "tilted_hair",
+       .category = "chiang_hair_bsdf",
+       .ports = [](In in) { return hair(in, 0.52f, 0.3f); },
+       .reciprocity = 0.0,
+       .least_roughness = 0.1f},
   };
   return cases;
 }
