@@ -146,39 +146,144 @@ class Airy {
   Float passed_, sum_, amplitude_;
 };
 
+bool is_grey(Color3 x) { return same_value(x, Color3(x.x)); }
+
+/// What a film does to light of one polarisation, by its two interfaces.
+struct Interfaces {
+  Float r12_s, r12_p;                ///< Real: 0 where the film is as what is before it.
+  std::array<Amplitudes, 3> behind;  ///< By channel; of a grey substrate the first is all three.
+  bool grey;
+  const Amplitudes& of(std::size_t channel) const { return behind[grey ? 0 : channel]; }
+};
+
+Color3 by_orders(const Interfaces& film, Float path, int terms) {
+  Spectrum spectrum(path);
+  std::vector<std::array<Complex, 3>> means;  // By order.
+  for (int m = 0; m < terms; ++m) {
+    if (m > 0) spectrum.next_order();
+    means.push_back({spectrum.mean(0), spectrum.mean(1), spectrum.mean(2)});
+  }
+  const auto channel = [&](std::size_t c) {
+    Airy s(film.r12_s, film.of(c).s);
+    Airy p(film.r12_p, film.of(c).p);
+    for (const auto& mean : means) s.add(mean[c]), p.add(mean[c]);
+    return 0.5f * (s.sum() + p.sum());
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+/// Wave numbers at which Airy's formula is taken as it stands: equal steps of a quarter of the
+/// narrowest sensitivity, out to four and a half deviations, where the trapezoidal rule is exact.
+constexpr int wave_numbers = 64;
+constexpr double first_wave_number = 1.18e-3, last_wave_number = 2.73e-3;  // In 1/nm.
+constexpr double wave_number_step = (last_wave_number - first_wave_number) / (wave_numbers - 1);
+
+/// How much each counts for a channel.
+std::vector<float> wave_number_weights(int channel) {
+  std::vector<double> weights(wave_numbers, 0.0);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Gaussian& g = sensitivities()[k];
+    std::vector<double> curve;
+    double all = 0.0;
+    for (int j = 0; j < wave_numbers; ++j) {
+      const double offset = first_wave_number + j * wave_number_step - g.mean;
+      curve.push_back(std::exp(-offset * offset / (4.0 * g.half_variance)));
+      all += curve.back();
+    }
+    for (std::size_t j = 0; j < curve.size(); ++j) {
+      weights[j] += to_rgb[channel][k] * g.weight * curve[j] / all;
+    }
+  }
+  return {weights.begin(), weights.end()};
+}
+
+/// |(r12 + r23 t) / (1 + r12 r23 t)|^2: Born and Wolf, 1.6.4.
+Float airy(Float r12, Complex r23, Complex turn) {
+  const Complex x = r23 * turn;
+  const Float above = fma(r12 + x.re, r12 + x.re, square(x.im));
+  const Float re = fma(r12, x.re, 1.0f);
+  const Float below = fma(re, re, square(r12 * x.im));
+  return min(above / max(below, 1e-12f), 1.0f);
+}
+
+struct SpectralSum {
+  Complex turn;
+  Color3 light = Color3(0.0f);
+};
+template <class F>
+void visit(SpectralSum& sum, F&& f) {
+  f(sum.turn.re), f(sum.turn.im), visit(sum.light, f);
+}
+
+Color3 by_wave_numbers(Recorder& recorder, const Interfaces& film, Float path) {
+  constexpr std::array names{"film.red", "film.green", "film.blue"};
+  std::array<std::uint32_t, 3> tables{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    tables[c] = recorder.table(names[c], wave_number_weights(static_cast<int>(c)));
+  }
+  const Float turns = 2.0f * 3.14159265f * path;
+  const Float first = turns * Float(first_wave_number);
+  const Float step = turns * Float(wave_number_step);
+  const Complex on{cos(step), sin(step)};
+  const SpectralSum start{.turn = {cos(first), sin(first)}};
+  return loop(recorder, Bool(true), wave_numbers, start,
+              [&](Int j, SpectralSum& sum) {
+                const std::array<Ref, 1> index{j.ref()};
+                std::array<Float, 3> light;
+                for (std::size_t c = 0; c < 3; ++c) {
+                  if (c == 0 || !film.grey) {
+                    light[c] = 0.5f * (airy(film.r12_s, film.of(c).s, sum.turn) +
+                                       airy(film.r12_p, film.of(c).p, sum.turn));
+                  } else {
+                    light[c] = light[0];
+                  }
+                  light[c] = light[c] * Float(recorder.emit(Op::table, index, tables[c]));
+                }
+                sum.light = sum.light + Color3(light[0], light[1], light[2]);
+                sum.turn = sum.turn * on;
+                return Bool(true);
+              })
+      .light;
+}
+
+/// Films of a longer path have no coherent light left beyond the orders that are summed.
+constexpr float longest_spectral_path = 600.0f;
+
 /// ThinFilm::reflectance, to so many orders.
 Color3 film_reflectance(int terms, Float cosine, Float before, Float thickness, Float index,
                         Color3 n, Color3 k, Color3 bare) {
   const Float eta = index / before;
   const Float squared = 1.0f - max(1.0f - square(cosine), 0.0f) / square(eta);
   const Float inner = safe_sqrt(squared);
-  // First interface: real amplitudes, 0 where the film is as what is before it.
   const Float s_sum = fma(eta, inner, cosine);
   const Float p_sum = fma(eta, cosine, inner);
-  const Float r12_s = (cosine - eta * inner) / max(s_sum, 1e-15f);
-  const Float r12_p = (eta * cosine - inner) / max(p_sum, 1e-15f);
+  const Float sine2 = max(1.0f - squared, 0.0f);
+  const auto behind = [&](Float real, Float imaginary) {
+    return amplitudes(inner, sine2, real / index, imaginary / index);
+  };
+  Interfaces film{.r12_s = (cosine - eta * inner) / max(s_sum, 1e-15f),
+                  .r12_p = (eta * cosine - inner) / max(p_sum, 1e-15f),
+                  .behind = {behind(n.x, k.x), {}, {}},
+                  .grey = is_grey(n) && is_grey(k)};
+  if (!film.grey) film.behind[1] = behind(n.y, k.y), film.behind[2] = behind(n.z, k.z);
 
-  Spectrum spectrum(2.0f * index * inner * thickness);
-  std::vector<std::array<Complex, 3>> means;  // By order.
-  for (int m = 0; m < terms; ++m) {
-    if (m > 0) spectrum.next_order();
-    means.push_back({spectrum.mean(0), spectrum.mean(1), spectrum.mean(2)});
+  const Float path = 2.0f * index * inner * thickness;
+  Recorder* recorder = path.ref().recorder;
+  Color3 light;
+  if (terms < ThinFilm::precise_terms || recorder == nullptr) {
+    light = by_orders(film, path, terms);
+  } else {
+    const Bool is_short = path < longest_spectral_path;
+    light = if_any(!is_short, Color3(0.0f), [&] { return by_orders(film, path, terms); });
+    light = if_any(is_short, light, [&] { return by_wave_numbers(*recorder, film, path); });
   }
   const Float x = saturate(thickness * Float(1.0f / 30.0f));
   const Float presence = square(x) * fma(-2.0f, x, 3.0f);
-  const Float sine2 = max(1.0f - squared, 0.0f);
-  const auto channel = [&](std::size_t c, Float real, Float imaginary, Float without) {
-    const Amplitudes behind = amplitudes(inner, sine2, real / index, imaginary / index);
-    Airy s(r12_s, behind.s);
-    Airy p(r12_p, behind.p);
-    for (const auto& mean : means) s.add(mean[c]), p.add(mean[c]);
-    const Float film = saturate(0.5f * (s.sum() + p.sum()));
-    return saturate(lerp(without, select(squared > 0.0f, film, 1.0f), presence));
+  const auto channel = [&](Float found, Float without) {
+    return saturate(lerp(without, select(squared > 0.0f, saturate(found), 1.0f), presence));
   };
-  return {channel(0, n.x, k.x, bare.x), channel(1, n.y, k.y, bare.y), channel(2, n.z, k.z, bare.z)};
+  return {channel(light.x, bare.x), channel(light.y, bare.y), channel(light.z, bare.z)};
 }
-
-bool is_grey(Color3 x) { return same_value(x, Color3(x.x)); }
 
 }  // namespace
 
@@ -187,7 +292,7 @@ ThinFilm::ThinFilm(Float thickness, Float index, Accuracy accuracy)
       index_(clamp(index, 1.0f, 50.0f)),
       terms_(accuracy == Accuracy::fast       ? 2
              : accuracy == Accuracy::standard ? 3
-                                              : 10) {}
+                                              : precise_terms) {}
 
 Color3 ThinFilm::reflectance(Float cosine, Float before, Color3 n, Color3 k, Color3 bare) const {
   Recorder* recorder = cosine.ref().recorder;

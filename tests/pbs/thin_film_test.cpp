@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "tests/pbs/independent/thin_film.h"
 #include "tests/support/run_kernel.h"
@@ -76,6 +77,48 @@ TEST(ThinFilm, OrdersOfInterferenceAddUpToAirysFormula) {
     EXPECT_LT(worst, accuracy == Accuracy::fast       ? 0.085
                      : accuracy == Accuracy::standard ? 0.05
                                                       : 0.006);
+  }
+}
+
+/// Any film on anything, and those that a search found to be the worst for the orders left out:
+/// where both interfaces reflect nearly all light, it takes many of them.
+TEST(ThinFilm, IsAsFarFromAirysFormulaAsItSaysAtMost) {
+  struct Case {
+    Film film;
+    double cosine;
+  };
+  std::vector<Case> cases{{{30.0105, 1.80983, {0.645502, 0.0536793}}, 0.0352397},
+                          {{53.5273, 1.47983, {0.65623, 0.057047}}, 0.03052},
+                          {{35.1, 2.229, {0.194, 1.417}}, 0.0815},
+                          {{37.0, 1.744, {0.405, 0.105}}, 0.031},
+                          {{58.0, 2.41, {1.0, 6.5}}, 0.2588}};
+  std::mt19937 random(11);
+  const auto number = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random() >> 8) * 0x1p-24);
+  };
+  for (int i = 0; i < 400; ++i) {
+    const double thickness = 30.0 * std::pow(10.0, number(0.0, 2.0));
+    const double index = number(1.0, 3.0), n = number(0.05, 4.0);
+    const std::complex<double> substrate(n, i % 3 == 0 ? 0.0 : number(0.0, 6.0));
+    cases.push_back(
+        {{thickness, index, substrate}, i % 2 == 0 ? number(0.02, 0.3) : number(0.02, 1)});
+  }
+  for (const auto& [accuracy, bound] :
+       {std::pair(Accuracy::fast, 0.48), {Accuracy::standard, 0.41}, {Accuracy::precise, 0.005}}) {
+    double worst = 0.0;
+    for (const Case& each : cases) {
+      const auto expected = reference::thin_film_rgb(
+          static_cast<float>(each.cosine), each.film.thickness, each.film.index,
+          each.film.substrate, reference::gaussian_sensitivity);
+      const auto rgb = reflect(each.film, each.cosine, accuracy);
+      for (std::size_t c = 0; c < 3; ++c) {
+        worst = std::max(worst, std::abs(rgb[c] - std::clamp(expected[c], 0.0, 1.0)));
+      }
+    }
+    EXPECT_LT(worst, bound) << static_cast<int>(accuracy);
+    if (accuracy != Accuracy::precise) {
+      EXPECT_GT(worst, 0.95 * bound);
+    }
   }
 }
 
