@@ -7,20 +7,49 @@ namespace nacre {
 
 GgxView ggx_view(Float3 wo, Float2 alpha, bool isotropic) {
   const Float cosine = saturate(wo.z);
-  if (isotropic) return {cosine, cosine, alpha.x};
-  const Float x = alpha.x * wo.x;
-  const Float y = alpha.y * wo.y;
+  if (isotropic) return {.cosine = cosine, .masked = cosine, .alpha = alpha.x};
+  const Float x2 = square(alpha.x * wo.x);
+  const Float y2 = square(alpha.y * wo.y);
+  const auto masked = [&](Float roughness) {
+    const Float z = roughness * cosine;
+    return saturate(z / max(sqrt(x2 + y2 + square(z)), 1e-15f));
+  };
   const Float mean = sqrt(0.5f * fma(alpha.x, alpha.x, square(alpha.y)));
-  const Float z = mean * cosine;
-  const Float length = sqrt(fma(x, x, fma(y, y, square(z))));
-  return {cosine, saturate(z / max(length, 1e-15f)), mean};
+  const Float wide = max(alpha.x, alpha.y);
+  const Float narrow2 = select(alpha.x < alpha.y, x2, y2);
+  return {.cosine = cosine,
+          .masked = masked(mean),
+          .alpha = mean,
+          .anisotropic = true,
+          .wide_masked = masked(wide),
+          .wide = wide,
+          .ratio = min(alpha.x, alpha.y) / wide,
+          .across = narrow2 / max(x2 + y2, 1e-30f)};
 }
+
+namespace {
+
+/// The albedo of one roughness, and what the narrower axis adds: nothing where both are equal, so
+/// that a surface is the same whether that is known or not.
+Float stretched_albedo(Recorder& recorder, const GgxView& view) {
+  const Float angle = table_axes::angle(view.wide_masked, view.wide);
+  const Float roughness = table_axes::roughness(view.wide);
+  const std::vector<Float> equal =
+      look_up(recorder, "ggx_reflection", ggx_reflection_table(), angle, roughness);
+  const std::vector<Float> more =
+      look_up(recorder, "ggx_stretched", ggx_stretched_table(), angle, roughness, sqrt(view.ratio));
+  // Measured: the change begins at once and levels off.
+  return equal[0] + lerp(more[0], more[1], view.across * (2.0f - view.across));
+}
+
+}  // namespace
 
 GgxReflection ggx_reflection(Recorder& recorder, const GgxView& view) {
   const std::vector<Float> found =
       look_up(recorder, "ggx_reflection", ggx_reflection_table(),
               table_axes::angle(view.masked, view.alpha), table_axes::roughness(view.alpha));
-  return {clamp(found[0], 0.05f, 1.0f), saturate(found[1] + view.cosine),
+  const Float albedo = view.anisotropic ? stretched_albedo(recorder, view) : found[0];
+  return {clamp(albedo, 0.05f, 1.0f), saturate(found[1] + view.cosine),
           saturate(found[2] + view.cosine)};
 }
 

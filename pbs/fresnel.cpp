@@ -42,10 +42,11 @@ Float fresnel_dielectric(Float cosine, Float eta) {
 Polarised fresnel_conductor_polarised(Float cosine, Float n, Float k) {
   const Float cosine2 = square(cosine);
   const Float sine2 = max(1.0f - cosine2, 0.0f);
-  // (a + ib)^2 = (n + ik)^2 - sin^2, whose real part is (n - 1) (n + 1) - k^2 + cos^2: near n = 1,
-  // k = 0, where nothing is reflected, n^2 - sin^2 has no digits of the cosine. The greater of a
-  // and b from the sum that does not cancel, the other from their product n k.
-  const Float t = fma(cosine, cosine, fma(-k, k, excess(n)));
+  // (a + ib)^2 = (n + ik)^2 - sin^2. Its real part by what keeps the digits of the cosine where
+  // that is small: near n = 1, k = 0, where nothing is reflected, n^2 - sin^2 has none of them. The
+  // greater of a and b from the sum that does not cancel, the other from their product n k.
+  const Float grazing = fma(cosine, cosine, fma(-k, k, excess(n)));
+  const Float t = select(cosine2 < 0.25f, grazing, fma(n - k, n + k, -sine2));
   const Float product = n * k;
   const Float modulus = sqrt(fma(t, t, 4.0f * square(product)));
   const Float greater = sqrt(0.5f * (modulus + abs(t)));

@@ -230,14 +230,13 @@ Color3 by_wave_numbers(Recorder& recorder, const Interfaces& film, Float path) {
               [&](Int j, SpectralSum& sum) {
                 const std::array<Ref, 1> index{j.ref()};
                 std::array<Float, 3> light;
+                Float reflected;
                 for (std::size_t c = 0; c < 3; ++c) {
                   if (c == 0 || !film.grey) {
-                    light[c] = 0.5f * (airy(film.r12_s, film.of(c).s, sum.turn) +
-                                       airy(film.r12_p, film.of(c).p, sum.turn));
-                  } else {
-                    light[c] = light[0];
+                    reflected = 0.5f * (airy(film.r12_s, film.of(c).s, sum.turn) +
+                                        airy(film.r12_p, film.of(c).p, sum.turn));
                   }
-                  light[c] = light[c] * Float(recorder.emit(Op::table, index, tables[c]));
+                  light[c] = reflected * Float(recorder.emit(Op::table, index, tables[c]));
                 }
                 sum.light = sum.light + Color3(light[0], light[1], light[2]);
                 sum.turn = sum.turn * on;

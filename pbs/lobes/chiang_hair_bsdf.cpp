@@ -34,6 +34,20 @@ Float scaled_bessel(Float x) {
   return select(x < joint, small * exp(-min(x, joint)), large / sqrt(max(x, joint)));
 }
 
+/// 1 - e^-x, x >= 0, without cancellation: of rough fibres x is small.
+Float one_less_exp(Float x) {
+  const Float series =
+      x * fma(x, fma(x, fma(x, fma(x, 1.0f / 120.0f, -1.0f / 24.0f), 1.0f / 6.0f), -0.5f), 1.0f);
+  return select(x < 0.25f, series, 1.0f - exp(-x));
+}
+
+/// -log(1 - y), y in [0, 1], of which the rest to 1 is given too.
+Float less_log(Float y, Float rest) {
+  Float series = 1.0f / 6.0f;
+  for (const float one : {0.2f, 0.25f, 1.0f / 3.0f, 0.5f, 1.0f}) series = fma(series, y, one);
+  return select(y < 0.1f, series * y, -log(rest));
+}
+
 /// The longitudinal density M of d'Eon et al. 2011, "An Energy-Conserving Hair Reflectance Model",
 /// eq. 7, per cosine. I0(a) / sinh(1/v) as it stands overflows, and its logarithm loses all digits
 /// of small variances: here what cancels is taken out, so that no exponent is positive.
@@ -41,7 +55,7 @@ Float longitudinal(Float sin_i, Float cos_i, Float sin_o, Float cos_o, Float var
   const Float inverse = 1.0f / variance;
   const Float apart = fma(sin_i + sin_o, sin_i + sin_o, square(cos_i - cos_o));
   const Float bessel = scaled_bessel(cos_i * cos_o * inverse);
-  return bessel * exp(-0.5f * apart * inverse) * inverse / (1.0f - exp(-2.0f * inverse));
+  return bessel * exp(-0.5f * apart * inverse) * inverse / one_less_exp(2.0f * inverse);
 }
 
 /// exp(-pi / s): what of a logistic density is beyond half a turn.
@@ -140,8 +154,8 @@ class ChiangHair final : public Lobe {
       below = below + chance;
     }
     // d'Eon et al. 2013, "Importance Sampling for Physically-Based Hair Fiber Models".
-    const Float x = 1.0f - u.x;
-    const Float height = -v * log(fma(1.0f - x, exp(-2.0f / v), x));  // 1 - cosine.
+    const Float back = u.x * one_less_exp(2.0f / v);
+    const Float height = v * less_log(back, fma(u.x, exp(-2.0f / v), 1.0f - u.x));  // 1 - cosine.
     const Float slant = safe_sqrt(height * (2.0f - height)) * cos(2.0f * pi * u.y);
     const Float sin_i = clamp(fma(height - 1.0f, sine, slant * cosine), -1.0f, 1.0f);
     const Float cos_i = safe_sqrt((1.0f - sin_i) * (1.0f + sin_i));

@@ -13,6 +13,11 @@ const GgxTable& ggx_reflection_table() {
   return table;
 }
 
+const GgxTable& ggx_stretched_table() {
+  static const GgxTable table{24, 16, 10, 2, stretched_values};
+  return table;
+}
+
 const GgxTable& ggx_entering_table() {
   static const GgxTable table{12, 10, 8, 2, entering_values};
   return table;

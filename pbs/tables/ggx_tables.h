@@ -19,6 +19,12 @@ struct GgxTable {
 /// the cosine of the view. The mean over a half of (1 - cosine)^5.5 is exact.
 const GgxTable& ggx_reflection_table();
 
+/// How much more the albedo E is where roughness is not equal on both axes than with the wider one
+/// alone: of a view along that axis, and of one across it that is as much masked. Angle: of the
+/// former, with the wider roughness; on the third axis the root of the ratio of the narrower
+/// roughness to it.
+const GgxTable& ggx_stretched_table();
+
 /// Relative index above 1. The albedo of transmission without a Fresnel factor,
 /// and of reflection and transmission together with it.
 const GgxTable& ggx_entering_table();

@@ -59,6 +59,42 @@ struct Scene {
   }
 };
 
+/// What perfect facets of roughness a along the view and b across it send back.
+double stretched_albedo(double cosine, double a, double b) {
+  const double z_o = std::clamp(cosine, 1e-9, 1.0);
+  const double sine = std::sqrt((1.0 - z_o) * (1.0 + z_o));
+  const double root = std::hypot(a * sine, z_o);
+  const double x = a * sine / root;
+  const double z = z_o / root;
+  double total = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double cap = (1.0 - (i + 0.5) / steps) * (1.0 + z) - z;
+    const double ring = std::sqrt(std::max(0.0, 1.0 - cap * cap));
+    for (int j = 0; j < steps; ++j) {
+      const double phi = std::numbers::pi * (j + 0.5) / steps;
+      const Vec h{a * (x + ring * std::cos(phi)), b * ring * std::sin(phi), z + cap};
+      const double twice = 2.0 * (sine * h.x + z_o * h.z) / (h.x * h.x + h.y * h.y + h.z * h.z);
+      const Vec out{twice * h.x - sine, twice * h.y, twice * h.z - z_o};
+      if (out.z <= 0.0) continue;
+      const double out_root = std::hypot(a * out.x, b * out.y, out.z);
+      total += out.z * (z_o + root) / (out.z * root + z_o * out_root);
+    }
+  }
+  return total / (steps * steps);
+}
+
+/// How much more than a surface of the wider roughness alone. `cosine`: that of a view along the
+/// wider axis; one across it is as much masked.
+std::vector<double> stretched(double cosine, double alpha, double ratio) {
+  const double c = std::clamp(cosine, 1e-6, 1.0);
+  const double tangent = std::sqrt((1.0 - c) * (1.0 + c)) / c;
+  const double narrow = ratio == 1.0 ? alpha : std::max(alpha * ratio, 1e-9);
+  const double steeper = tangent * alpha / narrow;
+  const double equal = stretched_albedo(c, alpha, alpha);
+  return {stretched_albedo(c, alpha, narrow) - equal,
+          stretched_albedo(1.0 / std::sqrt(1.0 + steeper * steeper), narrow, alpha) - equal};
+}
+
 /// Unpolarised; Born and Wolf, "Principles of Optics", 1.5.2.
 double fresnel(double cosine, double eta) {
   const double squared = eta * eta - 1.0 + cosine * cosine;
@@ -159,6 +195,25 @@ double angle(double cosine, double alpha, double) {
 using Integral = std::vector<double> (*)(double, double, double);
 using Axis = double (*)(double, double, double);
 
+/// On the third axis the ratio of the narrower to the wider roughness.
+void write_stretched(const char* name, int angles, int roughnesses, int ratios) {
+  std::printf("constexpr float %s[] = {\n", name);
+  for (int k = 0; k < ratios; ++k) {
+    for (int j = 0; j < roughnesses; ++j) {
+      const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-6);
+      for (int i = 0; i < angles; ++i) {
+        const double cosine =
+            invert(double(i) / (angles - 1), [&](double c) { return angle(c, alpha, 1.0); });
+        for (const double value : stretched(cosine, alpha, std::pow(double(k) / (ratios - 1), 2))) {
+          std::printf("%#.5gf,", value);
+        }
+      }
+      std::printf("\n");
+    }
+  }
+  std::printf("};\n");
+}
+
 void write(const char* name, int angles, int roughnesses, int indices, Axis axis, Integral f) {
   std::printf("constexpr float %s[] = {\n", name);
   for (int k = 0; k < indices; ++k) {
@@ -184,4 +239,5 @@ int main() {
   write("reflection_values", 24, 20, 1, angle, reflection);
   write("entering_values", 12, 10, 8, angle, entering);
   write("leaving_values", 16, 16, 24, angle_below_one, leaving);
+  write_stretched("stretched_values", 24, 16, 10);
 }

@@ -94,7 +94,8 @@ TEST(Fresnel, ConductorKeepsItsDigitsNearNoInterface) {
   const Float f =
       fresnel_conductor_polarised(input(recorder, "c"), input(recorder, "n"), input(recorder, "k"))
           .mean();
-  const auto kernel = make_interpreter(slice(recorder.program(), "test", {{"f", f.ref()}}));
+  const std::vector<SliceOutput> outputs{{"f", f.ref()}};
+  const auto kernel = make_interpreter(slice(recorder.program(), "test", outputs));
   const auto found = run(*kernel, in).at("f");
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double expected = fresnel(in["c"][i], {in["n"][i], in["k"][i]});

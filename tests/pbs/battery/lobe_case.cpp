@@ -113,7 +113,7 @@ const std::vector<LobeCase>& lobe_cases() {
       {.name = "anisotropic_metal",
        .category = "conductor_bsdf",
        .ports = [](In in) { return metal(in, 0.2f, 3.0f, 4.0f); },
-       .albedo_error = 8e-2,
+       .albedo_error = 1.5e-2,
        .reciprocity = 3.08},
       {.name = "dielectric_reflection",
        .category = "dielectric_bsdf",
