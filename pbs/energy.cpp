@@ -67,9 +67,10 @@ GgxInterface ggx_leaving(Recorder& recorder, const GgxView& view, Float eta, Flo
 }
 
 GgxInterface ggx_entering(Recorder& recorder, const GgxView& view, Float eta) {
-  const std::vector<Float> found = look_up(
-      recorder, "ggx_entering", ggx_entering_table(), table_axes::angle(view.masked, view.alpha),
-      table_axes::roughness(view.alpha), table_axes::index(eta));
+  const std::vector<Float> found =
+      look_up(recorder, "ggx_entering", ggx_entering_table(),
+              table_axes::entering_angle(view.masked, view.alpha),
+              table_axes::roughness(view.alpha), table_axes::index(eta));
   return {0.0f, saturate(found[0]), saturate(found[1])};
 }
 

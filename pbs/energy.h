@@ -13,8 +13,8 @@ namespace nacre {
 /// across it that are masked as much, and goes from one to the other with the narrower
 /// axis' part in the masking. All other tables are for equal roughness on both axes: there it
 /// looks up the root mean square of its two, at the angle where that masks as much as it
-/// masks itself. Furnace error of a white metal: 1 %, 2 % where it is anisotropic; of anisotropic
-/// glass up to 50 %.
+/// masks itself. Furnace error of a white metal: 1 %, 2 % where it is anisotropic. Anisotropic glass
+/// takes pbs/facet_sum.h instead.
 struct GgxView {
   Float cosine;  ///< Of the view to the normal, in [0, 1].
   Float masked;  ///< The cosine that is masked as much at roughness `alpha`; in [0, 1].
@@ -46,7 +46,7 @@ GgxReflection ggx_reflection(Recorder& recorder, const GgxView& view);
 
 /// An interface between two dielectrics, eta the index beyond over before. Glass
 /// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 % as far
-/// as 85 degrees, from outside and from inside, layered or joint
+/// as 85 degrees, from outside and from inside, layered or joint; joint to 89 from outside
 /// (tests/pbs/furnace_test.cpp). Beyond 4.56 the tables stay as there.
 struct GgxInterface {
   Float fresnel;       ///< Mean Fresnel factor of the reflected light.

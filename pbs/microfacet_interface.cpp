@@ -1,5 +1,7 @@
 #include "pbs/microfacet_interface.h"
 
+#include "pbs/facet_sum.h"
+
 namespace nacre {
 
 MicrofacetInterface::MicrofacetInterface(Recorder& recorder, const Facets& facets,
@@ -34,16 +36,24 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
         entering.fresnel = perfect.mean([&](Float c) { return fresnel_dielectric(c, dense); });
         return entering;
       });
-  Color3 total = Color3(both.total);
+  FacetSum light{perfect.albedo, both.transmission, both.total, 0.0f};
+  const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
+  light = if_any(share > 0.0f, light, [&] {
+    const Float eta = relative_index(index, local.below);
+    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_.alpha, eta);
+    return lerp(light, sum, share);
+  });
+  Color3 total = Color3(light.total);
   if (!fresnel_->is_dielectric()) {
     const Color3 fresnel = fresnel_->mean(recorder, perfect, seen, local.below);
-    total = fma(fresnel - Color3(both.fresnel), Color3(perfect.albedo - both.transmission), total);
+    total = fma(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed), total);
   }
   return Color3(1.0f) / max(total, Color3(0.05f));
 }
 
 MicrofacetInterface::Terms MicrofacetInterface::compute(const View& view) const {
-  const Color3 reflected = reflection_.reflected(view);
+  Color3 reflected = reflection_.reflected(view);
+  if (is_absent_where_straight()) reflected = select(straight_, Color3(0.0f), reflected);
   const Color3 passing = Color3(1.0f) - reflected;
   const Float back = grey(reflected);
   const Float forth = grey(passing);
@@ -59,7 +69,7 @@ MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {
 
 void MicrofacetInterface::prepare(const View& view, Bool mask) const {
   reflection_.prepare(view, mask);
-  transmission_.prepare(view, mask);
+  transmission_.prepare(view, mask & separate(view));
   terms_.prepare(view, mask, [&] { return compute(view); });
 }
 
@@ -77,8 +87,9 @@ LobeValue MicrofacetInterface::evaluate(const View& view, Float3 wi) const {
 
 LobeValue MicrofacetInterface::evaluate_separate(const View& view, const Terms& terms,
                                                  Float3 wi) const {
-  const LobeValue back = reflection_.evaluate(view, wi);
+  LobeValue back = reflection_.evaluate(view, wi);
   const LobeValue forth = transmission_.evaluate(view, wi);
+  if (is_absent_where_straight()) back.f = select(straight_, Color3(0.0f), back.f);
   const Float pdf = fma(terms.probability, back.pdf, (1.0f - terms.probability) * forth.pdf);
   // A part too dark to be sampled is dark.
   return {.f = select(pdf > 0.0f, fma(terms.passing, forth.f, back.f), Color3(0.0f)), .pdf = pdf};

@@ -44,6 +44,9 @@ class MicrofacetInterface final : public Lobe {
   Terms compute(const View& view) const;
   Color3 joint_factor(const View& view) const;
   Bool separate(const View& view) const;
+  /// Glass that does not bend light does not reflect it: at grazing, where it could, not even its
+  /// facets' mean is known.
+  bool is_absent_where_straight() const { return fresnel_->is_dielectric(); }
   LobeValue evaluate_separate(const View& view, const Terms& terms, Float3 wi) const;
   LobeValue evaluate_joint(const View& view, const Terms& terms, Float3 wi) const;
   LobeSample sample_separate(const View& view, const Terms& terms, Float3 u) const;

@@ -1,5 +1,7 @@
 #include "pbs/microfacet_transmission.h"
 
+#include "pbs/facet_sum.h"
+
 namespace nacre {
 
 namespace {
@@ -65,20 +67,31 @@ MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view
   const GgxView seen = facets_.table_view(local);
   const Float dense = max(index_, 1.0f / index_);
   const Float rare = min(index_, 1.0f / index_);
-  return choose(
-      local.below ^ (index_ < 1.0f),
+  const Bool leaving = local.below ^ (index_ < 1.0f);
+  FacetSum light = choose(
+      leaving,
       [&] {
         const Float perfect = ggx_reflection(recorder, seen).albedo;
         const GgxInterface all = ggx_leaving(recorder, seen, rare, perfect);
-        const Float passed = saturate(all.transmission);
-        const Float part = passed / max(all.total, 0.05f);
-        const Float x = saturate(part / max(little * (1.0f - seen.alpha), 1e-3f));
-        const Float turned = fma(square(x), fma(2.0f, x, -3.0f), 1.0f);
         // What comes back of all light hardly depends on the Fresnel factor.
-        const Float rest = max(all.total - passed, 0.0f);
-        return Terms{1.0f / max(fma(turned, rest, passed), 0.02f), turned};
+        return FacetSum{perfect, all.transmission, all.total,
+                        max(all.total - all.transmission, 0.0f)};
       },
-      [&] { return Terms{1.0f / ggx_entering(recorder, seen, dense).transmission, Float(0.0f)}; });
+      [&] {
+        const GgxInterface all = ggx_entering(recorder, seen, dense);
+        return FacetSum{0.0f, all.transmission, all.total, 0.0f};
+      });
+  const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
+  light = if_any((share > 0.0f) & !delta(view), light, [&] {
+    const Float eta = relative_index(index_, local.below);
+    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_.alpha, eta);
+    return lerp(light, sum, share);
+  });
+  const Float part = light.passed / max(light.total, 0.05f);
+  const Float narrow = facets_.isotropic ? seen.alpha : min(facets_.alpha.x, facets_.alpha.y);
+  const Float x = saturate(part / max(little * (1.0f - narrow), 1e-3f));
+  const Float turned = select(leaving, fma(square(x), fma(2.0f, x, -3.0f), 1.0f), 0.0f);
+  return {1.0f / max(fma(turned, light.turned, light.passed), 0.02f), turned};
 }
 
 MicrofacetTransmission::Terms MicrofacetTransmission::thin(const View& view,

@@ -44,9 +44,10 @@ class ThinFilm {
  private:
   Float thickness_ = 0.0f;
   Float index_ = 1.5f;
-  /// Orders of interference: fast 2, standard 3, precise 10. Those left out are a few hundredths for
-  /// most films, but where both interfaces reflect nearly all, at grazing angles, 0.48 and 0.41 at
-  /// worst (found by search, tests/pbs/thin_film_test.cpp); `precise` is within 0.005 everywhere.
+  /// Orders of interference: fast 2, standard 3, precise 10. Those left out are a few hundredths
+  /// for most films, but where both interfaces reflect nearly all, at grazing angles, 0.48 and 0.41
+  /// at worst (found by search, tests/pbs/thin_film_test.cpp); `precise` is within 0.005
+  /// everywhere.
   int terms_ = 3;
 };
 

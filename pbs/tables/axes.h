@@ -37,6 +37,13 @@ T angle(T cosine, T alpha) {
   return steep(cosine, alpha);
 }
 
+/// The same where light enters: near grazing Fresnel's factor falls within a tenth, however rough
+/// the surface is.
+template <class T>
+T entering_angle(T cosine, T alpha) {
+  return steep(cosine, alpha / (T(1.0) + T(9.0) * alpha));
+}
+
 /// Relative index from 1 up to 4.56 (beyond: as there), and the same below 1: the
 /// fourth root of the reflectance at normal incidence, which is 0.8 there.
 template <class T>

@@ -19,7 +19,7 @@ const GgxTable& ggx_stretched_table() {
 }
 
 const GgxTable& ggx_entering_table() {
-  static const GgxTable table{12, 10, 8, 2, entering_values};
+  static const GgxTable table{32, 10, 8, 2, entering_values};
   return table;
 }
 

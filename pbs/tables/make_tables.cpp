@@ -192,6 +192,10 @@ double angle(double cosine, double alpha, double) {
   return nacre::table_axes::angle(cosine, alpha);
 }
 
+double entering_angle(double cosine, double alpha, double) {
+  return nacre::table_axes::entering_angle(cosine, alpha);
+}
+
 using Integral = std::vector<double> (*)(double, double, double);
 using Axis = double (*)(double, double, double);
 
@@ -237,7 +241,7 @@ void write(const char* name, int angles, int roughnesses, int indices, Axis axis
 int main() {
   std::printf("// Written by pbs/tables/make_tables.cpp.\n");
   write("reflection_values", 24, 20, 1, angle, reflection);
-  write("entering_values", 12, 10, 8, angle, entering);
+  write("entering_values", 32, 10, 8, entering_angle, entering);
   write("leaving_values", 16, 16, 24, angle_below_one, leaving);
   write_stretched("stretched_values", 24, 16, 10);
 }

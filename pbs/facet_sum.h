@@ -1,0 +1,31 @@
+#pragma once
+
+#include "pbs/energy.h"
+#include "pbs/view.h"
+
+namespace nacre {
+
+/// What becomes of the light at a rough interface between dielectrics, by a sum over the facets
+/// that the view sees: for what the tables of pbs/tables do not know. `eta`: index beyond over
+/// that on the viewer's side. wo: above the surface, in its frame.
+struct FacetSum {
+  Float reflected;  ///< Albedo of reflection without a Fresnel factor.
+  Float passed;     ///< Of transmission, the same.
+  Float total;      ///< Of both with it.
+  Float turned;     ///< Of the facets that reflect all light.
+};
+template <class F>
+void visit(FacetSum& sum, F&& f) {
+  f(sum.reflected), f(sum.passed), f(sum.total), f(sum.turned);
+}
+/// From a to b where t is 1.
+FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t);
+
+FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, Float2 alpha, Float eta);
+
+/// How much of the sum to take rather than of the tables: all of it for unequal roughnesses, and
+/// for indices so near each other that the tables' axes cannot tell the angle of total reflection
+/// from grazing; 0, and a literal where that is known, where the tables are good.
+Float facet_sum_share(Float2 alpha, bool isotropic, Float dense);
+
+}  // namespace nacre
