@@ -13,8 +13,8 @@ namespace nacre {
 /// across it that are masked as much, and goes from one to the other with the narrower
 /// axis' part in the masking. All other tables are for equal roughness on both axes: there it
 /// looks up the root mean square of its two, at the angle where that masks as much as it
-/// masks itself. Furnace error of a white metal: 1 %, 2 % where it is anisotropic. Anisotropic glass
-/// takes pbs/facet_sum.h instead.
+/// masks itself. Furnace error of a white metal: 1 %, 2 % where it is anisotropic. Anisotropic
+/// glass takes pbs/facet_sum.h instead.
 struct GgxView {
   Float cosine;  ///< Of the view to the normal, in [0, 1].
   Float masked;  ///< The cosine that is masked as much at roughness `alpha`; in [0, 1].

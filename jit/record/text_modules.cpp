@@ -1,10 +1,10 @@
 #include "jit/record/text_modules.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
+
+#include "runtime/read_file.h"
 
 namespace nacre {
 
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t max_file_bytes = std::uintmax_t{4} << 20;
+constexpr std::uint64_t max_file_bytes = std::uint64_t{4} << 20;
 
 bool is_below(const fs::path& path, const fs::path& folder) {
   std::error_code error;
@@ -20,16 +20,6 @@ bool is_below(const fs::path& path, const fs::path& folder) {
   const fs::path outer = fs::weakly_canonical(folder.empty() ? "." : folder, error);
   const auto [end, ignored] = std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end());
   return end == outer.end();
-}
-
-std::optional<std::string> read_file(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > max_file_bytes) {
-    return std::nullopt;
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 /// Looks for `name` in the folders, in order, and reads it; only below `allowed`. Notes the
@@ -44,7 +34,8 @@ std::optional<glsl::Sources::File> find_file(const std::string& name,
                                       [&](const fs::path& root) { return is_below(path, root); });
     if (!may_read) continue;
     const FileIdentity before = identify(path.string());
-    if (std::optional<std::string> text = read_file(path)) {
+    Diagnostics unsaid;  // There are other folders.
+    if (std::optional<std::string> text = read_file(path.string(), max_file_bytes, unsaid)) {
       files.emplace(path.string(), before);
       return glsl::Sources::File{path.string(), std::move(*text)};
     }

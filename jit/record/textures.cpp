@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/read_file.h"
 #include "runtime/texture/similar_name.h"
 #include "runtime/texture/tile_set.h"
 
@@ -136,6 +137,20 @@ TextureSources RecordedTextures::find(const std::string& name, const std::string
   complain(problems);
   found_.emplace(key, sources);
   return sources;
+}
+
+std::optional<std::string> RecordedTextures::read(const std::string& name) {
+  constexpr std::uint64_t most_bytes = std::uint64_t{16} << 20;
+  Diagnostics problems;
+  std::optional<std::string> bytes;
+  if (may_read(name)) {
+    bytes = read_file(name, most_bytes, problems);
+  } else {
+    problems.error("file-outside", {name, 0, 0, {}}, "the file is outside the allowed folders",
+                   "a file below the document's folder or a search path");
+  }
+  complain(problems);
+  return bytes;
 }
 
 RecordedTextures::Snapshot RecordedTextures::snapshot() const {

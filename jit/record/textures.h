@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,8 @@ class RecordedTextures final : public TextureProvider {
         max_anisotropy_(std::clamp(max_anisotropy, 1, largest_anisotropy)) {}
 
   TextureSources find(const std::string& name, const std::string& layer) override;
+  std::optional<std::string> read(const std::string& name) override;
+  void complain(const Diagnostics& problems) override;
 
   /// What a resolver gave: the path under which find() will have it, wherever it lies. Contents in
   /// memory that there is no room for are a missing image.
@@ -61,7 +64,6 @@ class RecordedTextures final : public TextureProvider {
   static void look_up(void* user, const TextureCall* call);
 
  private:
-  void complain(const Diagnostics& problems);
   TextureHandle acquire(const TextureKey& key, Diagnostics& problems);
   TextureHandle acquire_allowed(const TextureKey& key, Diagnostics& problems);
   TextureSet acquire_tiles(const TextureKey& pattern, Diagnostics& problems);

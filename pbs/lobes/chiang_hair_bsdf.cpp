@@ -191,8 +191,8 @@ class ChiangHair final : public Lobe {
     template <class F>
     friend void visit(Terms& terms, F&& f) {
       f(terms.sine), f(terms.cosine), f(terms.y), f(terms.z), f(terms.outside), f(terms.inside);
-      for (Color3& share : terms.share) nacre::visit(share, f);
-      for (Float& chance : terms.chance) f(chance);
+      for (Color3& each : terms.share) nacre::visit(each, f);
+      for (Float& each : terms.chance) f(each);
     }
   };
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "runtime/diagnostic.h"
 #include "runtime/texture/layout.h"
 #include "runtime/value/value.h"
 
@@ -33,12 +35,17 @@ struct TextureSources {
   int max_anisotropy = 1;  ///< Of look-ups; runtime/texture/sampling.h.
 };
 
-/// Finds images for node bodies; the compiler of a document implements it.
+/// Finds images, and other files, for node bodies; the compiler of a document implements it.
 class TextureProvider {
  public:
   virtual ~TextureProvider() = default;
   /// `name` as the node has it, prefixes applied; `layer` as `image` defines it.
   virtual TextureSources find(const std::string& name, const std::string& layer) = 0;
+  /// The bytes of a small file that is no image. Nothing where it cannot be had; that is said.
+  virtual std::optional<std::string> read(const std::string& name) = 0;
+  /// For a body that cannot use a file: said as of one that cannot be had. `where` of a problem is
+  /// the file.
+  virtual void complain(const Diagnostics& problems) = 0;
 };
 
 }  // namespace nacre

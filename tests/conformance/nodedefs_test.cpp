@@ -21,7 +21,7 @@ using testing::run;
 using testing::Sweep;
 
 /// What has no kernel: text is for the graph alone; a material is its shaders, which
-/// are asked for; and nothing implements hair or measured light.
+/// are asked for.
 const std::set<std::string>& without_kernels() {
   static const std::set<std::string> names{
       "ND_UsdPrimvarReader_filename",
@@ -36,7 +36,6 @@ const std::set<std::string>& without_kernels() {
       "ND_lightmaterial",
       "ND_surfacematerial",
       "ND_volumematerial",
-      "ND_measured_edf",
   };
   return names;
 }
@@ -203,7 +202,7 @@ TEST_F(NodeDefs, EachRunsOnAllEnginesWithVaryingInputs) {
     ++run;
   }
   EXPECT_EQ(without, without_kernels());
-  EXPECT_EQ(run, 793);
+  EXPECT_EQ(run, 795);
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ namespace {
 
 constexpr double pi_d = std::numbers::pi;
 
-GgxView same(Float cosine, Float alpha) { return {.cosine = cosine, .masked = cosine, .alpha = alpha}; }
+GgxView same(Float cosine, Float alpha) {
+  return {.cosine = cosine, .masked = cosine, .alpha = alpha};
+}
 
 struct Lobe {
   double albedo, fresnel5;
