@@ -186,7 +186,8 @@ std::optional<LightProfile> parse_ies(std::string_view text, IesFault& fault) {
   profile.vertical = reader.angles("a vertical angle", vertical);
   profile.horizontal = reader.angles("a horizontal angle", horizontal);
   if (!reader.failed()) check_ranges(reader, profile);
-  for (int i = 0; i < vertical * horizontal && !reader.failed(); ++i) {
+  const std::size_t pairs = profile.vertical.size() * profile.horizontal.size();
+  for (std::size_t i = 0; i < pairs && !reader.failed(); ++i) {
     const double candela = reader.number_within("a candela value", 0, 1e30);
     profile.intensity.push_back(static_cast<float>(std::min(candela * scale, 1e30)));
   }
