@@ -8,6 +8,8 @@ namespace nacre {
 /// What becomes of the light at a rough interface between dielectrics, by a sum over the facets
 /// that the view sees: for what the tables of pbs/tables do not know. `eta`: index beyond over
 /// that on the viewer's side. wo: above the surface, in its frame.
+/// Light that is missing or too much where a lobe is divided by it: 3 % in `fast`, 2 % in
+/// `standard`, 1 % in `precise` (tests/pbs/furnace_test.cpp).
 struct FacetSum {
   Float reflected;  ///< Albedo of reflection without a Fresnel factor.
   Float passed;     ///< Of transmission, the same.

@@ -51,8 +51,7 @@ class SurfaceRecorder {
     terms_ = select_lobes(view_, true);
     view_.left_out = view_.unseen = nullptr;
     kernels_.not_modelled = left_out_.lines();
-    kernels_.manifest.insert(kernels_.manifest.end(), left_out_.lines().begin(),
-                             left_out_.lines().end());
+    kernels_.manifest = kernels_.not_modelled;
     kernels_.manifest.insert(kernels_.manifest.end(), unseen_.lines().begin(),
                              unseen_.lines().end());
     for (const Term& term : terms_) {

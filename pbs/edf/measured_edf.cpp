@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -108,31 +110,23 @@ Angles folded(const LightProfile& profile, Angles at) {
 
 class MeasuredEdf final : public Edf {
  public:
-  MeasuredEdf(Color3 color, Float3 normal, Float3 tangent, LightProfile profile)
+  /// `profile`: relative(); nothing emits in all directions alike.
+  MeasuredEdf(Color3 color, Float3 normal, Float3 tangent, std::optional<LightProfile> profile)
       : color_(color), normal_(normal), tangent_(tangent), profile_(std::move(profile)) {}
 
   Color3 radiance(const View& view, Color3, Color3) const override {
-    if (is_zero(color_)) return color_;
-    return color_ * Color3(relative(view));
+    if (is_zero(color_) || !profile_) return color_;
+    return color_ * Color3(look_up(*view.recorder, *profile_, view.wo));
   }
 
  private:
-  /// Radiance over that of a surface that emits as much in all directions alike.
-  Float relative(const View& view) const {
-    const double all = emittance(profile_);
-    if (all <= 0.0) return 0.0f;
-    Recorder& recorder = *view.recorder;
-    // A surface of radiance 1 emits pi from each side.
-    std::vector<float> values;
-    for (const float candela : profile_.intensity) {
-      values.push_back(static_cast<float>(candela * (2.0 * pi / all)));
-    }
-    const auto rows = static_cast<std::int32_t>(profile_.vertical.size());
-    const std::uint32_t table = recorder.table("profile.intensity", values);
-    const bool is_ring = profile_.horizontal.size() == 1;
+  Float look_up(Recorder& recorder, const LightProfile& profile, Float3 wo) const {
+    const auto rows = static_cast<std::int32_t>(profile.vertical.size());
+    const std::uint32_t table = recorder.table("profile.intensity", profile.intensity);
+    const bool is_ring = profile.horizontal.size() == 1;
     const Frame frame = is_ring ? make_frame(normal_) : make_frame(normal_, tangent_);
-    const Angles at = folded(profile_, angles_of(profile_.type, frame.to_local(view.wo)));
-    const auto v = AngleTable(recorder, "vertical", profile_.vertical).find(at.vertical);
+    const Angles at = folded(profile, angles_of(profile.type, frame.to_local(wo)));
+    const auto v = AngleTable(recorder, "vertical", profile.vertical).find(at.vertical);
     const auto column = [&](Int first) {
       const auto value = [&](Int row) {
         const std::array<Ref, 1> operand{(first + row).ref()};
@@ -141,7 +135,7 @@ class MeasuredEdf final : public Edf {
       return lerp(value(v.first), value(v.first + Int(1)), v.fraction);
     };
     if (is_ring) return select(v.measured, column(Int(0)), 0.0f);
-    const auto h = AngleTable(recorder, "horizontal", profile_.horizontal).find(at.horizontal);
+    const auto h = AngleTable(recorder, "horizontal", profile.horizontal).find(at.horizontal);
     const Float found =
         lerp(column(h.first * Int(rows)), column((h.first + Int(1)) * Int(rows)), h.fraction);
     return select(v.measured & h.measured, found, 0.0f);
@@ -149,10 +143,20 @@ class MeasuredEdf final : public Edf {
 
   Color3 color_;
   Float3 normal_, tangent_;
-  LightProfile profile_;
+  std::optional<LightProfile> profile_;
 };
 
-/// Nothing, said, where there is none.
+/// With radiance in place of candela, over that of a surface that emits as much in all directions
+/// alike.
+LightProfile relative(LightProfile profile) {
+  const double all = emittance(profile);
+  // A surface of radiance 1 emits pi from each side. What is dark is so by zeros.
+  const double scale = all > 0.0 ? 2.0 * std::numbers::pi / all : 0.0;
+  for (float& value : profile.intensity) value = static_cast<float>(value * scale);
+  return profile;
+}
+
+/// relative(); nothing, said, where there is none.
 std::optional<LightProfile> read_profile(NodeCall& call) {
   TextureProvider* const files = call.textures();
   const std::string& name = call.text("file");
@@ -161,7 +165,7 @@ std::optional<LightProfile> read_profile(NodeCall& call) {
   if (!text) return std::nullopt;
   IesFault fault;
   std::optional<LightProfile> profile = parse_ies(*text, fault);
-  if (profile) return profile;
+  if (profile) return relative(std::move(*profile));
   Diagnostics problems;
   problems.error("bad-light-profile", {name, 0, 0, {}},
                  "line " + std::to_string(fault.line) + ": " + fault.message, fault.expected,
@@ -181,15 +185,8 @@ void record_closure_measured_edf(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Color3 color = keep(recorder, max(call.vector3("color"), Color3(0.0f)));
   const Float3 normal = prepare_normal(recorder, call.vector3("normal"));
-  std::optional<LightProfile> profile = read_profile(call);
-  if (!profile) {
-    profile = LightProfile{.type = LightProfile::Type::c,
-                           .vertical = {0.0f, 180.0f},
-                           .horizontal = {0.0f},
-                           .intensity = {1.0f, 1.0f}};
-  }
   call.set(std::make_shared<MeasuredEdf>(color, normal, tangent(recorder, Space::world),
-                                         std::move(*profile)));
+                                         read_profile(call)));
 }
 
 }  // namespace nacre

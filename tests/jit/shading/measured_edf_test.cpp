@@ -8,6 +8,7 @@
 
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
+#include "tests/jit/shading/engines.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nacre {
@@ -157,13 +158,7 @@ TEST_P(MeasuredEdf, AMissingFileIsSaid) {
       << diagnostics_.to_string();
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, MeasuredEdf,
-                         ::testing::Values(Backend::jit, Backend::interpreter, Backend::reference),
-                         [](const auto& engine) {
-                           return std::string(engine.param == Backend::jit           ? "jit"
-                                              : engine.param == Backend::interpreter ? "interpreter"
-                                                                                     : "reference");
-                         });
+INSTANTIATE_TEST_SUITE_P(Engines, MeasuredEdf, all_engines(), engine_name);
 
 }  // namespace
 }  // namespace nacre

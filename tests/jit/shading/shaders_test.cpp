@@ -8,6 +8,7 @@
 
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
+#include "tests/jit/shading/engines.h"
 
 namespace nacre {
 namespace {
@@ -312,13 +313,7 @@ TEST_P(Shaders, AnEmitterHasAnExposure) {
   EXPECT_FALSE(light.contains("direction.x"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, Shaders,
-                         ::testing::Values(Backend::jit, Backend::interpreter, Backend::reference),
-                         [](const auto& engine) {
-                           return std::string(engine.param == Backend::jit           ? "jit"
-                                              : engine.param == Backend::interpreter ? "interpreter"
-                                                                                     : "reference");
-                         });
+INSTANTIATE_TEST_SUITE_P(Engines, Shaders, all_engines(), engine_name);
 
 }  // namespace
 }  // namespace nacre
