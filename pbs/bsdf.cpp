@@ -27,7 +27,14 @@ Color3 LobeBsdf::throughput(const View& view, Color3, Color3) const {
   return saturate(Color3(1.0f) - product(Color3(weight_), lost));
 }
 
-void LobeBsdf::report(const View& view) const {
+BsdfPtr LobeBsdf::with_parts(BsdfPtr, BsdfPtr) const { return with_lobe(lobe_); }
+
+BsdfPtr LobeBsdf::with_lobe(LobePtr lobe) const {
+  return std::make_shared<LobeBsdf>(std::move(lobe), weight_, left_out_, origin_);
+}
+
+void LobeBsdf::report(const View& view, Color3) const {
+  if (view.left_out == nullptr) return;
   for (const std::string& line : left_out_) view.left_out->add(line);
 }
 
@@ -47,8 +54,15 @@ Color3 LayerBsdf::throughput(const View&, Color3 top, Color3 base) const {
   return product(top, base);
 }
 
-void LayerBsdf::report(const View& view) const {
-  if (medium_ != nullptr && !view.thin_walled.is_constant(true)) {
+BsdfPtr LayerBsdf::with_parts(BsdfPtr top, BsdfPtr base) const {
+  return std::make_shared<LayerBsdf>(std::move(top), std::move(base), medium_);
+}
+
+void LayerBsdf::report(const View& view, Color3 weight) const {
+  if (medium_ == nullptr || view.thin_walled.is_constant(true)) return;
+  if (view.media != nullptr) {
+    view.media->push_back({medium_, weight});
+  } else if (view.left_out != nullptr) {
     report_medium(*medium_, *view.left_out);
   }
 }
@@ -67,6 +81,10 @@ Color3 MixBsdf::throughput(const View&, Color3 fg, Color3 bg) const {
   return lerp(bg, fg, mix_);
 }
 
+BsdfPtr MixBsdf::with_parts(BsdfPtr fg, BsdfPtr bg) const {
+  return std::make_shared<MixBsdf>(std::move(fg), std::move(bg), mix_);
+}
+
 Color3 AddBsdf::part_weight(std::size_t, Color3 weight, const Throughput&) const { return weight; }
 
 Color3 AddBsdf::throughput(const View&, Color3 in1, Color3 in2) const {
@@ -74,11 +92,19 @@ Color3 AddBsdf::throughput(const View&, Color3 in1, Color3 in2) const {
   return max(in1 + in2 - Color3(1.0f), Color3(0.0f));
 }
 
+BsdfPtr AddBsdf::with_parts(BsdfPtr in1, BsdfPtr in2) const {
+  return std::make_shared<AddBsdf>(std::move(in1), std::move(in2));
+}
+
 Color3 MultiplyBsdf::part_weight(std::size_t, Color3 weight, const Throughput&) const {
   return product(weight, tint_);
 }
 
 Color3 MultiplyBsdf::throughput(const View&, Color3 in1, Color3) const { return in1; }
+
+BsdfPtr MultiplyBsdf::with_parts(BsdfPtr in1, BsdfPtr) const {
+  return std::make_shared<MultiplyBsdf>(std::move(in1), tint_);
+}
 
 BsdfPtr as_bsdf(const ClosurePtr& closure) {
   return std::dynamic_pointer_cast<const Bsdf>(closure);

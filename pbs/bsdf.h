@@ -50,8 +50,13 @@ class Bsdf : public Closure {
   /// What passes through to a layer underneath, in [0, 1], by what the parts let pass: 1
   /// for those that have nothing to do with it.
   virtual Color3 throughput(const View& view, Color3 first, Color3 second) const = 0;
-  /// Adds to view.left_out, which is not null, what of this node the kernels leave out.
-  virtual void report(const View& view) const { (void)view; }
+  /// The same of other parts; never asked of a leaf.
+  virtual BsdfPtr with_parts(BsdfPtr first, BsdfPtr second) const = 0;
+  /// Whether nothing else of this node lies on part `i`.
+  virtual bool is_uppermost(std::size_t i) const { return (void)i, true; }
+  /// Adds to view.left_out and view.media, where they are not null, what of this node the kernels
+  /// of what scatters leave out; `weight` of the node is seen.
+  virtual void report(const View& view, Color3 weight) const { (void)view, (void)weight; }
 
  private:
   Parts parts_;
@@ -73,7 +78,10 @@ class LobeBsdf final : public Bsdf {
   const LobeBsdf* leaf() const override { return this; }
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
-  void report(const View& view) const override;
+  BsdfPtr with_parts(BsdfPtr first, BsdfPtr second) const override;
+  /// Another lobe, not null, in its place.
+  BsdfPtr with_lobe(LobePtr lobe) const;
+  void report(const View& view, Color3 weight) const override;
 
  private:
   LobePtr lobe_;
@@ -96,7 +104,9 @@ class LayerBsdf final : public Bsdf {
       : Bsdf(std::move(top), std::move(base)), medium_(std::move(medium)) {}
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
-  void report(const View& view) const override;
+  BsdfPtr with_parts(BsdfPtr top, BsdfPtr base) const override;
+  bool is_uppermost(std::size_t i) const override { return i == 0; }
+  void report(const View& view, Color3 weight) const override;
 
  private:
   VdfPtr medium_;
@@ -110,6 +120,7 @@ class MixBsdf final : public Bsdf {
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   bool shades(std::size_t i) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
+  BsdfPtr with_parts(BsdfPtr fg, BsdfPtr bg) const override;
 
  private:
   Float mix_;
@@ -122,6 +133,7 @@ class AddBsdf final : public Bsdf {
   AddBsdf(BsdfPtr in1, BsdfPtr in2) : Bsdf(std::move(in1), std::move(in2)) {}
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
+  BsdfPtr with_parts(BsdfPtr in1, BsdfPtr in2) const override;
 };
 
 /// in1 with its weight tinted. What it lets pass stays as it is.
@@ -131,6 +143,7 @@ class MultiplyBsdf final : public Bsdf {
   MultiplyBsdf(BsdfPtr in1, Color3 tint) : Bsdf(std::move(in1)), tint_(tint) {}
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
+  BsdfPtr with_parts(BsdfPtr in1, BsdfPtr none) const override;
 
  private:
   Color3 tint_;

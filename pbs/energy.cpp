@@ -1,13 +1,16 @@
 #include "pbs/energy.h"
 
 #include "pbs/tables/axes.h"
+#include "pbs/tables/facet_tables.h"
 #include "pbs/tables/look_up.h"
 
 namespace nacre {
 
-GgxView ggx_view(Float3 wo, Float2 alpha, bool isotropic) {
+FacetView facet_view(Float3 wo, FacetDistribution distribution, Float2 alpha, bool isotropic) {
   const Float cosine = saturate(wo.z);
-  if (isotropic) return {.cosine = cosine, .masked = cosine, .alpha = alpha.x};
+  if (isotropic) {
+    return {.distribution = distribution, .cosine = cosine, .masked = cosine, .alpha = alpha.x};
+  }
   const Float x2 = square(alpha.x * wo.x);
   const Float y2 = square(alpha.y * wo.y);
   const auto masked = [&](Float roughness) {
@@ -17,7 +20,8 @@ GgxView ggx_view(Float3 wo, Float2 alpha, bool isotropic) {
   const Float mean = sqrt(0.5f * fma(alpha.x, alpha.x, square(alpha.y)));
   const Float wide = max(alpha.x, alpha.y);
   const Float narrow2 = select(alpha.x < alpha.y, x2, y2);
-  return {.cosine = cosine,
+  return {.distribution = distribution,
+          .cosine = cosine,
           .masked = masked(mean),
           .alpha = mean,
           .anisotropic = true,
@@ -31,44 +35,44 @@ namespace {
 
 /// The albedo of one roughness, and what the narrower axis adds: nothing where both are equal, so
 /// that a surface is the same whether that is known or not.
-Float stretched_albedo(Recorder& recorder, const GgxView& view) {
+Float stretched_albedo(Recorder& recorder, const FacetView& view) {
   const Float angle = table_axes::angle(view.wide_masked, view.wide);
   const Float roughness = table_axes::roughness(view.wide);
   const std::vector<Float> equal =
-      look_up(recorder, "ggx_reflection", ggx_reflection_table(), angle, roughness);
-  const std::vector<Float> more =
-      look_up(recorder, "ggx_stretched", ggx_stretched_table(), angle, roughness, sqrt(view.ratio));
+      look_up(recorder, facet_tables(view.distribution).reflection, angle, roughness);
+  const std::vector<Float> more = look_up(recorder, facet_tables(view.distribution).stretched,
+                                          angle, roughness, sqrt(view.ratio));
   // Measured: the change begins at once and levels off.
   return equal[0] + lerp(more[0], more[1], view.across * (2.0f - view.across));
 }
 
 }  // namespace
 
-GgxReflection ggx_reflection(Recorder& recorder, const GgxView& view) {
+FacetReflection facet_reflection(Recorder& recorder, const FacetView& view) {
   const std::vector<Float> found =
-      look_up(recorder, "ggx_reflection", ggx_reflection_table(),
+      look_up(recorder, facet_tables(view.distribution).reflection,
               table_axes::angle(view.masked, view.alpha), table_axes::roughness(view.alpha));
   const Float albedo = view.anisotropic ? stretched_albedo(recorder, view) : found[0];
   return {clamp(albedo, 0.05f, 1.0f), saturate(found[1] + view.cosine),
           saturate(found[2] + view.cosine)};
 }
 
-GgxInterface ggx_leaving(Recorder& recorder, const GgxView& view, Float eta, Float perfect) {
+FacetInterface facet_leaving(Recorder& recorder, const FacetView& view, Float eta, Float perfect) {
   const Float cosine = view.cosine;
   const Float alpha = view.alpha;
   const Float critical = table_axes::critical_cosine(eta);
   const Float angle =
       select(cosine < critical, table_axes::beyond_critical(cosine, alpha, critical),
              table_axes::within_critical(cosine, alpha, critical));
-  const std::vector<Float> found = look_up(recorder, "ggx_leaving", ggx_leaving_table(), angle,
+  const std::vector<Float> found = look_up(recorder, facet_tables(view.distribution).leaving, angle,
                                            table_axes::roughness(alpha), table_axes::index(eta));
   const Float mirror = table_axes::mirror_share(alpha) * fresnel_dielectric(cosine, eta);
   return {saturate(found[0] + mirror), saturate(found[1]), saturate(found[2] * perfect)};
 }
 
-GgxInterface ggx_entering(Recorder& recorder, const GgxView& view, Float eta) {
+FacetInterface facet_entering(Recorder& recorder, const FacetView& view, Float eta) {
   const std::vector<Float> found =
-      look_up(recorder, "ggx_entering", ggx_entering_table(),
+      look_up(recorder, facet_tables(view.distribution).entering,
               table_axes::entering_angle(view.masked, view.alpha),
               table_axes::roughness(view.alpha), table_axes::index(eta));
   return {0.0f, saturate(found[0]), saturate(found[1])};

@@ -1,11 +1,12 @@
 #pragma once
 
+#include "pbs/facet_distribution.h"
 #include "pbs/fresnel.h"
 #include "runtime/program/recorder.h"
 
 namespace nacre {
 
-/// How much light the GGX lobes send back to a view, from the tables in
+/// How much light the lobes of facets send back to a view, from the tables in
 /// pbs/tables, and what single scattering loses.
 ///
 /// What facets lose hangs on how much of them is masked, and little on the azimuth: an
@@ -15,7 +16,8 @@ namespace nacre {
 /// looks up the root mean square of its two, at the angle where that masks as much as it
 /// masks itself. Furnace error of a white metal: 1 %, 2 % where it is anisotropic. Anisotropic
 /// glass takes pbs/facet_sum.h instead.
-struct GgxView {
+struct FacetView {
+  FacetDistribution distribution = FacetDistribution::ggx;
   Float cosine;  ///< Of the view to the normal, in [0, 1].
   Float masked;  ///< The cosine that is masked as much at roughness `alpha`; in [0, 1].
   Float alpha;   ///< In [1e-4, 1].
@@ -26,12 +28,12 @@ struct GgxView {
   Float ratio = 1.0f;        ///< The narrower over it.
   Float across = 0.0f;       ///< Part of the masking that the narrower axis has, in [0, 1].
 };
-GgxView ggx_view(Float3 wo, Float2 alpha, bool isotropic);
+FacetView facet_view(Float3 wo, FacetDistribution distribution, Float2 alpha, bool isotropic);
 
 /// Measured against quadrature (alpha 0.001 to 1, to 88 degrees): albedo of
 /// perfect facets 0.3 %; times Fresnel 0.4 % of the light for an index of 1.5,
 /// at worst 1.6 % near 1.05.
-struct GgxReflection {
+struct FacetReflection {
   Float albedo;  ///< Of perfectly reflecting facets, in (0, 1].
   /// Facet cosines for the darker and the brighter half of the reflected light.
   Float low, high;
@@ -42,25 +44,25 @@ struct GgxReflection {
     return (f(low) + f(high)) * decltype(f(low))(0.5f);
   }
 };
-GgxReflection ggx_reflection(Recorder& recorder, const GgxView& view);
+FacetReflection facet_reflection(Recorder& recorder, const FacetView& view);
 
 /// An interface between two dielectrics, eta the index beyond over before. Glass
 /// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 % as far
 /// as 85 degrees, from outside and from inside, layered or joint; joint to 89 from outside
-/// (tests/pbs/furnace_test.cpp). Beyond 4.56 the tables stay as there.
-struct GgxInterface {
+/// (tests/pbs/furnace_test.cpp); 2 % with Beckmann's facets. Beyond 4.56 the tables stay as there.
+struct FacetInterface {
   Float fresnel;       ///< Mean Fresnel factor of the reflected light.
   Float transmission;  ///< Albedo of transmission without a Fresnel factor.
   Float total;         ///< Albedo of reflection and transmission, both with it.
 };
 template <class F>
-void visit(GgxInterface& interface, F&& f) {
+void visit(FacetInterface& interface, F&& f) {
   f(interface.fresnel), f(interface.transmission), f(interface.total);
 }
-/// eta < 1: total reflection from some angle on. `perfect` is ggx_reflection's albedo.
-GgxInterface ggx_leaving(Recorder& recorder, const GgxView& view, Float eta, Float perfect);
-/// eta >= 1; leaves `fresnel` 0, which ggx_reflection's cosines give.
-GgxInterface ggx_entering(Recorder& recorder, const GgxView& view, Float eta);
+/// eta < 1: total reflection from some angle on. `perfect` is facet_reflection's albedo.
+FacetInterface facet_leaving(Recorder& recorder, const FacetView& view, Float eta, Float perfect);
+/// eta >= 1; leaves `fresnel` 0, which facet_reflection's cosines give.
+FacetInterface facet_entering(Recorder& recorder, const FacetView& view, Float eta);
 
 /// Factor for a lobe whose facets have mean Fresnel factor `fresnel`, so that what
 /// is lost to several scatterings comes back as often as the facets reflect:

@@ -40,8 +40,9 @@ FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t) {
           nacre::lerp(a.total, b.total, t), nacre::lerp(a.turned, b.turned, t)};
 }
 
-FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, Float2 alpha,
+FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                          Float eta) {
+  const Float2 alpha = facets.alpha;
   const auto [points, step] = lattice(accuracy);
   const double turn = 2.0 * std::numbers::pi * step / points;
   const Float2 on{static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn))};
@@ -50,26 +51,35 @@ FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, Float
   // looks the same from all around.
   const Float x = alpha.x * wo.x, y = alpha.y * wo.y;
   const Float across2 = fma(x, x, square(y));
-  const Float root_o = sqrt(fma(wo.z, wo.z, across2));
-  const Float inverse = 1.0f / max(root_o, 1e-30f);
+  const Float length = sqrt(fma(wo.z, wo.z, across2));
+  const Float inverse = 1.0f / max(length, 1e-30f);
   const Float3 seen{x * inverse, y * inverse, wo.z * inverse};
   const Bool slanted = across2 > 1e-30f;
   const Float inverse_across = 1.0f / sqrt(max(across2, 1e-30f));
+  const bool is_ggx = facets.distribution == FacetDistribution::ggx;
+  const Float root_o = is_ggx ? length : facets.root(wo);
   const State start{.sum = {0.0f, 0.0f, 0.0f, 0.0f},
                     .azimuth = {select(slanted, x * inverse_across, 1.0f),
                                 select(slanted, y * inverse_across, 0.0f)}};
   const State all = loop(recorder, Bool(true), points, start, [&](Int k, State& state) {
     const float share = 1.0f / static_cast<float>(points);
     const Float up = fma(to_float(k), -share, 1.0f - 0.5f * share);
-    const Float z = fma(up, 1.0f + seen.z, -seen.z);
-    const Float slant = safe_sqrt((1.0f - z) * (1.0f + z));
-    const Float3 stretched{alpha.x * fma(slant, state.azimuth.x, seen.x),
-                           alpha.y * fma(slant, state.azimuth.y, seen.y), z + seen.z};
-    const Float3 h = stretched * Float3(1.0f / sqrt(max(dot(stretched, stretched), 1e-30f)));
+    const auto on_cap = [&] {
+      const Float z = fma(up, 1.0f + seen.z, -seen.z);
+      const Float slant = safe_sqrt((1.0f - z) * (1.0f + z));
+      const Float3 stretched{alpha.x * fma(slant, state.azimuth.x, seen.x),
+                             alpha.y * fma(slant, state.azimuth.y, seen.y), z + seen.z};
+      return stretched * Float3(1.0f / sqrt(max(dot(stretched, stretched), 1e-30f)));
+    };
+    const auto by_slopes = [&] {
+      const Float across = fma(to_float(k), static_cast<float>(step) * share, 0.5f * share);
+      return facets.sample_visible(recorder, wo, up, fract(across));
+    };
+    const Float3 h = is_ggx ? on_cap() : by_slopes();
     const Float cosine = saturate(dot(wo, h));
     const auto unshadowed = [&](Float3 wi, Bool possible) {
       const Float cos_i = abs(wi.z);
-      return select(possible, ggx_shadowing(wo.z, root_o, cos_i, ggx_root(wi, alpha)), 0.0f);
+      return select(possible, smith_shadowing(wo.z, root_o, cos_i, facets.root(wi)), 0.0f);
     };
     const Float3 mirrored = reflect(wo, h);
     const Refraction bent = refract(wo, h, cosine, eta);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pbs/energy.h"
+#include "pbs/facets.h"
 #include "pbs/view.h"
 
 namespace nacre {
@@ -23,7 +23,8 @@ void visit(FacetSum& sum, F&& f) {
 /// From a to b where t is 1.
 FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t);
 
-FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, Float2 alpha, Float eta);
+FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
+                         Float eta);
 
 /// How much of the sum to take rather than of the tables: all of it for unequal roughnesses, and
 /// for indices so near each other that the tables' axes cannot tell the angle of total reflection

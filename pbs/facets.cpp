@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pbs/beckmann.h"
+#include "pbs/microfacet.h"
 #include "pbs/per_view.h"
 #include "runtime/node/geometry.h"
 
@@ -28,6 +30,31 @@ LocalView Facets::look(const View& view) const {
   return {frame, wo, below};
 }
 
+Float Facets::density(Float3 h) const {
+  return distribution == FacetDistribution::ggx ? ggx_distribution(h, alpha)
+                                                : beckmann_distribution(h, alpha);
+}
+
+Float Facets::root(Float3 w) const {
+  return distribution == FacetDistribution::ggx ? ggx_root(w, alpha) : beckmann_root(w, alpha);
+}
+
+Float Facets::bound(Float3 wo) const {
+  return distribution == FacetDistribution::ggx ? reflection_bound(wo, alpha) : Float(1.0f);
+}
+
+Float3 Facets::sample_visible(Recorder& recorder, Float3 wo, Float u, Float v) const {
+  return distribution == FacetDistribution::ggx
+             ? sample_visible_normal(wo, alpha, u, v)
+             : sample_visible_beckmann(recorder, wo, alpha, u, v);
+}
+
+Float3 Facets::sample_reflecting(Recorder& recorder, Float3 wo, Float u, Float v) const {
+  return distribution == FacetDistribution::ggx
+             ? sample_reflecting_normal(wo, alpha, bound(wo), u, v)
+             : sample_visible_beckmann(recorder, wo, alpha, u, v);
+}
+
 Facets prepare_facets(NodeCall& call) {
   Recorder& recorder = call.recorder();
   Float2 roughness = call.vector2("roughness");
@@ -38,7 +65,9 @@ Facets prepare_facets(NodeCall& call) {
     roughness = {max(roughness.x, least), max(roughness.y, least)};
   }
   const auto clamped = [&](Float x) { return keep(recorder, clamp(x, threshold, 1.0f)); };
-  return {.alpha = {clamped(roughness.x), clamped(roughness.y)},
+  return {.distribution = call.text("distribution") == "beckmann" ? FacetDistribution::beckmann
+                                                                  : FacetDistribution::ggx,
+          .alpha = {clamped(roughness.x), clamped(roughness.y)},
           .delta = keep(recorder, !((roughness.x >= threshold) | (roughness.y >= threshold))),
           .threshold = threshold,
           .isotropic = isotropic,
@@ -59,15 +88,15 @@ Float relative_index(Float index, Bool inside) { return select(inside, 1.0f / in
 
 Bool goes_straight(Float index) { return abs(index - 1.0f) < 1e-3f; }
 
-Color3 FacetFresnel::mean(Recorder& recorder, const GgxReflection& reflection, const GgxView& view,
-                          Bool inside) const {
+Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
+                          const FacetView& view, Bool inside) const {
   const auto plain = [&] { return reflection.mean([&](Float c) { return at(c, inside); }); };
   if (!has_inside()) return plain();
   // Where total reflection sets in no two cosines stand for all facets. A table
   // has the mean for dielectrics; the rest of a curve is smooth.
   const auto leaving = [&] {
     const Float eta = min(index(), 1.0f / index());
-    const Color3 mean(ggx_leaving(recorder, view, eta, reflection.albedo).fresnel);
+    const Color3 mean(facet_leaving(recorder, view, eta, reflection.albedo).fresnel);
     if (is_dielectric()) return mean;
     const Color3 rest = reflection.mean(
         [&](Float c) { return at(c, inside) - Color3(fresnel_dielectric(c, eta)); });

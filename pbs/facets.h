@@ -20,6 +20,7 @@ struct LocalView {
 
 /// Where the facets of a surface lie and how rough they are; prepared and kept.
 struct Facets {
+  FacetDistribution distribution = FacetDistribution::ggx;
   Float2 alpha;     ///< In [threshold, 1]; the same value twice where isotropic.
   Bool delta;       ///< Smooth: both below the threshold. Mirrors, not lobes.
   float threshold;  ///< 1e-4; fast: 1e-3.
@@ -29,12 +30,26 @@ struct Facets {
   LocalView look(const View& view) const;
   /// As Lobe::roughness.
   Float roughness() const { return select(delta, 0.0f, sqrt(0.5f * (alpha.x + alpha.y))); }
-  GgxView table_view(const LocalView& local) const { return ggx_view(local.wo, alpha, isotropic); }
+  FacetView table_view(const LocalView& local) const {
+    return facet_view(local.wo, distribution, alpha, isotropic);
+  }
+
+  // pbs/microfacet.h or pbs/beckmann.h, in the frame of the surface.
+  /// Normals per area and solid angle.
+  Float density(Float3 h) const;
+  /// z (1 + 2 Lambda).
+  Float root(Float3 w) const;
+  /// What keeps sampled normals from reflecting below the surface; 1: nothing does.
+  Float bound(Float3 wo) const;
+  /// Of density D G1 (wo.h) / wo.z.
+  Float3 sample_visible(Recorder& recorder, Float3 wo, Float u, Float v) const;
+  /// Less most of those that would reflect below the surface: by `bound`.
+  Float3 sample_reflecting(Recorder& recorder, Float3 wo, Float u, Float v) const;
 };
 
-/// From the inputs roughness, normal and tangent of a node. The threshold
-/// separates what float can evaluate: below it the rounding of a half-way vector
-/// is as wide as the lobe. One axis alone is never below: it is clamped. Alpha is no less than the
+/// From the inputs roughness, distribution ("beckmann", else GGX), normal and tangent of a node.
+/// The threshold separates what float can evaluate: below it the rounding of a half-way vector is
+/// as wide as the lobe. One axis alone is never below: it is clamped. Alpha is no less than the
 /// slot "min_alpha" where the host offers one: what lies behind a rough bounce needs no sharp lobe.
 Facets prepare_facets(NodeCall& call);
 
@@ -49,6 +64,9 @@ Float relative_index(Float index, Bool inside);
 /// straight through instead.
 Bool goes_straight(Float index);
 
+class FacetFresnel;
+using FacetFresnelPtr = std::shared_ptr<const FacetFresnel>;
+
 /// The Fresnel factor of facets; its members are prepared and kept.
 class FacetFresnel {
  public:
@@ -56,7 +74,7 @@ class FacetFresnel {
   /// Fraction reflected, in [0, 1]; finite for a finite cosine.
   virtual Color3 at(Float cosine, Bool inside) const = 0;
   /// Its mean over the light that a surface reflects to a view.
-  Color3 mean(Recorder& recorder, const GgxReflection& reflection, const GgxView& view,
+  Color3 mean(Recorder& recorder, const FacetReflection& reflection, const FacetView& view,
               Bool inside) const;
   /// Index of the inside relative to the outside, for lobes that transmit.
   virtual Float index() const { return 1.0f; }
@@ -65,8 +83,10 @@ class FacetFresnel {
   virtual bool has_inside() const { return false; }
   /// Whether at() is Fresnel's formula for that index and nothing else.
   virtual bool is_dielectric() const { return false; }
+  /// The same under that film, which is kept, in place of one that it may have.
+  virtual FacetFresnelPtr with_film(const ThinFilm& film) const = 0;
 };
-using FacetFresnelPtr = std::shared_ptr<const FacetFresnel>;
+
 /// A colour that scales a lobe: at least 0, finite.
 Color3 prepare_tint(Recorder& recorder, Color3 tint);
 

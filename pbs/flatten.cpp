@@ -29,8 +29,8 @@ class Flattener {
         open_.pop_back();
         continue;
       }
-      if (at.part == 1 && view_.left_out != nullptr && !is_zero(states_.at(at.bsdf).weight)) {
-        at.bsdf->report(view_);
+      if (at.part == 1 && !is_zero(states_.at(at.bsdf).weight)) {
+        at.bsdf->report(view_, states_.at(at.bsdf).weight);
       }
       const std::size_t i = at.part++;
       const Bsdf* part = at.bsdf->parts()[i].get();
@@ -89,7 +89,7 @@ class Flattener {
     if (is_zero(total)) return note_unseen(leaf);
     ended_ = may_go_on_ && !may_go_on_();
     if (ended_) return;
-    if (view_.left_out != nullptr) leaf.report(view_);
+    leaf.report(view_, total);
     const ScopedOrigin origin(*view_.recorder, leaf.origin());
     leaf.lobe()->prepare(view_, max_component(total) > 0.0f);
     lobes_.push_back({leaf.lobe(), total, leaf.origin()});

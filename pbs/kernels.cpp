@@ -34,6 +34,20 @@ void add_color(std::vector<SliceOutput>& outputs, const std::string& name, Float
   outputs.push_back({name + ".z", v.z.ref()});
 }
 
+/// What there is of several, by how much is seen of each; nothing of none.
+Vdf mean_medium(const std::vector<SeenMedium>& media) {
+  if (media.empty()) return {};
+  if (media.size() == 1) return *media.front().medium;
+  VdfPtr sum;
+  Float total = 0.0f;
+  for (const SeenMedium& each : media) {
+    const Float weight = max(average(each.weight), 1e-20f);
+    sum = nacre::sum(sum, scaled(each.medium, Color3(weight)));
+    total = total + weight;
+  }
+  return *scaled(sum, Color3(1.0f / total));
+}
+
 class SurfaceRecorder {
  public:
   SurfaceRecorder(Recorder& recorder, const Surface& surface, Accuracy accuracy,
@@ -44,12 +58,14 @@ class SurfaceRecorder {
              .wo = view_direction(recorder),
              .thin_walled = surface.thin_walled,
              .left_out = &left_out_,
+             .media = wants(entry_interior) ? &media_ : nullptr,
              .unseen = &unseen_};
   }
 
   SurfaceKernels run() {
     terms_ = select_lobes(view_, true);
     view_.left_out = view_.unseen = nullptr;
+    view_.media = nullptr;
     kernels_.not_modelled = left_out_.lines();
     kernels_.manifest = kernels_.not_modelled;
     kernels_.manifest.insert(kernels_.manifest.end(), unseen_.lines().begin(),
@@ -67,6 +83,7 @@ class SurfaceRecorder {
     }
     if (wants(entry_emission)) record_emission();
     if (wants(entry_opacity)) record_opacity();
+    if (wants(entry_interior)) record_interior();
     record_point();
     return std::move(kernels_);
   }
@@ -85,6 +102,7 @@ class SurfaceRecorder {
     const ScopedOrigin origin(recorder_, "layering");
     const std::vector<WeightedLobe> lobes =
         flatten(surface_.bsdf, view, [this] { return may_go_on(); });
+    const Color3 share = conserving_share(view, lobes);
     std::vector<Term> terms;
     Float total = 0.0f;
     for (const WeightedLobe& each : lobes) {
@@ -94,6 +112,7 @@ class SurfaceRecorder {
         continue;
       }
       Term term{each.lobe, max(each.weight, Color3(0.0f)), Float(0.0f), each.origin};
+      if (request_.energy_conserving) term.weight = term.weight * share;
       const ScopedOrigin of_lobe(recorder_, each.origin);
       if (request_.lobe_mask) term.weight = masked(*each.lobe, term.weight);
       term.probability = max_component(term.weight * each.lobe->albedo(view));
@@ -111,6 +130,18 @@ class SurfaceRecorder {
       term.probability = keep(recorder_, term.probability);
     }
     return terms;
+  }
+
+  /// What of the light of these lobes leaves no more than arrives.
+  Color3 conserving_share(const View& view, const std::vector<WeightedLobe>& lobes) {
+    Color3 light = Color3(0.0f);
+    if (!request_.energy_conserving) return Color3(1.0f);
+    for (const WeightedLobe& each : lobes) {
+      const ScopedOrigin of_lobe(recorder_, each.origin);
+      light = fma(max(each.weight, Color3(0.0f)), each.lobe->light(view), light);
+    }
+    // Of a sum without bound nothing is left.
+    return Color3(1.0f) / max(light, Color3(1.0f));
   }
 
   Color3 masked(const Lobe& lobe, Color3 weight) {
@@ -233,6 +264,28 @@ class SurfaceRecorder {
     return radiance(surface_.edf, view_);
   }
 
+  void record_interior() {
+    const ScopedOrigin origin(recorder_, "interior");
+    std::vector<SeenMedium> entered;  // Indices, as media that only absorb.
+    for (const Term& term : terms_) {
+      const Float* index = term.lobe->interior_index();
+      if (index == nullptr) continue;
+      auto vdf = std::make_shared<Vdf>();
+      vdf->absorption = Color3(*index);
+      entered.push_back({std::move(vdf), term.weight});
+    }
+    if (entered.empty() || surface_.thin_walled.is_constant(true)) return;
+    const Vdf index = mean_medium(entered);
+    const Vdf medium = mean_medium(media_);
+    const Bool thin = surface_.thin_walled;
+    const auto inside = [&](Color3 c) { return select(thin, Color3(0.0f), c); };
+    kernels_.interior = {{"eta", select(thin, 1.0f, index.absorption.x).ref()}};
+    if (is_zero(medium.absorption) && is_zero(medium.scattering)) return;
+    add_color(kernels_.interior, "absorption", inside(medium.absorption));
+    add_color(kernels_.interior, "scattering", inside(medium.scattering));
+    kernels_.interior.push_back({"anisotropy", medium.anisotropy.ref()});
+  }
+
   /// As denoisers like it: of what is seen, and of the shading normal where nothing is.
   Float3 mean_normal() const {
     const Float3 shading = facing(normal(recorder_, Space::world), view_.wo);
@@ -288,6 +341,7 @@ class SurfaceRecorder {
   const Surface& surface_;
   const KernelRequest& request_;
   const std::function<bool()>& ask_;
+  std::vector<SeenMedium> media_;
   LeftOut left_out_;
   LeftOut unseen_;
   View view_;

@@ -22,8 +22,9 @@ enum KernelEntry : std::uint32_t {
   entry_volume = 1 << 9,
   entry_light = 1 << 10,
   entry_shade = 1 << 11,
+  entry_interior = 1 << 12,
   /// What most renderers ask one after another.
-  entry_usual = ~std::uint32_t(entry_evaluate_at | entry_shade),
+  entry_usual = ~std::uint32_t(entry_evaluate_at | entry_shade | entry_interior),
 };
 
 /// What a host wants of a surface's kernels; only this is recorded.
@@ -34,7 +35,10 @@ struct KernelRequest {
   bool lobe_mask = false;         ///< Lobes can be switched off by the slot "lobe_mask" too.
   bool min_alpha = false;         ///< Roughness can be raised by the slot "min_alpha" (see Facets).
   bool reverse_pdf = false;       ///< The density of wo given wi as well.
-  bool by_lobe = false;           ///< What each lobe gives of f and weight as well.
+  /// No view gets more light than arrives, whatever the model says: what the lobes give together is
+  /// divided by what of it exceeds 1, in each channel. As exact as their albedo.
+  bool energy_conserving = false;
+  bool by_lobe = false;  ///< What each lobe gives of f and weight as well.
   /// What `begin` (and `shade`) stores beside the state, so that nothing of the point is computed
   /// twice: "albedo", "emission", "opacity" (with transmission), "normal", "roughness"; all
   /// there, if constant. Other names are values of the graph: see GraphRequest::values.
@@ -65,13 +69,16 @@ bool is_point_result(std::string_view name);
 ///   emission  out: emission.x .y .z   radiance towards wo
 ///   opacity   out: opacity, transmission.x .y .z: of a ray that meets the
 ///             surface, 1 - opacity + opacity * transmission goes straight on
+///   interior  out: eta [, absorption.x .y .z, scattering.x .y .z, anisotropy]: the index over that
+///             outside, and the medium where there is one, per unit of length; of several
+///             interfaces the mean by how much is seen of each. Absent where light cannot enter
 ///   point     out: what KernelRequest::with_begin names; besides the above
 ///             normal.x .y .z          unit, towards wo: the lobes' mean, as `sample` picks them
 ///             roughness               [0, 1]: their mean
 struct SurfaceKernels {
   /// Channels as listed above.
   /// @{
-  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity, point;
+  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity, interior, point;
   /// @}
   /// One line for each thing that was left out, with the reason.
   std::vector<std::string> manifest;

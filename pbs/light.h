@@ -15,6 +15,7 @@ class Light final : public Closure {
   /// Irradiance across the direction, or radiance to wo; shader_channels() makes it finite.
   Color3 intensity = Color3(0.0f);
   std::optional<Float3> direction;  ///< Unit, world space, from P to the light.
+  std::optional<Float> distance;    ///< From P to the light; none: infinitely far away.
 };
 using LightPtr = std::shared_ptr<const Light>;
 

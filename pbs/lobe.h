@@ -7,6 +7,10 @@
 
 namespace nacre {
 
+class Lobe;
+class ThinFilm;
+using LobePtr = std::shared_ptr<const Lobe>;  ///< Shared by all that read its node.
+
 /// What a host may ask for or switch off.
 enum LobeKind : std::int32_t {
   lobe_diffuse_reflection = 1 << 0,
@@ -73,19 +77,28 @@ class Lobe {
   /// Fraction of the light from wo that leaves again: in [0, 1]. What lobes are
   /// selected by, and the `albedo` kernel's answer.
   virtual Color3 albedo(const View& view) const = 0;
+  /// The same of models that send back more than they get: more than 1 there.
+  virtual Color3 light(const View& view) const { return albedo(view); }
   /// What passes to a layer below, for a lobe of weight 1: 1 - albedo for an
   /// interface, 0 for an opaque lobe. MaterialX PBS 1.39, "Layering".
   virtual Color3 throughput(const View& view) const = 0;
   /// How a weight w enters the throughput. Interfaces let 1 - w (1 - throughput)
   /// pass; opaque lobes 0 whatever their weight (the library's 1.39.5 closures).
   virtual bool is_opaque() const { return false; }
+  /// The same under that film, in place of one that it may have; null where it has no facets for
+  /// one. `film` is kept.
+  virtual LobePtr with_film(Recorder& recorder, const ThinFilm& film) const {
+    return (void)recorder, (void)film, nullptr;
+  }
 
   // For AOVs, and not for what scatters.
   /// Unit, world space, on either side.
   virtual Float3 normal(const View& view) const = 0;
   /// In [0, 1]: the root of the mean alpha; 0 of a mirror, 1 where light scatters everywhere.
   virtual Float roughness(const View& view) const = 0;
+
+  /// Of refraction of the inside over the outside; null where light does not enter by it.
+  virtual const Float* interior_index() const { return nullptr; }
 };
-using LobePtr = std::shared_ptr<const Lobe>;  ///< Shared by all that read its node.
 
 }  // namespace nacre

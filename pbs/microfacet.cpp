@@ -42,7 +42,7 @@ Float ggx_root(Float3 w, Float2 alpha) {
 
 Float ggx_masking(Float3 w, Float2 alpha) { return 2.0f * w.z / (w.z + ggx_root(w, alpha)); }
 
-Float ggx_shadowing(Float cos_o, Float root_o, Float cos_i, Float root_i) {
+Float smith_shadowing(Float cos_o, Float root_o, Float cos_i, Float root_i) {
   return cos_i * (cos_o + root_o) / max(fma(cos_i, root_o, cos_o * root_i), 1e-30f);
 }
 

@@ -25,7 +25,7 @@ Float ggx_masking(Float3 w, Float2 alpha);
 
 /// Shadowing of the light given that the facet is seen: G2 / G1 with the
 /// height-correlated G2 = 1 / (1 + Lambda_o + Lambda_i). Cosines at least 0.
-Float ggx_shadowing(Float cos_o, Float root_o, Float cos_i, Float root_i);
+Float smith_shadowing(Float cos_o, Float root_o, Float cos_i, Float root_i);
 
 /// A facet normal of density D G1 (wo.h) / wo.z, seen from wo above the surface.
 /// Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.

@@ -14,6 +14,11 @@ MicrofacetInterface::MicrofacetInterface(Recorder& recorder, const Facets& facet
       transmission_(recorder, facets, fresnel->index(), options.tint, options.name),
       straight_(keep(recorder, goes_straight(fresnel->index()))) {}
 
+LobePtr MicrofacetInterface::with_film(Recorder& recorder, const ThinFilm& film) const {
+  return std::make_shared<MicrofacetInterface>(recorder, facets_, fresnel_->with_film(film),
+                                               options_);
+}
+
 Bool MicrofacetInterface::separate(const View& view) const {
   return view.thin_walled | straight_ | facets_.delta;
 }
@@ -23,16 +28,16 @@ Bool MicrofacetInterface::separate(const View& view) const {
 Color3 MicrofacetInterface::joint_factor(const View& view) const {
   Recorder& recorder = *view.recorder;
   const LocalView local = facets_.look(view);
-  const GgxView seen = facets_.table_view(local);
+  const FacetView seen = facets_.table_view(local);
   const Float index = fresnel_->index();
   const Float dense = max(index, 1.0f / index);
   const Float rare = min(index, 1.0f / index);
-  const GgxReflection perfect = ggx_reflection(recorder, seen);
-  const GgxInterface both = choose(
+  const FacetReflection perfect = facet_reflection(recorder, seen);
+  const FacetInterface both = choose(
       local.below ^ (index < 1.0f),
-      [&] { return ggx_leaving(recorder, seen, rare, perfect.albedo); },
+      [&] { return facet_leaving(recorder, seen, rare, perfect.albedo); },
       [&] {
-        GgxInterface entering = ggx_entering(recorder, seen, dense);
+        FacetInterface entering = facet_entering(recorder, seen, dense);
         entering.fresnel = perfect.mean([&](Float c) { return fresnel_dielectric(c, dense); });
         return entering;
       });
@@ -40,7 +45,7 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
   const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
   light = if_any(share > 0.0f, light, [&] {
     const Float eta = relative_index(index, local.below);
-    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_.alpha, eta);
+    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta);
     return lerp(light, sum, share);
   });
   Color3 total = Color3(light.total);
@@ -100,7 +105,7 @@ LobeValue MicrofacetInterface::evaluate_joint(const View& view, const Terms& ter
   const LocalView local = facets_.look(view);
   const Float3 wi = turned(local.frame.to_local(wi_world));
   const Float eta = relative_index(fresnel_->index(), local.below);
-  const FacetEvent event = facet_between(local.wo, wi, eta, facets_.alpha);
+  const FacetEvent event = facet_between(local.wo, wi, eta, facets_);
   const Bool reflects = wi.z > 0.0f;
   const Color3 fresnel = fresnel_->at(event.cosine, local.below);
   const Color3 share = select(reflects, fresnel, Color3(1.0f) - fresnel);
@@ -138,7 +143,7 @@ LobeSample MicrofacetInterface::sample_separate(const View& view, const Terms& t
 
 LobeSample MicrofacetInterface::sample_joint(const View& view, Float3 u) const {
   const LocalView local = facets_.look(view);
-  const Float3 h = sample_visible_normal(local.wo, facets_.alpha, u.x, u.y);
+  const Float3 h = facets_.sample_visible(*view.recorder, local.wo, u.x, u.y);
   const Float cosine = saturate(dot(local.wo, h));
   const Float eta = relative_index(fresnel_->index(), local.below);
   const Refraction bent = refract(local.wo, h, cosine, eta);

@@ -21,6 +21,7 @@ class MicrofacetInterface final : public Lobe {
 
   std::string_view name() const override { return options_.name; }
   std::int32_t kinds() const override { return lobe_glossy_reflection | lobe_glossy_transmission; }
+  LobePtr with_film(Recorder& recorder, const ThinFilm& film) const override;
   void prepare(const View& view, Bool mask) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
@@ -28,6 +29,7 @@ class MicrofacetInterface final : public Lobe {
   Color3 throughput(const View& view) const override { return reflection_.throughput(view); }
   Float3 normal(const View&) const override { return facets_.normal; }
   Float roughness(const View&) const override { return facets_.roughness(); }
+  const Float* interior_index() const override { return transmission_.interior_index(); }
 
  private:
   struct Terms {

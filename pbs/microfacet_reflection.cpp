@@ -5,13 +5,17 @@ namespace nacre {
 MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) const {
   const LocalView local = facets_.look(view);
   const Bool inside = local.below & !view.thin_walled;
-  const GgxView seen = facets_.table_view(local);
-  const GgxReflection perfect = ggx_reflection(*view.recorder, seen);
+  const FacetView seen = facets_.table_view(local);
+  const FacetReflection perfect = facet_reflection(*view.recorder, seen);
   const Color3 fresnel = fresnel_->mean(*view.recorder, perfect, seen, inside);
   const Color3 factor = compensation(fresnel, perfect.albedo);
   const Color3 rough = saturate(fresnel * factor * Color3(perfect.albedo));
   if (facets_.delta.is_constant(false)) return {factor, rough};
   return {factor, select(facets_.delta, fresnel_->at(local.wo.z, inside), rough)};
+}
+
+LobePtr MicrofacetReflection::with_film(Recorder&, const ThinFilm& film) const {
+  return std::make_shared<MicrofacetReflection>(facets_, fresnel_->with_film(film), options_);
 }
 
 void MicrofacetReflection::prepare(const View& view, Bool mask) const {
@@ -33,14 +37,14 @@ LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) cons
   const Float3 h = wo + wi;
   const Float length2 = dot(h, h);
   const Float cosine = saturate(0.5f * sqrt(length2));
-  const Float root = ggx_root(wo, facets_.alpha);
-  const Float half_d = 0.5f * ggx_distribution(h, facets_.alpha);
-  const Float bound = reflection_bound(wo, facets_.alpha);
+  const Float root = facets_.root(wo);
+  const Float half_d = 0.5f * facets_.density(h);
+  const Float bound = facets_.bound(wo);
   const Float pdf = half_d / max(fma(bound, wo.z, root), 1e-30f);
   // Below 1e-8 the half-way vector of two grazing directions is rounding.
   const Bool seen =
       (wo.z > 0.0f) & (wi.z > 0.0f) & (length2 > 1e-8f) & (pdf > 0.0f) & !facets_.delta;
-  const Float wi_root = ggx_root(wi, facets_.alpha);
+  const Float wi_root = facets_.root(wi);
   const Float both = fma(wi.z, root, wo.z * wi_root);
   const Float f = half_d * wi.z / max(both, 1e-30f);
   const Bool inside = local.below & !view.thin_walled;
@@ -52,8 +56,7 @@ LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) cons
 LobeSample MicrofacetReflection::sample(const View& view, Float3 u) const {
   const LocalView local = facets_.look(view);
   const Float3 wo = local.wo;
-  const Float bound = reflection_bound(wo, facets_.alpha);
-  const Float3 h = sample_reflecting_normal(wo, facets_.alpha, bound, u.x, u.y);
+  const Float3 h = facets_.sample_reflecting(*view.recorder, wo, u.x, u.y);
   const Float3 mirrored{-wo.x, -wo.y, wo.z};
   const Float3 wi = turned(select(facets_.delta, mirrored, reflect(wo, h)));
   const Float3 world = local.frame.to_world(wi);

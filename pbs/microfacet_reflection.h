@@ -22,6 +22,7 @@ class MicrofacetReflection final : public Lobe {
   std::string_view name() const override { return options_.name; }
   std::int32_t kinds() const override { return lobe_glossy_reflection; }
   bool is_opaque() const override { return options_.opaque; }
+  LobePtr with_film(Recorder& recorder, const ThinFilm& film) const override;
   void prepare(const View& view, Bool mask) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;

@@ -19,7 +19,7 @@ Facets scaled(const Facets& facets, Float scale) {
 
 }  // namespace
 
-FacetEvent facet_between(Float3 wo, Float3 wi, Float eta, Float2 alpha) {
+FacetEvent facet_between(Float3 wo, Float3 wi, Float eta, const Facets& facets) {
   const Bool reflects = wi.z > 0.0f;
   const Float ratio = select(reflects, 1.0f, eta);
   const Float3 between = wo + wi * Float3(ratio);
@@ -28,15 +28,15 @@ FacetEvent facet_between(Float3 wo, Float3 wi, Float eta, Float2 alpha) {
   const Float scale = copysign(1.0f / sqrt(max(length2, 1e-8f)), between.z);
   const Float cos_o = dot(wo, between) * scale;
   const Float cos_i = dot(wi, between) * scale;
-  const Float root_o = ggx_root(wo, alpha);
+  const Float root_o = facets.root(wo);
   const Float jacobian = square(ratio) * abs(cos_i) / max(length2, 1e-8f);
-  const Float seen = 2.0f * ggx_distribution(between, alpha) * max(cos_o, 0.0f);
+  const Float seen = 2.0f * facets.density(between) * max(cos_o, 0.0f);
   const Bool other_side = reflects ^ (cos_i < 0.0f);
   return {
       .possible = (wo.z > 0.0f) & (wi.z != 0.0f) & (length2 > 1e-8f) & (cos_o > 0.0f) & other_side,
       .cosine = saturate(cos_o),
       .pdf = finite(seen * jacobian / max(wo.z + root_o, 1e-30f)),
-      .shadowing = saturate(ggx_shadowing(wo.z, root_o, abs(wi.z), ggx_root(wi, alpha)))};
+      .shadowing = saturate(smith_shadowing(wo.z, root_o, abs(wi.z), facets.root(wi)))};
 }
 
 Refraction refract(Float3 wo, Float3 h, Float cosine, Float eta) {
@@ -64,27 +64,27 @@ MicrofacetTransmission::MicrofacetTransmission(Recorder& recorder, Facets facets
 MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view,
                                                                 const LocalView& local) const {
   Recorder& recorder = *view.recorder;
-  const GgxView seen = facets_.table_view(local);
+  const FacetView seen = facets_.table_view(local);
   const Float dense = max(index_, 1.0f / index_);
   const Float rare = min(index_, 1.0f / index_);
   const Bool leaving = local.below ^ (index_ < 1.0f);
   FacetSum light = choose(
       leaving,
       [&] {
-        const Float perfect = ggx_reflection(recorder, seen).albedo;
-        const GgxInterface all = ggx_leaving(recorder, seen, rare, perfect);
+        const Float perfect = facet_reflection(recorder, seen).albedo;
+        const FacetInterface all = facet_leaving(recorder, seen, rare, perfect);
         // What comes back of all light hardly depends on the Fresnel factor.
         return FacetSum{perfect, all.transmission, all.total,
                         max(all.total - all.transmission, 0.0f)};
       },
       [&] {
-        const GgxInterface all = ggx_entering(recorder, seen, dense);
+        const FacetInterface all = facet_entering(recorder, seen, dense);
         return FacetSum{0.0f, all.transmission, all.total, 0.0f};
       });
   const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
   light = if_any((share > 0.0f) & !delta(view), light, [&] {
     const Float eta = relative_index(index_, local.below);
-    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_.alpha, eta);
+    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta);
     return lerp(light, sum, share);
   });
   const Float part = light.passed / max(light.total, 0.05f);
@@ -96,8 +96,8 @@ MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view
 
 MicrofacetTransmission::Terms MicrofacetTransmission::thin(const View& view,
                                                            const LocalView& local) const {
-  const GgxView seen = thin_facets_.table_view(local);
-  return {1.0f / ggx_reflection(*view.recorder, seen).albedo, 0.0f};
+  const FacetView seen = thin_facets_.table_view(local);
+  return {1.0f / facet_reflection(*view.recorder, seen).albedo, 0.0f};
 }
 
 MicrofacetTransmission::Terms MicrofacetTransmission::compute(const View& view) const {
@@ -121,8 +121,8 @@ LobeValue MicrofacetTransmission::evaluate(const View& view, Float3 wi_world) co
   const Float eta = relative_index(index_, local.below);
   const FacetEvent event = choose(
       view.thin_walled,
-      [&] { return facet_between(local.wo, {wi.x, wi.y, -wi.z}, 1.0f, thin_facets_.alpha); },
-      [&] { return facet_between(local.wo, wi, eta, facets_.alpha); });
+      [&] { return facet_between(local.wo, {wi.x, wi.y, -wi.z}, 1.0f, thin_facets_); },
+      [&] { return facet_between(local.wo, wi, eta, facets_); });
   const Bool turns = (!view.thin_walled) & totally_reflected(event.cosine, eta);
   const Float share = select(crosses, 1.0f, select(turns, terms.turned, 0.0f));
   const Bool seen = event.possible & !delta(view);
@@ -137,13 +137,13 @@ LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
   const Refraction chosen = choose(
       view.thin_walled,
       [&] {
-        const Float3 h = sample_visible_normal(wo, thin_facets_.alpha, u.x, u.y);
+        const Float3 h = thin_facets_.sample_visible(*view.recorder, wo, u.x, u.y);
         const Float3 wi = reflect(wo, h);
         const Float3 through = select(delta(view), -wo, Float3(wi.x, wi.y, -wi.z));
         return Refraction{through, through.z < 0.0f};
       },
       [&] {
-        const Float3 rough = sample_visible_normal(wo, facets_.alpha, u.x, u.y);
+        const Float3 rough = facets_.sample_visible(*view.recorder, wo, u.x, u.y);
         const Float3 h = select(facets_.delta, Float3(0.0f, 0.0f, 1.0f), rough);
         const Float eta = relative_index(index_, local.below);
         const Float cosine = saturate(dot(wo, h));

@@ -21,7 +21,7 @@ void visit(FacetEvent& event, F&& f) {
 /// The facet between wo, above, and wi: it reflects where wi is above, else it
 /// refracts by `eta`, the index beyond over before. Walter et al. 2007, eq. 13-17;
 /// the Jacobian's denominator is the squared length of the half-way vector.
-FacetEvent facet_between(Float3 wo, Float3 wi, Float eta, Float2 alpha);
+FacetEvent facet_between(Float3 wo, Float3 wi, Float eta, const Facets& facets);
 
 /// wo refracted at a facet; below the surface if it can be. `possible` is false
 /// under total reflection and where the facet refracts to above.
@@ -60,6 +60,7 @@ class MicrofacetTransmission final : public Lobe {
   Color3 throughput(const View&) const override { return Color3(0.0f); }
   Float3 normal(const View&) const override { return facets_.normal; }
   Float roughness(const View&) const override { return facets_.roughness(); }
+  const Float* interior_index() const override { return &index_; }
 
  private:
   struct Terms {

@@ -56,6 +56,9 @@ std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
       if (light != nullptr && light->direction) {
         add(channels, "direction", *light->direction);
       }
+      if (light != nullptr && light->distance) {
+        channels.push_back({"distance", light->distance->ref()});
+      }
       break;
     }
     default: break;
@@ -65,7 +68,8 @@ std::vector<SliceOutput> shader_channels(Recorder& recorder, Accuracy accuracy,
 
 bool all_zero(const std::vector<SliceOutput>& channels) {
   return std::all_of(channels.begin(), channels.end(), [](const SliceOutput& channel) {
-    const bool counts = channel.name != "anisotropy" && !channel.name.starts_with("direction");
+    const bool counts = channel.name != "anisotropy" && channel.name != "distance" &&
+                        !channel.name.starts_with("direction");
     return !counts || Float(channel.value).is_constant(0.0f);
   });
 }

@@ -12,7 +12,8 @@ namespace nacre {
 ///   VDF                 absorption.x .y .z, scattering.x .y .z, anisotropy
 ///   volumeshader        the same, and emission.x .y .z per unit of length, towards wo
 ///   displacementshader  offset.x .y .z, world space
-///   lightshader         intensity.x .y .z; but for `light` direction.x .y .z
+///   lightshader         intensity.x .y .z; but for `light` direction.x .y .z; and
+///                       distance, unless it is infinitely far away
 ///
 /// See pbs/vdf.h, volume.h, displacement.h and light.h. An unconnected shader is empty
 /// space, no offset, or dark. None for other types: surfaces are pbs/kernels.h's.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,14 @@ class LeftOut {
   std::vector<std::string> lines_;
 };
 
+class Vdf;
+
+/// A medium behind an interface, and how much is seen of that interface.
+struct SeenMedium {
+  std::shared_ptr<const Vdf> medium;  ///< Never null.
+  Color3 weight;
+};
+
 /// From where a closure is looked at, while recording.
 struct View {
   Recorder* recorder = nullptr;            ///< Where closures record; never null.
@@ -33,6 +42,8 @@ struct View {
   /// Where closures put down what of them the kernels leave out though it would change the
   /// picture; null: nowhere.
   LeftOut* left_out = nullptr;
+  /// Where `flatten` puts down the media that interfaces enclose; null: nowhere.
+  std::vector<SeenMedium>* media = nullptr;
   /// And where `flatten` puts down lobes that nothing is seen of; null: nowhere.
   LeftOut* unseen = nullptr;
 };

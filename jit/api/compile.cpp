@@ -10,7 +10,8 @@ using namespace nacre::api;
 namespace {
 
 static_assert(entry_begin == 1u << NACRE_BEGIN && entry_evaluate_at == 1u << NACRE_EVALUATE_AT &&
-              entry_opacity == 1u << NACRE_OPACITY && entry_shade == 1u << NACRE_SHADE);
+              entry_opacity == 1u << NACRE_OPACITY && entry_shade == 1u << NACRE_SHADE &&
+              entry_interior == 1u << NACRE_INTERIOR);
 
 GraphOptions graph_options(const nacre_compile_options& asked, const Document& document) {
   constexpr std::array preferences{Preference::body, Preference::graph, Preference::source};
@@ -60,6 +61,7 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   options.kernels.lobe_mask = asked.lobe_mask != 0;
   options.kernels.by_lobe = asked.by_lobe != 0;
   options.kernels.min_alpha = asked.min_alpha != 0;
+  options.kernels.energy_conserving = asked.energy_conserving != 0;
   if (asked.entries != 0) options.kernels.entries = asked.entries;
   options.kernels.with_begin = texts_of(asked.with_begin, asked.with_begin_count);
   options.side = asked.side == NACRE_BACK ? Side::back : Side::front;

@@ -9,6 +9,7 @@
 
 #include "nodes/nodes.h"
 #include "pbs/closure_nodes.h"
+#include "pbs/library.h"
 
 namespace nacre {
 
@@ -39,6 +40,11 @@ std::string standard_folder(const Definitions& library) {
   return {};
 }
 
+/// Whether a file is one of pbs/library, which have no folder.
+bool is_own(const std::string& file) {
+  return std::ranges::any_of(own_library(), [&](const auto& text) { return text.first == file; });
+}
+
 /// Category, inputs and outputs with their types, whatever the order.
 std::string signature(const NodeDef& def) {
   std::vector<std::string> ports;
@@ -57,7 +63,8 @@ std::string signature(const NodeDef& def) {
 Bodies::Bodies(const Definitions& library) {
   const std::string standard = standard_folder(library);
   const auto is_standard = [&](const NodeDef& def) {
-    return def.element->document().file_of(*def.element).starts_with(standard);
+    const std::string& file = def.element->document().file_of(*def.element);
+    return file.starts_with(standard) || is_own(file);
   };
   std::unordered_set<std::string> made_for;  // Only asked where there are node packs.
   const auto fits = [&](const NodeDef& def) {

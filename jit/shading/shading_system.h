@@ -100,7 +100,8 @@ struct ShaderOptions {
 ///   VDF                 absorption.x .y .z, scattering.x .y .z, anisotropy
 ///   volumeshader        the same, and emission.x .y .z per unit of length, towards wo
 ///   displacementshader  offset.x .y .z, world space
-///   lightshader         intensity.x .y .z; but for `light` direction.x .y .z
+///   lightshader         intensity.x .y .z; but for `light` direction.x .y .z; and
+///                       distance, unless it is infinitely far away
 struct OutputKernel {
   /// One of the outputs, and where its channels stand.
   struct Output {
@@ -150,6 +151,9 @@ struct MaterialKernels {
   /// @{
   std::optional<BoundKernel> displacement, volume, light;
   /// @}
+  /// Only if requested: what the surface encloses, see SurfaceKernels. Then the manifest does not
+  /// say that its medium is left out.
+  std::optional<BoundKernel> interior;
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
   std::vector<LobeInfo> lobes;        ///< The channel `lobe` of sample counts in this order.

@@ -26,6 +26,7 @@ Light point_source(Recorder& recorder, Float3 position, Color3 power, Float deca
   light.intensity = power / Float3(falloff);
   light.direction = {select(apart, unit.x, 0.0f), select(apart, unit.y, 0.0f),
                      select(apart, unit.z, 0.0f)};
+  light.distance = select(apart, distance, 0.0f);
   return light;
 }
 

@@ -32,8 +32,8 @@ class BurleyDiffuse final : public CosineLobe {
   }
 
   /// Exact: evaluate() is a polynomial in cos_i once the azimuth is averaged, with
-  /// moments 2 B(k + 2, 6) of the cosines. The part above 1 is cut off.
-  Color3 albedo(const View& view) const override {
+  /// moments 2 B(k + 2, 6) of the cosines.
+  Color3 light(const View& view) const override {
     const Float c = saturate(dot(axis(view), view.wo));
     const Float r = roughness_;
     const Float a = r - 0.5f;
@@ -43,8 +43,10 @@ class BurleyDiffuse final : public CosineLobe {
     const Float linear = fma(rc, 2.0f / 3.0f, a);
     const Float squares = a * a * (1.0f / 21.0f) + a * rc * (1.0f / 42.0f) +
                           rc * rc * (1.0f / 252.0f) + r * r * sine2 * (11.0f / 504.0f);
-    return saturate(color_ * Color3(fma(fifth_power(1.0f - c), linear + squares, alone)));
+    return color_ * Color3(fma(fifth_power(1.0f - c), linear + squares, alone));
   }
+  /// The part above 1 is cut off.
+  Color3 albedo(const View& view) const override { return saturate(light(view)); }
 
  private:
   Color3 color_;

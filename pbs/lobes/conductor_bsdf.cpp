@@ -15,6 +15,11 @@ class ConductorFresnel final : public FacetFresnel {
     const Color3 bare = fresnel_conductor(cosine, n_, k_);
     return film_.exists() ? film_.reflectance(cosine, 1.0f, n_, k_, bare) : bare;
   }
+  FacetFresnelPtr with_film(const ThinFilm& film) const override {
+    auto other = std::make_shared<ConductorFresnel>(*this);
+    other->film_ = film;
+    return other;
+  }
 
  private:
   /// To what float can square twice; reflectance 1 - 4e-4 there.

@@ -39,6 +39,11 @@ class SchlickFresnel final : public FacetFresnel {
 
   Float index() const override { return index_; }
   bool has_inside() const override { return !two_sided_; }
+  FacetFresnelPtr with_film(const ThinFilm& film) const override {
+    auto other = std::make_shared<SchlickFresnel>(*this);
+    other->film_ = film;
+    return other;
+  }
 
  private:
   Color3 filmed(Float cosine, Color3 bare) const {

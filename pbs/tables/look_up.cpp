@@ -84,12 +84,12 @@ std::vector<Float> interpolate(Recorder& recorder, std::uint32_t table,
 
 }  // namespace
 
-std::vector<Float> look_up(Recorder& recorder, std::string_view name, const GgxTable& table,
-                           Float angle, Float roughness, Float index) {
+std::vector<Float> look_up(Recorder& recorder, const FacetTable& table, Float angle,
+                           Float roughness, Float index) {
   std::vector<Axis> axes{{table.angles, angle}, {table.roughnesses, roughness}};
   if (table.indices > 1) axes.push_back({table.indices, index});
   std::vector<float> values(table.values.begin(), table.values.end());
-  std::string key(name);
+  std::string key(table.name);
   for (std::size_t k = axes.size(); k-- > 0;) {
     if (!axes[k].at.is_constant()) continue;
     values = fold_axis(values, axes, k, table.quantities);

@@ -1,16 +1,21 @@
-// Writes pbs/tables/ggx_tables.inc to standard output:
+// Writes the table of one distribution of facets to standard output:
 //
-//   ninja make_ggx_tables && ./make_ggx_tables > pbs/tables/ggx_tables.inc
+//   ninja make_facet_tables
+//   ./make_facet_tables ggx > pbs/tables/ggx_tables.inc
+//   ./make_facet_tables beckmann > pbs/tables/beckmann_tables.inc
 //
-// Midpoint rule over the unit square that visible normals are sampled from
-// (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023),
-// in double precision. Half the square is enough: the integrands are even.
+// Midpoint rule over the unit square that visible normals are sampled from, in double precision:
+// GGX by Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023; Beckmann by
+// the slopes along and across the view, Heitz and d'Eon, "Importance Sampling Microfacet-Based
+// BSDFs using the Distribution of Visible Normals", 2014. Half the square is enough: the integrands
+// are even.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "pbs/tables/axes.h"
@@ -23,76 +28,137 @@ struct Vec {
   double x, y, z;
 };
 
+/// Facets of roughness a along a view of the surface and b across it.
+class Facets {
+ public:
+  virtual ~Facets() = default;
+  /// z (1 + 2 Lambda) of a direction.
+  virtual double root(Vec w, double a, double b) const = 0;
+  /// Calls f(normal of any length) for equally probable normals that are seen from (sine, 0,
+  /// cosine), `steps` squared of them.
+  using Normal = std::function<void(Vec h)>;
+  virtual void each_normal(double sine, double cosine, double a, double b,
+                           const Normal& f) const = 0;
+};
+
+class Ggx final : public Facets {
+ public:
+  double root(Vec w, double a, double b) const override {
+    return std::hypot(a * w.x, b * w.y, w.z);
+  }
+  void each_normal(double sine, double cosine, double a, double b, const Normal& f) const override {
+    const double length = std::hypot(a * sine, cosine);
+    const double x = a * sine / length;
+    const double z = cosine / length;
+    for (int i = 0; i < steps; ++i) {
+      const double cap = (1.0 - (i + 0.5) / steps) * (1.0 + z) - z;
+      const double ring = std::sqrt(std::max(0.0, 1.0 - cap * cap));
+      for (int j = 0; j < steps; ++j) {
+        const double phi = std::numbers::pi * (j + 0.5) / steps;
+        f({a * (x + ring * std::cos(phi)), b * ring * std::sin(phi), z + cap});
+      }
+    }
+  }
+};
+
+/// x in [low, high] with f(x) = y, for an f that grows.
+double invert(double y, double low, double high, const std::function<double(double)>& f) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (f(middle) < y ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+class Beckmann final : public Facets {
+ public:
+  Beckmann() {
+    for (int j = 0; j < steps; ++j) {
+      aside_.push_back(invert((j + 0.5) / steps, 0.0, 6.0, [](double x) { return std::erf(x); }));
+    }
+  }
+  double root(Vec w, double a, double b) const override {
+    const double across = std::max(std::hypot(a * w.x, b * w.y), 1e-300);
+    const double ratio = std::abs(w.z) / across;
+    return std::abs(w.z) * std::erf(ratio) + across * std::exp(-ratio * ratio) / root_pi;
+  }
+  void each_normal(double sine, double cosine, double a, double b, const Normal& f) const override {
+    const double length = std::hypot(a * sine, cosine);
+    const double s = a * sine / length;
+    const double c = cosine / length;
+    const double steepest = s > 0.0 ? std::min(c / s, 7.0) : 7.0;
+    const auto below = [&](double x) {
+      return c * root_pi * (1.0 + std::erf(x)) + s * std::exp(-x * x);
+    };
+    for (int i = 0; i < steps; ++i) {
+      const double u = (i + 0.5) / steps;
+      const double forth = invert(u * below(steepest), -7.0, steepest, below);
+      for (const double aside : aside_) f({-a * forth, b * aside, 1.0});
+    }
+  }
+
+ private:
+  static constexpr double root_pi = 1.77245385090551602730;
+  std::vector<double> aside_;
+};
+
 /// A view of the surface and the light it brings along one visible normal.
 struct Scene {
+  const Facets& facets;
   double cosine, alpha;
   double sine, root;
 
-  Scene(double cosine_, double alpha_) : cosine(std::clamp(cosine_, 1e-6, 1.0)), alpha(alpha_) {
+  Scene(const Facets& facets_, double cosine_, double alpha_)
+      : facets(facets_), cosine(std::clamp(cosine_, 1e-6, 1.0)), alpha(alpha_) {
     sine = std::sqrt(1.0 - cosine * cosine);
-    root = std::hypot(alpha * sine, cosine);
+    root = facets.root({sine, 0.0, cosine}, alpha, alpha);
   }
 
   /// Calls f(facet normal, its cosine to the view) for equally probable normals.
   template <class F>
   void each_normal(F&& f) const {
-    const double x = alpha * sine / root;
-    const double z = cosine / root;
-    for (int i = 0; i < steps; ++i) {
-      const double u = (i + 0.5) / steps;
-      const double cap = (1.0 - u) * (1.0 + z) - z;
-      const double ring = std::sqrt(std::max(0.0, 1.0 - cap * cap));
-      for (int j = 0; j < steps; ++j) {
-        const double phi = std::numbers::pi * (j + 0.5) / steps;
-        Vec h{alpha * (x + ring * std::cos(phi)), alpha * ring * std::sin(phi), z + cap};
-        const double length = std::sqrt(h.x * h.x + h.y * h.y + h.z * h.z);
-        h = {h.x / length, h.y / length, h.z / length};
-        f(h, sine * h.x + cosine * h.z);
-      }
-    }
+    facets.each_normal(sine, cosine, alpha, alpha, [&](Vec h) {
+      const double length = std::sqrt(h.x * h.x + h.y * h.y + h.z * h.z);
+      h = {h.x / length, h.y / length, h.z / length};
+      f(h, sine * h.x + cosine * h.z);
+    });
   }
 
   /// G2 / G1 for light leaving with this cosine to the surface normal.
   double shadowing(double out) const {
-    const double out_root = std::sqrt(alpha * alpha * (1.0 - out * out) + out * out);
+    const double out_root =
+        facets.root({std::sqrt(std::max(1.0 - out * out, 0.0)), 0.0, out}, alpha, alpha);
     return out * (cosine + root) / (out * root + cosine * out_root);
   }
 };
 
 /// What perfect facets of roughness a along the view and b across it send back.
-double stretched_albedo(double cosine, double a, double b) {
+double stretched_albedo(const Facets& facets, double cosine, double a, double b) {
   const double z_o = std::clamp(cosine, 1e-9, 1.0);
   const double sine = std::sqrt((1.0 - z_o) * (1.0 + z_o));
-  const double root = std::hypot(a * sine, z_o);
-  const double x = a * sine / root;
-  const double z = z_o / root;
+  const double root = facets.root({sine, 0.0, z_o}, a, b);
   double total = 0.0;
-  for (int i = 0; i < steps; ++i) {
-    const double cap = (1.0 - (i + 0.5) / steps) * (1.0 + z) - z;
-    const double ring = std::sqrt(std::max(0.0, 1.0 - cap * cap));
-    for (int j = 0; j < steps; ++j) {
-      const double phi = std::numbers::pi * (j + 0.5) / steps;
-      const Vec h{a * (x + ring * std::cos(phi)), b * ring * std::sin(phi), z + cap};
-      const double twice = 2.0 * (sine * h.x + z_o * h.z) / (h.x * h.x + h.y * h.y + h.z * h.z);
-      const Vec out{twice * h.x - sine, twice * h.y, twice * h.z - z_o};
-      if (out.z <= 0.0) continue;
-      const double out_root = std::hypot(a * out.x, b * out.y, out.z);
-      total += out.z * (z_o + root) / (out.z * root + z_o * out_root);
-    }
-  }
+  facets.each_normal(sine, z_o, a, b, [&](Vec h) {
+    const double twice = 2.0 * (sine * h.x + z_o * h.z) / (h.x * h.x + h.y * h.y + h.z * h.z);
+    const Vec out{twice * h.x - sine, twice * h.y, twice * h.z - z_o};
+    if (out.z <= 0.0) return;
+    const double out_root = facets.root(out, a, b);
+    total += out.z * (z_o + root) / (out.z * root + z_o * out_root);
+  });
   return total / (steps * steps);
 }
 
 /// How much more than a surface of the wider roughness alone. `cosine`: that of a view along the
 /// wider axis; one across it is as much masked.
-std::vector<double> stretched(double cosine, double alpha, double ratio) {
+std::vector<double> stretched(const Facets& facets, double cosine, double alpha, double ratio) {
   const double c = std::clamp(cosine, 1e-6, 1.0);
   const double tangent = std::sqrt((1.0 - c) * (1.0 + c)) / c;
   const double narrow = ratio == 1.0 ? alpha : std::max(alpha * ratio, 1e-9);
   const double steeper = tangent * alpha / narrow;
-  const double equal = stretched_albedo(c, alpha, alpha);
-  return {stretched_albedo(c, alpha, narrow) - equal,
-          stretched_albedo(1.0 / std::sqrt(1.0 + steeper * steeper), narrow, alpha) - equal};
+  const double equal = stretched_albedo(facets, c, alpha, alpha);
+  return {
+      stretched_albedo(facets, c, alpha, narrow) - equal,
+      stretched_albedo(facets, 1.0 / std::sqrt(1.0 + steeper * steeper), narrow, alpha) - equal};
 }
 
 /// Unpolarised; Born and Wolf, "Principles of Optics", 1.5.2.
@@ -109,8 +175,8 @@ double fresnel(double cosine, double eta) {
 /// little more, for the steeper curves of low indices.
 constexpr double moment_exponent = 5.5;
 
-std::vector<double> reflection(double cosine, double alpha, double) {
-  const Scene scene(cosine, alpha);
+std::vector<double> reflection(const Facets& facets, double cosine, double alpha, double) {
+  const Scene scene(facets, cosine, alpha);
   std::vector<std::pair<double, double>> parts;  // Facet cosine, light.
   double total = 0.0;
   scene.each_normal([&](Vec h, double c) {
@@ -138,8 +204,8 @@ struct Interface {
   double perfect = 0.0, reflected = 0.0, passing = 0.0, transmitted = 0.0;
 };
 
-Interface interface(double cosine, double alpha, double eta) {
-  const Scene scene(cosine, alpha);
+Interface interface(const Facets& facets, double cosine, double alpha, double eta) {
+  const Scene scene(facets, cosine, alpha);
   Interface sum;
   scene.each_normal([&](Vec h, double c) {
     const double part = 1.0 / (steps * steps);
@@ -158,27 +224,16 @@ Interface interface(double cosine, double alpha, double eta) {
   return sum;
 }
 
-std::vector<double> entering(double cosine, double alpha, double eta) {
-  const Interface sum = interface(cosine, alpha, eta);
+std::vector<double> entering(const Facets& facets, double cosine, double alpha, double eta) {
+  const Interface sum = interface(facets, cosine, alpha, eta);
   return {sum.passing, sum.reflected + sum.transmitted};
 }
 
-std::vector<double> leaving(double cosine, double alpha, double eta) {
-  const Interface sum = interface(cosine, alpha, 1.0 / eta);
+std::vector<double> leaving(const Facets& facets, double cosine, double alpha, double eta) {
+  const Interface sum = interface(facets, cosine, alpha, 1.0 / eta);
   const double mirror = nacre::table_axes::mirror_share(alpha) * fresnel(cosine, 1.0 / eta);
   return {sum.reflected / sum.perfect - mirror, sum.passing,
           (sum.reflected + sum.transmitted) / sum.perfect};
-}
-
-/// x in [0, 1] with f(x) = y, for an f that grows.
-double invert(double y, const std::function<double(double)>& f) {
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (f(middle) < y ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
 }
 
 double angle_below_one(double cosine, double alpha, double eta) {
@@ -196,19 +251,21 @@ double entering_angle(double cosine, double alpha, double) {
   return nacre::table_axes::entering_angle(cosine, alpha);
 }
 
-using Integral = std::vector<double> (*)(double, double, double);
+using Integral = std::vector<double> (*)(const Facets&, double, double, double);
 using Axis = double (*)(double, double, double);
 
 /// On the third axis the ratio of the narrower to the wider roughness.
-void write_stretched(const char* name, int angles, int roughnesses, int ratios) {
+void write_stretched(const Facets& facets, const char* name, int angles, int roughnesses,
+                     int ratios) {
   std::printf("constexpr float %s[] = {\n", name);
   for (int k = 0; k < ratios; ++k) {
     for (int j = 0; j < roughnesses; ++j) {
       const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-6);
       for (int i = 0; i < angles; ++i) {
-        const double cosine =
-            invert(double(i) / (angles - 1), [&](double c) { return angle(c, alpha, 1.0); });
-        for (const double value : stretched(cosine, alpha, std::pow(double(k) / (ratios - 1), 2))) {
+        const double cosine = invert(double(i) / (angles - 1), 0.0, 1.0,
+                                     [&](double c) { return angle(c, alpha, 1.0); });
+        for (const double value :
+             stretched(facets, cosine, alpha, std::pow(double(k) / (ratios - 1), 2))) {
           std::printf("%#.5gf,", value);
         }
       }
@@ -218,7 +275,8 @@ void write_stretched(const char* name, int angles, int roughnesses, int ratios) 
   std::printf("};\n");
 }
 
-void write(const char* name, int angles, int roughnesses, int indices, Axis axis, Integral f) {
+void write(const Facets& facets, const char* name, int angles, int roughnesses, int indices,
+           Axis axis, Integral f) {
   std::printf("constexpr float %s[] = {\n", name);
   for (int k = 0; k < indices; ++k) {
     const double offset = indices == 1 ? 0.0 : std::pow(0.8 * k / (indices - 1), 2);
@@ -226,9 +284,9 @@ void write(const char* name, int angles, int roughnesses, int indices, Axis axis
     for (int j = 0; j < roughnesses; ++j) {
       const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-8);
       for (int i = 0; i < angles; ++i) {
-        const double cosine =
-            invert(double(i) / (angles - 1), [&](double c) { return axis(c, alpha, eta); });
-        for (const double value : f(cosine, alpha, eta)) std::printf("%#.5gf,", value);
+        const double cosine = invert(double(i) / (angles - 1), 0.0, 1.0,
+                                     [&](double c) { return axis(c, alpha, eta); });
+        for (const double value : f(facets, cosine, alpha, eta)) std::printf("%#.5gf,", value);
       }
       std::printf("\n");
     }
@@ -238,10 +296,18 @@ void write(const char* name, int angles, int roughnesses, int indices, Axis axis
 
 }  // namespace
 
-int main() {
+int main(int count, char** arguments) {
+  const std::string_view name = count == 2 ? arguments[1] : "";
+  const Ggx ggx;
+  const Beckmann beckmann;
+  if (name != "ggx" && name != "beckmann") {
+    std::fprintf(stderr, "usage: make_facet_tables ggx|beckmann\n");
+    return 1;
+  }
+  const Facets& facets = name == "ggx" ? static_cast<const Facets&>(ggx) : beckmann;
   std::printf("// Written by pbs/tables/make_tables.cpp.\n");
-  write("reflection_values", 24, 20, 1, angle, reflection);
-  write("entering_values", 32, 10, 8, entering_angle, entering);
-  write("leaving_values", 16, 16, 24, angle_below_one, leaving);
-  write_stretched("stretched_values", 24, 16, 10);
+  write(facets, "reflection_values", 24, 20, 1, angle, reflection);
+  write(facets, "entering_values", 32, 10, 8, entering_angle, entering);
+  write(facets, "leaving_values", 16, 16, 24, angle_below_one, leaving);
+  write_stretched(facets, "stretched_values", 24, 16, 10);
 }

@@ -86,6 +86,60 @@ TEST(Furnace, WhiteMetalReturnsAllLight) {
   }
 }
 
+TEST(Furnace, BeckmannsWhiteMetalReturnsAllLight) {
+  const float pairs[][2] = {{0.05f, 0.05f}, {0.2f, 0.2f}, {0.5f, 0.5f}, {1.0f, 1.0f},
+                            {0.5f, 0.1f},   {1.0f, 0.3f}, {0.1f, 1.0f}};
+  for (const auto& [ax, ay] : pairs) {
+    const Furnace furnace([&](Recorder& r) {
+      // One value for both axes is known to be isotropic.
+      const Float along = ax, across = ax == ay ? along : Float(ay);
+      return microfacet_bsdf(r, "conductor_bsdf",
+                             {{"ior", colour(0.0f)},
+                              {"extinction", colour(1.0f)},
+                              {"distribution", text("beckmann")},
+                              {"roughness", roughness(along, across)}});
+    });
+    for (const double azimuth : {0.0, 45.0, 90.0}) {
+      for (const double angle : {0.0, 45.0, 75.0, 85.0}) {
+        EXPECT_NEAR(furnace.light(angle, azimuth), 1.0, ax == ay ? 1e-2 : 2e-2)
+            << ax << " " << ay << " angle " << angle << " azimuth " << azimuth;
+      }
+      if (ax == ay) break;
+    }
+  }
+}
+
+TEST(Furnace, BeckmannsGlassReturnsAllLight) {
+  for (const float alpha : {0.1f, 0.5f, 1.0f}) {
+    for (const float index : {1.1f, 1.5f, 2.5f}) {
+      const Furnace joint([&](Recorder& r) {
+        return microfacet_bsdf(r, "dielectric_bsdf",
+                               {{"ior", number(index)},
+                                {"roughness", roughness(alpha, alpha)},
+                                {"distribution", text("beckmann")},
+                                {"scatter_mode", text("RT")}});
+      });
+      for (const double angle : {0.0, 60.0, 85.0, 180.0, 140.0, 120.0, 95.0}) {
+        EXPECT_NEAR(joint.light(angle), 1.0, 2e-2)
+            << alpha << " index " << index << " angle " << angle;
+      }
+    }
+  }
+}
+
+TEST(Furnace, BeckmannsAnisotropicGlassReturnsAllLight) {
+  const Furnace joint([&](Recorder& r) {
+    return microfacet_bsdf(r, "dielectric_bsdf",
+                           {{"ior", number(1.5f)},
+                            {"roughness", roughness(0.6f, 0.1f)},
+                            {"distribution", text("beckmann")},
+                            {"scatter_mode", text("RT")}});
+  });
+  for (const double angle : {0.0, 75.0, 120.0}) {
+    EXPECT_NEAR(joint.light(angle, 30.0, 1 << 14), 1.0, 2e-2) << angle;
+  }
+}
+
 TEST(Furnace, AnisotropicWhiteMetalReturnsAllLight) {
   const float pairs[][2] = {{0.5f, 0.1f},  {1.0f, 0.3f}, {0.2f, 0.05f},
                             {1.0f, 0.05f}, {0.1f, 1.0f}, {1.0f, 0.5f}};

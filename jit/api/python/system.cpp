@@ -60,6 +60,7 @@ void bind_system(nb::module_& module) {
       .def_rw("lobe_mask", &CompileOptions::lobe_mask)
       .def_rw("by_lobe", &CompileOptions::by_lobe)
       .def_rw("min_alpha", &CompileOptions::min_alpha)
+      .def_rw("energy_conserving", &CompileOptions::energy_conserving)
       .def_rw("entries", &CompileOptions::entries)
       .def_rw("with_begin", &CompileOptions::with_begin)
       .def_rw("side", &CompileOptions::side)

@@ -58,6 +58,13 @@ bool takes(const NodeDefInput& input, std::string_view text) {
   return false;
 }
 
+// Whether the input of a nodedef lists its own default among what it takes.
+bool lists(const Element& input, std::string_view text) {
+  if (input.category() != "input" || input.parent()->category() != "nodedef") return false;
+  const std::vector<std::string_view> listed = split_list(input.attribute("enum"));
+  return std::ranges::find(listed, text) != listed.end();
+}
+
 std::string default_text(const NodeDefInput& input) {
   return input.default_value.texts.empty() ? "" : input.default_value.texts[0];
 }
@@ -274,6 +281,7 @@ bool Literals::check_enum(const NodeDefInput& input, Resolved& result) {
   const std::string text = result.source.value.texts.empty() ? "" : result.source.value.texts[0];
   if (takes(input, text)) return true;
   const Element* carrier = result.carrier;
+  if (carrier != nullptr && lists(*carrier, text)) return true;
   if (carrier != nullptr && carrier->category() == "input" && is_node(*carrier->parent())) {
     const NodeDef* def = implementations_.nodedef_of(*carrier->parent());
     const NodeDefInput* declared = def == nullptr ? nullptr : def->input(carrier->name());

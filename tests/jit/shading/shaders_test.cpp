@@ -187,6 +187,7 @@ TEST_P(Shaders, PointLightsFallOff) {
   const Numbers seen = evaluate(light, origin);
   expect_vector(seen, "intensity", 2, 1, 0);
   expect_vector(seen, "direction", 0, 0.6f, 0.8f);
+  EXPECT_FLOAT_EQ(seen.at("distance"), 5);
   const Numbers inside = evaluate(light, {{"P.x", 0}, {"P.y", 3}, {"P.z", 4}});
   expect_vector(inside, "intensity", 72, 36, 0);
   expect_vector(inside, "direction", 0, 0, 0);
@@ -256,15 +257,15 @@ TEST_P(Shaders, LightMaterialsAreTheirLight) {
   EXPECT_FALSE(lit->has_surface || lit->sample || lit->volume);
   ASSERT_TRUE(lit->light);
   const float zero = 0;
-  std::array<float, 6> found{};
+  std::array<float, 7> found{};
   std::vector<const void*> in(lit->light->program().inputs.size(), &zero);
   std::vector<void*> out;
   for (float& one : found) out.push_back(&one);
   ASSERT_EQ(out.size(), lit->light->program().outputs.size());
   EXPECT_EQ(lit->light->run(in, out, 1), RunStatus::done);
   // 72 / (5 + 1)^2 of the colour, from (0, 3, 4) / 5.
-  const std::array<float, 6> expected{2, 1, 0, 0, 0.6f, 0.8f};
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found[i], expected[i], 1e-6f) << i;
+  const std::array<float, 7> expected{2, 1, 0, 0, 0.6f, 0.8f, 5};
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(found[i], expected[i], 1e-6f) << i;
   const auto dark = kernels_of(R"(<directional_light name="n" type="lightshader">
       <input name="color" type="color3" value="0, 0, 0"/></directional_light>)");
   ASSERT_NE(dark, nullptr);

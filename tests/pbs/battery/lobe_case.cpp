@@ -8,6 +8,7 @@ namespace {
 
 Recorded flag(bool x) { return {Type::boolean, Bool(x)}; }
 Recorded color(Color3 x) { return {Type::color3, x}; }
+Recorded beckmann() { return text("beckmann"); }
 
 Ports diffuse(const LobeInputs& in) {
   return {{"color", color(in.color)}, {"roughness", number(in.roughness)}};
@@ -145,6 +146,23 @@ const std::vector<LobeCase>& lobe_cases() {
       {.name = "schlick_interface",
        .category = "generalized_schlick_bsdf",
        .ports = [](In in) { return schlick(in, "RT"); },
+       .energy = Energy::preserving,
+       .albedo_error = 1e-2,
+       .reciprocity = 0.0},
+      {.name = "beckmann_metal",
+       .category = "conductor_bsdf",
+       .ports = [](In in) { return with(metal(in, 0.2f, 3.0f, 1.0f), "distribution", beckmann()); },
+       .albedo_error = 1e-2,
+       .reciprocity = 0.0},
+      {.name = "beckmann_transmission",
+       .category = "dielectric_bsdf",
+       .ports = [](In in) { return with(glass(in, "T"), "distribution", beckmann()); },
+       .energy = Energy::preserving,
+       .albedo_error = 1e-2,
+       .reciprocity = 0.0},
+      {.name = "beckmann_interface",
+       .category = "dielectric_bsdf",
+       .ports = [](In in) { return with(glass(in, "RT"), "distribution", beckmann()); },
        .energy = Energy::preserving,
        .albedo_error = 1e-2,
        .reciprocity = 0.0},

@@ -118,9 +118,11 @@ typedef enum nacre_entry {
   NACRE_DISPLACEMENT = 8,
   NACRE_VOLUME = 9,
   NACRE_LIGHT = 10,
-  NACRE_SHADE = 11, /* Point, wi and u at once, without a state: f and pdf of wi; as "next.wi",
-                       "next.weight", "next.pdf" the direction that u leads to. */
-  NACRE_ENTRY_COUNT = 12
+  NACRE_SHADE = 11,    /* Point, wi and u at once, without a state: f and pdf of wi; as "next.wi",
+                          "next.weight", "next.pdf" the direction that u leads to. */
+  NACRE_INTERIOR = 12, /* What light that enters is in: eta over the outside; where there is a
+                          medium its absorption and scattering per unit of length, anisotropy. */
+  NACRE_ENTRY_COUNT = 13
 } nacre_entry;
 
 /* Bits of the channel `flags` of NACRE_SAMPLE. */
@@ -171,8 +173,8 @@ typedef struct nacre_compile_options {
   int min_alpha;   /* 1: a slot min_alpha raises the roughness of what is smoother, so that paths
                       behind rough bounces find no sharp lobes. */
   /* Bits 1 << nacre_entry of those that are compiled, for rays that ask no more: a shadow ray needs
-     NACRE_OPACITY. NACRE_BEGIN comes with what reads its state. 0: all but NACRE_EVALUATE_AT and
-     NACRE_SHADE. */
+     NACRE_OPACITY. NACRE_BEGIN comes with what reads its state. 0: all but NACRE_EVALUATE_AT,
+     NACRE_SHADE and NACRE_INTERIOR. */
   uint32_t entries;
   /* What NACRE_BEGIN and NACRE_SHADE also store, so that nothing of a point is computed twice:
      "albedo", "emission", "opacity" (and transmission), "normal", "roughness", or a value of the
@@ -214,8 +216,10 @@ typedef struct nacre_compile_options {
   const nacre_stop* stop;    /* NULL: never. */
   int prefer; /* Where a nodedef has several implementations: NACRE_BODY, NACRE_GRAPH, NACRE_TEXT.
                */
-  int single_points; /* 1: code for one point is made too, and taken by batches of one: the same
-                        bits, at a fraction of the cost of a pass of many lanes. */
+  int single_points;     /* 1: code for one point is made too, and taken by batches of one: the same
+                            bits, at a fraction of the cost of a pass of many lanes. */
+  int energy_conserving; /* 1: what the lobes give together is divided, in each channel, by what of
+                            it exceeds the light that arrives: some models send back more. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;

@@ -122,6 +122,7 @@ struct CompileOptions {
   std::uint64_t max_steps = 0;
   const StopSource* stop = nullptr;
   bool single_points = false;
+  bool energy_conserving = false;
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -318,6 +319,7 @@ class System {
     asked.max_steps = options.max_steps;
     asked.stop = options.stop != nullptr ? options.stop->get() : nullptr;
     asked.single_points = options.single_points;
+    asked.energy_conserving = options.energy_conserving;
     call(asked);
   }
 

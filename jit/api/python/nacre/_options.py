@@ -42,8 +42,9 @@ class CompileOptions(TypedDict, total=False):
     lobe_mask: bool  # A parameter lobe_mask switches lobes off later.
     by_lobe: bool  # Also the part of each lobe: "f.lobe0", "weight.lobe0", ...
     min_alpha: bool  # A parameter min_alpha raises the roughness of what is smoother.
-    # Entries that are compiled; BEGIN comes with what reads its state. None: all but EVALUATE_AT
-    # and SHADE.
+    energy_conserving: bool  # Lobes together give no more light than arrives, whatever the model.
+    # Entries that are compiled; BEGIN comes with what reads its state. None: all but EVALUATE_AT,
+    # SHADE and INTERIOR.
     entries: Iterable[_core.Entry]
     # What BEGIN and SHADE also store: "albedo", "emission", "opacity", "normal", "roughness", or
     # a value of the graph by its path: "NG_marble/noise1", "SR_marble/base_color".

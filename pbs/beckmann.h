@@ -1,0 +1,25 @@
+#pragma once
+
+#include "runtime/value/vector.h"
+
+namespace nacre {
+
+/// Beckmann's microfacets, whose slopes are normally distributed, as pbs/microfacet.h has those of
+/// GGX: the same frame, directions and roughness. Walter et al., "Microfacet Models for Refraction
+/// through Rough Surfaces", EGSR 2007, eq. 25; Heitz, "Understanding the Masking-Shadowing Function
+/// in Microfacet-Based BRDFs", JCGT 3(2), 2014, eq. 66. Masking is erf's, to 2e-7, and not Walter's
+/// rational fit.
+
+/// Normals per area and solid angle; h of any length, above the surface or below.
+Float beckmann_distribution(Float3 h, Float2 alpha);
+
+/// z (1 + 2 Lambda), as ggx_root: everything that is made of that holds for it.
+Float beckmann_root(Float3 w, Float2 alpha);
+
+/// A facet normal of density D G1 (wo.h) / wo.z, seen from wo above the surface. Heitz and d'Eon,
+/// "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals", EGSR
+/// 2014; the slope along the view by Newton's method, as in Jakob, "An Improved Visible Normal
+/// Sampling Routine for the Beckmann Distribution", 2014.
+Float3 sample_visible_beckmann(Recorder& recorder, Float3 wo, Float2 alpha, Float u, Float v);
+
+}  // namespace nacre
