@@ -36,6 +36,16 @@ echo "== motion"
 "$nacre" render "$here/motion/motion.mtlx" --scene "$out/motion.gltf" --time 0.2 --shutter -0.1 0.1 \
   --spp "$spp" --size "$size" --out "$out/rendered/motion.png"
 
+echo "== lights"
+"$nacre" render "$here/lights/room.mtlx" --scene "$here/lights/room.obj" --spp "$spp" --size "$size" \
+  --out "$out/rendered/lights.png"
+
+# Thirty thousand of them.
+echo "== hair"
+"$python" "$here/fibres/ball.py" "$out/ball.hair"
+"$nacre" render "$here/fibres/hair.mtlx" --scene "$out/ball.hair" --ground --spp "$spp" --size "$size" \
+  --max-depth 24 --out "$out/rendered/hair.png"
+
 "$python" "$here/contact_sheet.py" "$out/rendered.png" "$out"/rendered/*.png
 for picture in "$out"/baked/*/*.png; do
   cp "$picture" "$out/baked/$(basename "$(dirname "$picture")").$(basename "$picture" .png | sed 's/^[^.]*\.//').png"

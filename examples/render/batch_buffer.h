@@ -69,11 +69,13 @@ class BatchBuffer {
   std::uint32_t* geometry_id;
   std::uint32_t* primitive_id;
   void* state;
-  Lanes3 u;    ///< Random numbers for sample().
-  Lanes3 wi;   ///< Directions for evaluate().
-  Lanes3 rgb;  ///< emission() or opacity().
+  Lanes3 through;  ///< From P to the other side of the fibre; 0 on surfaces.
+  Lanes3 u;        ///< Random numbers for sample().
+  Lanes3 wi;       ///< Directions for evaluate().
+  Lanes3 rgb;      ///< emission() or opacity().
   SampleLanes sample;
   EvaluateLanes value;
+  InteriorLanes interior;
 
  private:
   std::uint32_t capacity_;

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <span>
@@ -66,6 +67,44 @@ bool add_triangles(RTCDevice device, RTCScene scene, const Mesh& mesh) {
   return ok;
 }
 
+/// Cones between spheres; where pieces follow each other Embree joins them.
+bool add_fibres(RTCDevice device, RTCScene scene, const Mesh& mesh) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  const std::size_t count = mesh.triangles.size();
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT4, 4 * sizeof(float),
+                                                               mesh.position.size()));
+  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(std::uint32_t), count));
+  auto* flags = static_cast<std::uint8_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_FLAGS, 0, RTC_FORMAT_UCHAR, sizeof(std::uint8_t), count));
+  const bool ok = vertices != nullptr && indices != nullptr && flags != nullptr;
+  if (ok) {
+    for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+      const Vec3 p = mesh.position[i];
+      const float vertex[4] = {p.x, p.y, p.z, mesh.radius[i]};
+      std::memcpy(vertices + 4 * i, vertex, sizeof vertex);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t first = mesh.triangles[i].v[0];
+      const bool before = i > 0 && mesh.triangles[i - 1].v[1] == first;
+      const bool behind = i + 1 < count && mesh.triangles[i + 1].v[0] == first + 1;
+      indices[i] = first;
+      flags[i] = static_cast<std::uint8_t>((before ? RTC_CURVE_FLAG_NEIGHBOR_LEFT : 0) |
+                                           (behind ? RTC_CURVE_FLAG_NEIGHBOR_RIGHT : 0));
+    }
+    rtcSetGeometryMask(geometry, mesh.visible_to);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+  }
+  rtcReleaseGeometry(geometry);
+  return ok;
+}
+
+bool add_pieces(RTCDevice device, RTCScene scene, const Mesh& mesh) {
+  return mesh.is_fibres() ? add_fibres(device, scene, mesh) : add_triangles(device, scene, mesh);
+}
+
 void add_instance(RTCDevice device, RTCScene scene, RTCScene shown, unsigned mask,
                   const Motion::Segment& segment) {
   static_assert(sizeof(Affine) == 12 * sizeof(float));
@@ -114,18 +153,18 @@ struct Bvh::Embree {
 
   bool add(const Mesh& mesh, std::uint32_t number);
   void show(const Mesh& mesh, std::uint32_t number, RTCScene own);
-  Hit hit(const RTCRayHit& of) const;
+  Hit hit(const Scene& of_scene, const RTCRayHit& of) const;
 };
 
 bool Bvh::Embree::add(const Mesh& mesh, std::uint32_t number) {
   if (mesh.instances.empty()) {
     shown.push_back({number, 0});
-    return add_triangles(device, scene, mesh);
+    return add_pieces(device, scene, mesh);
   }
   RTCScene own = rtcNewScene(device);
   instanced.push_back(own);
   rtcSetSceneFlags(own, RTC_SCENE_FLAG_ROBUST);
-  if (!add_triangles(device, own, mesh)) return false;
+  if (!add_pieces(device, own, mesh)) return false;
   rtcCommitScene(own);
   show(mesh, number, own);
   return true;
@@ -144,15 +183,19 @@ void Bvh::Embree::show(const Mesh& mesh, std::uint32_t number, RTCScene own) {
   }
 }
 
-Hit Bvh::Embree::hit(const RTCRayHit& of) const {
+Hit Bvh::Embree::hit(const Scene& of_scene, const RTCRayHit& of) const {
   const RTCHit& h = of.hit;
   if (h.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const bool is_instance = h.instID[0] != RTC_INVALID_GEOMETRY_ID;
   const Shown& what = shown[is_instance ? h.instID[0] : h.geomID];
-  return {what.mesh, h.primID, h.u, h.v, of.ray.tfar, what.instance};
+  const Mesh& mesh = of_scene.meshes[what.mesh];
+  if (!mesh.is_fibres()) return {what.mesh, h.primID, h.u, h.v, of.ray.tfar, what.instance, {}};
+  const FibreSide side = fibre_side(mesh, mesh.triangles[h.primID], {h.Ng_x, h.Ng_y, h.Ng_z});
+  return {what.mesh, h.primID, std::clamp(h.u, 0.f, 1.f), 0.f, of.ray.tfar, what.instance, side};
 }
 
-Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_unique<Embree>()) {
+Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics)
+    : scene_(scene), embree_(std::make_unique<Embree>()) {
   embree_->device = rtcNewDevice(nullptr);
   if (embree_->device != nullptr) {
     embree_->scene = rtcNewScene(embree_->device);
@@ -205,7 +248,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coheren
     }
     rtcIntersect1M(embree_->scene, &context, stream, static_cast<unsigned>(count),
                    sizeof(RTCRayHit));
-    for (std::size_t i = 0; i < count; ++i) hits[first + i] = embree_->hit(stream[i]);
+    for (std::size_t i = 0; i < count; ++i) hits[first + i] = embree_->hit(scene_, stream[i]);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 
+#include "examples/render/fibre.h"
 #include "examples/render/scene.h"
 #include "runtime/diagnostic.h"
 
@@ -24,6 +25,7 @@ struct Hit {
   float u = 0.f, v = 0.f;  ///< P = (1-u-v) p0 + u p1 + v p2.
   float distance = 0.f;
   std::uint32_t instance = 0;  ///< Of the mesh; 0 of one that is baked.
+  FibreSide side = {};         ///< Of a fibre; u is along it then, and v 0.
 
   bool missed() const { return mesh == none; }
 };
@@ -32,12 +34,12 @@ struct Hit {
 /// an end that is a number: others make Embree's traversal run off its tree.
 bool is_traceable(const Ray& ray);
 
-/// Embree's ray tracing over the triangles of a scene, robust (watertight) mode. A ray
+/// Embree's ray tracing over the triangles and fibres of a scene, robust (watertight) mode. A ray
 /// that is not traceable meets nothing. Instances are Embree's, with the steps of their motion,
 /// and one for each segment of it.
 class Bvh {
  public:
-  /// Copies what it needs. `ok` is false, with an error, when memory ran out.
+  /// `scene` stays where it is, as it is. `ok` is false, with an error, when memory ran out.
   Bvh(const Scene& scene, Diagnostics& diagnostics);
   ~Bvh();
   Bvh(const Bvh&) = delete;
@@ -53,6 +55,7 @@ class Bvh {
 
  private:
   struct Embree;
+  const Scene& scene_;
   std::unique_ptr<Embree> embree_;
 };
 

@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "examples/render/camera.h"
+#include "examples/render/fibre.h"
 #include "examples/render/gltf_animation.h"
 #include "examples/render/gltf_file.h"
 #include "examples/render/gltf_instancing.h"
+#include "examples/render/gltf_light.h"
 #include "examples/render/gltf_primitive.h"
 #include "examples/render/load_scene.h"
 #include "examples/render/scene_file.h"
@@ -108,6 +110,9 @@ class GltfReader {
     if (const auto camera = node["camera"].index_of(root_["cameras"])) {
       add_camera(node, root_["cameras"][*camera], *world);
     }
+    const GltfValue lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
+    const GltfValue shines = node["extensions"]["KHR_lights_punctual"]["light"];
+    if (const auto light = shines.index_of(lights)) add_light(node, lights[*light], *world);
     push(node["children"], world, path, visit.depth + 1, ahead);
   }
 
@@ -157,13 +162,23 @@ class GltfReader {
       // glTF 2.0, 3.7.2.1: without normals faces are flat, and tangents do not count.
       if (mesh.normal.empty()) mesh.tangent.clear();
       const SourceLocation where{root_.report().file, 0, 0, primitives[i].path()};
-      if (finish_mesh(mesh, where, root_.report().diagnostics, MissingNormals::flat) &&
-          (is_baked || instancing_.place(mesh, *places, primitives[i]))) {
+      Diagnostics& diagnostics = root_.report().diagnostics;
+      const bool is_whole = mesh.is_fibres()
+                                ? finish_fibres(mesh, where, diagnostics)
+                                : finish_mesh(mesh, where, diagnostics, MissingNormals::flat);
+      if (is_whole && (is_baked || instancing_.place(mesh, *places, primitives[i]))) {
         scene_.meshes.push_back(std::move(mesh));
       } else {
         stopped_ = true;
       }
     }
+  }
+
+  void add_light(const GltfValue& node, const GltfValue& source, const Motion& world) {
+    if (!world.is_still()) {
+      dropped_.say("light-stands", node, "a light that moves stands where it is at first");
+    }
+    if (const auto light = read_light(source, world.still())) scene_.lights.push_back(*light);
   }
 
   /// The first perspective camera; glTF cameras look along -z with +y up.

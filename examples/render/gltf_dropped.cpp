@@ -80,14 +80,10 @@ void GltfDropped::look_at_primitive(const GltfValue& primitive) {
 void GltfDropped::look_at_extensions(const GltfValue& extensions) {
   for (const std::string& name : extensions.names()) {
     const GltfValue extension = extensions[name.c_str()];
-    if (name == "KHR_lights_punctual") {
-      say("scene-lights-not-rendered", extension,
-          "lights of the scene are not rendered; surfaces that emit and the environment are");
-    } else if (!is_harmless(name) && !is_of_materials(name)) {
-      if (!said_.insert(name).second) continue;
-      extension.report().warning("extension-not-rendered", extension.path(),
-                                 "an extension is not supported and left out", {}, name);
-    }
+    if (name == "KHR_lights_punctual" || is_harmless(name) || is_of_materials(name)) continue;
+    if (!said_.insert(name).second) continue;
+    extension.report().warning("extension-not-rendered", extension.path(),
+                               "an extension is not supported and left out", {}, name);
   }
 }
 

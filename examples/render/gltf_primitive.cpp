@@ -7,12 +7,21 @@
 #include <numeric>
 #include <utility>
 
+#include "examples/render/fibre.h"
+
 namespace nacre::host {
 
 namespace {
 
 /// glTF 2.0, 5.24.4.
-enum Mode : std::size_t { mode_triangles = 4, mode_strip = 5, mode_fan = 6 };
+enum Mode : std::size_t {
+  mode_lines = 1,
+  mode_loop = 2,
+  mode_line_strip = 3,
+  mode_triangles = 4,
+  mode_strip = 5,
+  mode_fan = 6
+};
 
 /// Strips and fans as triangles: glTF 2.0, 3.7.2.1.
 std::vector<Triangle> assemble(const std::vector<std::uint32_t>& i, std::size_t mode) {
@@ -50,14 +59,40 @@ int least_components(const std::string& semantic) {
   return semantic.starts_with("TEXCOORD_") ? 2 : 1;
 }
 
+template <class T>
+std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& order,
+                        std::size_t components = 1) {
+  std::vector<T> result;
+  if (values.empty()) return result;
+  result.reserve(order.size() * components);
+  for (const std::uint32_t v : order) {
+    for (std::size_t c = 0; c < components; ++c) result.push_back(values[v * components + c]);
+  }
+  return result;
+}
+
+void take_order(Mesh& mesh, const std::vector<std::uint32_t>& order) {
+  mesh.position = gathered(mesh.position, order);
+  mesh.uv = gathered(mesh.uv, order);
+  mesh.normal.clear();
+  mesh.tangent.clear();
+  for (Primvar& primvar : mesh.primvars) {
+    primvar.values = gathered(primvar.values, order, static_cast<std::size_t>(primvar.components));
+  }
+}
+
 }  // namespace
 
 bool GltfPrimitives::read(const GltfValue& primitive, Mesh& mesh) {
   const std::size_t errors = primitive.report().diagnostics.error_count();
   const auto ok = [&] { return primitive.report().diagnostics.error_count() == errors; };
   const std::size_t mode = primitive["mode"].count().value_or(mode_triangles);
-  if (mode < mode_triangles && ok()) {
-    primitive.report().warning("not-triangles", primitive.path(), "points and lines are left out");
+  const bool is_fibres = mode < mode_triangles && mode >= mode_lines &&
+                         static_cast<bool>(primitive["attributes"]["_RADIUS"]);
+  if (mode < mode_triangles && !is_fibres && ok()) {
+    primitive.report().warning("not-triangles", primitive.path(),
+                               "points, and lines without a radius, are left out",
+                               "triangles, or lines with an attribute _RADIUS");
     return false;
   }
   if (mode > mode_fan)
@@ -74,6 +109,7 @@ bool GltfPrimitives::read(const GltfValue& primitive, Mesh& mesh) {
   if (!position.need("the index of an accessor") || !open_attributes(attributes, list) || !ok()) {
     return false;
   }
+  if (is_fibres) return read_lines(primitive, mode, list, indices, mesh) && ok();
   const std::size_t vertices = list.front().accessor.count;
   if (!read_triangles(primitive, mode, vertices, indices, mesh)) return false;
   for (const Attribute& attribute : list) read_attribute(attribute, mesh);
@@ -131,6 +167,57 @@ bool GltfPrimitives::read_triangles(const GltfValue& primitive, std::size_t mode
     std::iota(numbers.begin(), numbers.end(), 0u);
   }
   mesh.triangles = assemble(numbers, mode);
+  return true;
+}
+
+/// Each line gets vertices of its own, in its order: pieces of fibres are between neighbours.
+bool GltfPrimitives::read_lines(const GltfValue& primitive, std::size_t mode,
+                                std::vector<Attribute>& list, std::optional<GltfAccessor> indices,
+                                Mesh& mesh) {
+  const std::size_t vertices = list.front().accessor.count;
+  std::size_t corners = indices ? indices->count : vertices;
+  if (corners < 2 || (mode == mode_lines && corners % 2 != 0)) {
+    primitive[indices ? "indices" : "attributes"].error(
+        "the vertices make no lines", mode == mode_lines ? "a multiple of 2" : "2 or more",
+        fmt::format("{}", corners));
+    return false;
+  }
+  if (mode == mode_loop) ++corners;
+  std::size_t other = mesh.path.size() + mesh.object_name.size() + mesh.mesh_name.size() +
+                      mesh.material_name.size();
+  for (const Attribute& attribute : list) {
+    other += attribute.semantic.size() + 16 * (vertices + corners);
+  }
+  if (!budget_.take({primitive.report().file, 0, 0, primitive.path()}, vertices + corners, corners,
+                    other)) {
+    return false;
+  }
+  std::vector<std::uint32_t> order;
+  if (indices) {
+    order = GltfAccessors::integers(*indices);
+  } else {
+    order.resize(vertices);
+    std::iota(order.begin(), order.end(), 0u);
+  }
+  if (mode == mode_loop) order.push_back(order.front());
+  const auto outside = std::ranges::find_if(order, [&](std::uint32_t v) { return v >= vertices; });
+  if (outside != order.end()) {
+    primitive["indices"].error("an index is out of range", fmt::format("less than {}", vertices),
+                               fmt::format("{}", *outside));
+    return false;
+  }
+  for (const Attribute& attribute : list) read_attribute(attribute, mesh);
+  const std::uint32_t length = mode == mode_lines ? 2u : static_cast<std::uint32_t>(order.size());
+  mesh.triangles = fibre_pieces(std::vector<std::uint32_t>(order.size() / length, length));
+  take_order(mesh, order);
+  const auto radius = std::ranges::find(mesh.primvars, "RADIUS", &Primvar::name);
+  if (radius->components != 1) {
+    primitive["attributes"]["_RADIUS"].error("a radius is one number", "a scalar accessor",
+                                             fmt::format("{} components", radius->components));
+    return false;
+  }
+  mesh.radius = std::move(radius->values);
+  mesh.primvars.erase(radius);
   return true;
 }
 

@@ -7,7 +7,8 @@
 
 namespace nacre::host {
 
-/// Reads the triangles of mesh primitives (glTF 2.0, 3.7.2.1).
+/// Reads the triangles of mesh primitives (glTF 2.0, 3.7.2.1), and lines that have a radius at each
+/// vertex as fibres: attribute _RADIUS, a float, in the mesh's own space.
 class GltfPrimitives {
  public:
   GltfPrimitives(const GltfValue& root, GltfAccessors& accessors, SceneBudget& budget,
@@ -28,6 +29,8 @@ class GltfPrimitives {
   bool open_attributes(const GltfValue& attributes, std::vector<Attribute>& list);
   bool read_triangles(const GltfValue& primitive, std::size_t mode, std::size_t vertices,
                       std::optional<GltfAccessor> indices, Mesh& mesh);
+  bool read_lines(const GltfValue& primitive, std::size_t mode, std::vector<Attribute>& list,
+                  std::optional<GltfAccessor> indices, Mesh& mesh);
   void read_attribute(const Attribute& attribute, Mesh& mesh);
 
   GltfValue root_;

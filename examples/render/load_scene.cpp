@@ -14,8 +14,9 @@ Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics
   if (extension == ".glb" || extension == ".gltf")
     return load_gltf(path, limits, diagnostics, shutter);
   if (extension == ".obj") return load_obj(path, limits, diagnostics);
+  if (extension == ".hair") return load_hair(path, limits, diagnostics);
   diagnostics.error("unknown-scene-format", {path, 0, 0, {}}, "cannot tell the format of the scene",
-                    "a name ending in .glb, .gltf or .obj", "\"" + extension + "\"");
+                    "a name ending in .glb, .gltf, .hair or .obj", "\"" + extension + "\"");
   return {};
 }
 

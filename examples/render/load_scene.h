@@ -8,18 +8,19 @@
 
 namespace nacre::host {
 
-/// Reads .glb, .gltf or .obj, told by the extension. Errors leave the scene
-/// without meshes; warnings do not. Every mesh has gone through finish_mesh(). What the
+/// Reads .glb, .gltf, .hair or .obj, told by the extension. Errors leave the scene
+/// without meshes; warnings do not. Every mesh has gone through finish_mesh() or
+/// finish_fibres(). What the
 /// file has and the host does not render is a warning. What is animated stands as it does while
 /// `shutter` is open; what moves meanwhile has `instances`.
 Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
                  const Shutter& shutter = {});
 
 /// glTF 2.0: the nodes of the default scene (or of the first), triangles,
-/// strips and fans, any component type; no sparse accessors, skins, morphs, lights or
-/// materials but for their names. glTF puts uv (0,0) at the upper left, so v becomes 1 - v.
-/// Without normals faces are flat. Buffers are only read from the folder of the file and
-/// below. Of its animations the first moves nodes.
+/// strips and fans, lines with an attribute _RADIUS, any component type; no sparse accessors,
+/// skins, morphs or materials but for their names. glTF puts uv (0,0) at the upper left, so
+/// v becomes 1 - v. Without normals faces are flat. Buffers are only read from the folder of the
+/// file and below. Of its animations the first moves nodes.
 Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
                 const Shutter& shutter);
 
@@ -27,5 +28,9 @@ Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics&
 /// o, g, usemtl; what else would change the picture is a warning. One mesh per object,
 /// group and material.
 Scene load_obj(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics);
+
+/// Fibres of a HAIR file (Yuksel): segments, points, thickness and colours ("color0"); transparency
+/// is a warning. u goes from fibre to fibre, v along each.
+Scene load_hair(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics);
 
 }  // namespace nacre::host

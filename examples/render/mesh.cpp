@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 #include "examples/render/scene_limits.h"
@@ -200,7 +202,9 @@ void bake_transform(Mesh& mesh, const Affine& object_to_world) {
   mesh.position_object = mesh.position;
   for (Vec3& p : mesh.position) p = transform_point(object_to_world, p);
   for (Vec3& n : mesh.normal) n = normalize_or(transform_normal(world_to_object, n), {});
-  const bool mirrors = determinant(object_to_world) < 0.f;
+  const float volume = determinant(object_to_world);
+  for (float& r : mesh.radius) r *= std::cbrt(std::abs(volume));
+  const bool mirrors = volume < 0.f;
   for (Tangent& t : mesh.tangent) {
     t.direction = normalize_or(transform_vector(object_to_world, t.direction), {});
     if (mirrors) t.sign = -t.sign;
@@ -227,10 +231,30 @@ bool surface_derivatives(const Mesh& mesh, const Triangle& triangle, Vec3& dPdu,
   return false;
 }
 
+bool is_closed(const Mesh& mesh) {
+  if (mesh.is_fibres()) return false;
+  using Point = std::array<float, 3>;
+  std::map<std::pair<Point, Point>, int> open;  // How often one way more than the other.
+  for (const Triangle& t : mesh.triangles) {
+    for (int c = 0; c < 3; ++c) {
+      const Vec3 p = mesh.position[t.v[c]], q = mesh.position[t.v[(c + 1) % 3]];
+      const Point a{p.x, p.y, p.z}, b{q.x, q.y, q.z};
+      if (a == b) continue;
+      const bool forth = a < b;
+      open[forth ? std::pair(a, b) : std::pair(b, a)] += forth ? 1 : -1;
+    }
+  }
+  return std::ranges::all_of(open, [](const auto& edge) { return edge.second == 0; });
+}
+
 Bounds vertex_bounds(const Mesh& mesh) {
   Bounds box;
   for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t.v) box.add(mesh.position[v]);
+    for (const std::uint32_t v : t.v) {
+      const float r = mesh.is_fibres() ? mesh.radius[v] : 0.f;
+      box.add(mesh.position[v] + Vec3{r, r, r});
+      box.add(mesh.position[v] - Vec3{r, r, r});
+    }
   }
   return box;
 }

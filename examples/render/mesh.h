@@ -30,12 +30,17 @@ bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnosti
                  MissingNormals missing = MissingNormals::smooth);
 
 /// Moves a mesh whose vertices are mesh-local to world space: keeps the local
-/// positions and records the map. The winding turns when the map mirrors.
+/// positions and records the map. The winding turns when the map mirrors. Fibres stay round: their
+/// radius grows as the cube root of volume.
 void bake_transform(Mesh& mesh, const Affine& object_to_world);
 
 /// The derivatives of position by uv over a triangle. False, and zeros, when
 /// its uv map has no area.
 bool surface_derivatives(const Mesh& mesh, const Triangle& triangle, Vec3& dPdu, Vec3& dPdv);
+
+/// Whether triangles bound a solid: each edge is that of two, by where its ends are, which run
+/// along it in opposite directions. What enters by one leaves by another.
+bool is_closed(const Mesh& mesh);
 
 /// Of the vertices that a triangle uses, in the space that they are in.
 Bounds vertex_bounds(const Mesh& mesh);

@@ -8,6 +8,7 @@
 
 #include "examples/render/environment.h"
 #include "examples/render/film.h"
+#include "examples/render/light_shader.h"
 #include "examples/render/sampler.h"
 #include "examples/render/scene.h"
 #include "examples/render/shader.h"
@@ -30,8 +31,9 @@ enum class PixelFilter {
 
 struct RenderSettings {
   int width = 512, height = 512;
-  int samples = 16;          ///< Per pixel.
-  int max_depth = 8;         ///< Scattering events on a path; 0: emission only.
+  int samples = 16;            ///< Per pixel.
+  int max_depth = 8;           ///< Scattering events on a path; 0: emission only.
+  int max_scatterings = 2048;  ///< Within media, on a path.
   int roulette_depth = 4;    ///< Scattering events before Russian roulette; above max_depth: never.
   int max_transparent = 64;  ///< Surfaces that one path or shadow ray passes through.
   int threads = 0;           ///< 0: as many as the machine has.
@@ -60,7 +62,8 @@ struct RenderInput {
   /// Those of the backs, where dot(Ng, wo) < 0: null where the front's is on both
   /// sides, and empty where that is so for every mesh.
   std::vector<const Shader*> back_shaders = {};
-  Motion camera_motion = {};  ///< As Scene has it.
+  Motion camera_motion = {};                    ///< As Scene has it.
+  std::vector<const LightShader*> lights = {};  ///< That no ray meets.
 };
 
 struct RenderControl {
@@ -78,6 +81,7 @@ struct RenderStatistics {
   std::uint64_t shadow_rays = 0;
   /// Kernel results that were not finite, and were dropped. Not 0: a bug in a shader.
   std::uint64_t invalid_results = 0;
+  std::uint64_t paths_cut = 0;  ///< That were scattered more often in media than max_scatterings.
   /// Seconds, summed over threads, within Shader calls and within Embree.
   double shading_seconds = 0, tracing_seconds = 0;
 };

@@ -30,7 +30,18 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
   if (environment != nullptr && !(environment->mean_luminance() > 0.f)) environment = nullptr;
   collect_materials(input);
   collect_lights();
-  environment_chance = environment == nullptr ? 0.f : (lights.empty() ? 1.f : 0.5f);
+  point_lights = input.lights;
+  choose_chances();
+}
+
+/// Alike for each kind that there is.
+void RenderContext::choose_chances() {
+  const int kinds =
+      (environment != nullptr ? 1 : 0) + (lights.empty() ? 0 : 1) + (point_lights.empty() ? 0 : 1);
+  const float each = kinds == 0 ? 0.f : 1.f / static_cast<float>(kinds);
+  environment_chance = environment != nullptr ? each : 0.f;
+  area_chance = lights.empty() ? 0.f : each;
+  point_chance = point_lights.empty() ? 0.f : each;
 }
 
 void RenderContext::collect_materials(const RenderInput& input) {
@@ -56,6 +67,7 @@ std::uint32_t RenderContext::add_material(const Shader& shader) {
   if (!fresh) return slot->second;
   Capabilities capabilities = shader.capabilities();
   any_opacity = any_opacity || capabilities.has_opacity;
+  any_interior = any_interior || capabilities.has_interior;
   state_bytes = std::max(state_bytes, shader.state_bytes(settings.batch_size));
   primvars = std::max(primvars, capabilities.primvars.size());
   materials.push_back({&shader, std::move(capabilities)});
@@ -73,6 +85,8 @@ void RenderContext::collect_lights() {
     if (!emits || scene.meshes[mesh].visible_to == 0) continue;
     // What moves is found by paths alone: how large its triangles are is a matter of the time.
     if (!scene.meshes[mesh].instances.empty()) continue;
+    // And of fibres: their pieces are no triangles.
+    if (scene.meshes[mesh].is_fibres()) continue;
     lights.add(scene, mesh, triangle_luminance(mesh, buffer));
   }
   lights.finish();

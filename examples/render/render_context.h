@@ -38,8 +38,10 @@ class RenderContext {
   std::vector<std::uint32_t> front_materials, back_materials;
   bool any_opacity = false;
   bool any_matte = false;
-  /// Chance that light sampling asks the environment rather than the area lights.
-  float environment_chance = 0.f;
+  bool any_interior = false;
+  std::vector<const LightShader*> point_lights;  ///< That no ray meets.
+  /// Chances that light sampling asks the environment, surfaces that emit, or what no ray meets.
+  float environment_chance = 0.f, area_chance = 0.f, point_chance = 0.f;
   std::size_t state_bytes = 0;  ///< Of the neediest shader at the batch size.
   std::size_t primvars = 0;     ///< Of the neediest shader.
 
@@ -54,6 +56,7 @@ class RenderContext {
   void collect_materials(const RenderInput& input);
   std::uint32_t add_material(const Shader& shader);
   void collect_lights();
+  void choose_chances();
   std::vector<float> triangle_luminance(std::uint32_t mesh, BatchBuffer& buffer) const;
   void brighten(std::vector<float>& luminance, std::uint32_t mesh, bool back,
                 BatchBuffer& buffer) const;

@@ -21,7 +21,9 @@ enum class Draw : std::uint32_t {
   lobe,
   direction,
   roulette,
-  time
+  time,
+  flight,
+  phase
 };
 
 struct Uniform2 {

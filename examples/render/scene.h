@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "examples/render/motion.h"
+#include "examples/render/punctual_light.h"
 #include "examples/render/vec.h"
 
 namespace nacre::host {
@@ -53,7 +54,10 @@ struct Mesh {
   /// False: light straight from lights and the environment does not scatter from it.
   bool illuminated = true;
 
-  std::vector<Triangle> triangles;    ///< Counter-clockwise seen from the front.
+  std::vector<Triangle> triangles;  ///< Counter-clockwise seen from the front.
+  /// Of fibres, at each vertex: half their thickness. Triangle i is then the piece from v[0] to
+  /// v[1], which is the next vertex; v[2] is v[1].
+  std::vector<float> radius;
   std::vector<Vec3> position;         ///< World, if there are no instances.
   std::vector<Vec3> position_object;  ///< Mesh-local; empty: as world.
   std::vector<Vec3> normal;           ///< World, unit; as position.
@@ -69,6 +73,8 @@ struct Mesh {
   /// material is not used. Emits from the front only unless `two_sided`.
   std::optional<Vec3> light_radiance;
   bool light_two_sided = false;
+
+  bool is_fibres() const { return !radius.empty(); }
 };
 
 /// Pin-hole camera, or thin lens when `lens_radius` > 0. Looks from `position`
@@ -85,6 +91,7 @@ struct Camera {
 
 struct Scene {
   std::vector<Mesh> meshes;
+  std::vector<PunctualLight> lights;
   std::optional<Camera> camera;  ///< Of the file; absent: see fit_camera().
   /// Takes the camera to where it is while the shutter is open.
   Motion camera_motion;

@@ -108,11 +108,18 @@ struct EvaluateLanes {
   float* pdf = nullptr;  ///< Forward; 0 where sample() cannot go.
 };
 
+/// What a surface encloses: see Medium.
+struct InteriorLanes {
+  Lanes3 absorption, scattering;
+  float* anisotropy = nullptr;
+};
+
 struct Capabilities {
-  bool emits = false;        ///< emission() may be non-zero.
-  bool has_opacity = false;  ///< opacity() may differ from 1.
-  bool scatters = true;      ///< False: emission only; begin, sample, evaluate are never called.
-  bool only_delta = false;   ///< evaluate() is always 0: no light sampling, no call.
+  bool emits = false;         ///< emission() may be non-zero.
+  bool has_opacity = false;   ///< opacity() may differ from 1.
+  bool has_interior = false;  ///< Light that enters is in a medium.
+  bool scatters = true;       ///< False: emission only; begin, sample, evaluate are never called.
+  bool only_delta = false;    ///< evaluate() is always 0: no light sampling, no call.
   std::uint32_t attributes = 0;  ///< Attribute bits read by any of the kernels.
   /// Entries read of `object_to_world`, bits 0 to 15, and of `world_to_object`, 16 to 31.
   std::uint32_t matrix_entries = 0;
@@ -153,6 +160,11 @@ class Shader {
   /// rgb in [0, 1]: what is not let through unbent. Scales scattering and
   /// emission. Needs no state. Called when `has_opacity`.
   virtual void opacity(const ShadingBatch& batch, Lanes3 rgb) const = 0;
+
+  /// What light is in behind the surface. Needs no state. Called when `has_interior`.
+  virtual void interior(const ShadingBatch& batch, InteriorLanes out) const {
+    (void)batch, (void)out;
+  }
 };
 
 }  // namespace nacre::host

@@ -17,12 +17,19 @@ T interpolate(const std::vector<T>& values, const Triangle& t, float u, float v)
 }
 
 Vec3 shading_normal(const Mesh& mesh, const Triangle& t, const SurfacePoint& p, Vec3 ng) {
+  if (mesh.is_fibres()) return ng;
   return normalize_or(interpolate(mesh.normal, t, p.u, p.v), ng);
 }
 
-Vec3 face_normal(const Mesh& mesh, const Triangle& t) {
+Vec3 own_normal(const Mesh& mesh, const Triangle& t, const SurfacePoint& p) {
+  if (mesh.is_fibres()) return fibre_point(mesh, t, p.u, p.side).normal;
   const Vec3 a = mesh.position[t.v[0]];
   return normalize(cross(mesh.position[t.v[1]] - a, mesh.position[t.v[2]] - a));
+}
+
+Vec3 own_position(const Mesh& mesh, const Triangle& t, const SurfacePoint& p) {
+  if (mesh.is_fibres()) return fibre_point(mesh, t, p.u, p.side).position();
+  return interpolate(mesh.position, t, p.u, p.v);
 }
 
 Vec3 normal_to_world(const Affine& to_object, Vec3 n, Vec3 otherwise) {
@@ -78,13 +85,13 @@ float component(const Primvar& primvar, std::size_t c, const std::uint32_t* v,
 
 Vec3 surface_position(const Scene& scene, const SurfacePoint& p) {
   const Mesh& mesh = scene.meshes[p.mesh];
-  const Vec3 own = interpolate(mesh.position, mesh.triangles[p.triangle], p.u, p.v);
+  const Vec3 own = own_position(mesh, mesh.triangles[p.triangle], p);
   return mesh.instances.empty() ? own : transform_point(mesh.instances[p.instance].at(p.time), own);
 }
 
 Vec3 surface_normal(const Scene& scene, const SurfacePoint& p) {
   const Mesh& mesh = scene.meshes[p.mesh];
-  const Vec3 own = face_normal(mesh, mesh.triangles[p.triangle]);
+  const Vec3 own = own_normal(mesh, mesh.triangles[p.triangle], p);
   if (mesh.instances.empty()) return own;
   return normal_to_world(inverse(mesh.instances[p.instance].at(p.time)), own, own);
 }
@@ -93,6 +100,7 @@ SurfaceGeometry::SurfaceGeometry(const Scene& scene, const Clock& clock)
     : scene_(scene), clock_(clock) {
   for (const Mesh& mesh : scene.meshes) {
     has_instances_ = has_instances_ || !mesh.instances.empty();
+    has_fibres_ = has_fibres_ || mesh.is_fibres();
     baked_.push_back({mesh.object_to_world, inverse(mesh.object_to_world)});
   }
 }
@@ -123,6 +131,7 @@ void SurfaceGeometry::fill(std::span<const SurfacePoint> points, const Capabilit
   const bool object_space = (wanted & attribute_object_space) != 0;
   if (has_instances_) find_poses(points, buffer);
   fill_position(points, object_space, buffer);
+  if (has_fibres_) fill_through(points, buffer);
   if ((wanted & attribute_tangents) != 0) fill_tangents(points, object_space, buffer);
   constexpr std::uint32_t derivatives =
       attribute_surface_derivatives | attribute_footprint_position | attribute_footprint_uv;
@@ -139,10 +148,10 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
     const SurfacePoint& p = points[i];
     const Mesh& mesh = scene_.meshes[p.mesh];
     const Triangle& t = mesh.triangles[p.triangle];
-    Vec3 ng = face_normal(mesh, t);
+    Vec3 ng = own_normal(mesh, t, p);
     Vec3 n = shading_normal(mesh, t, p, ng);
-    Vec3 position = interpolate(mesh.position, t, p.u, p.v);
-    const Vec3 own_position = position;
+    const Vec3 own = own_position(mesh, t, p);
+    Vec3 position = own;
     const Pose& pose = this->pose(p, i, buffer);
     if (!mesh.instances.empty()) {
       ng = normal_to_world(pose.to_object, ng, ng);
@@ -158,9 +167,24 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
     buffer.primitive_id[i] = p.triangle;
     if (!object_space) continue;
     store(b.P_object, i,
-          mesh.position_object.empty() ? own_position
-                                       : interpolate(mesh.position_object, t, p.u, p.v));
+          mesh.position_object.empty() ? own : interpolate(mesh.position_object, t, p.u, p.v));
     store(b.N_object, i, normalize_or(transform_normal(pose.to_world, n), n));
+  }
+}
+
+/// From each point to where light that goes straight through its fibre comes out; 0 on surfaces.
+void SurfaceGeometry::fill_through(std::span<const SurfacePoint> points,
+                                   BatchBuffer& buffer) const {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SurfacePoint& p = points[i];
+    const Mesh& mesh = scene_.meshes[p.mesh];
+    Vec3 way;
+    if (mesh.is_fibres()) {
+      const FibrePoint at = fibre_point(mesh, mesh.triangles[p.triangle], p.u, p.side);
+      way = at.opposite() - at.position();
+      if (!mesh.instances.empty()) way = transform_vector(pose(p, i, buffer).to_world, way);
+    }
+    store(buffer.through, i, way);
   }
 }
 
@@ -172,11 +196,18 @@ void SurfaceGeometry::fill_tangents(std::span<const SurfacePoint> points, bool o
     const Mesh& mesh = scene_.meshes[p.mesh];
     const Triangle& t = mesh.triangles[p.triangle];
     const Vec3 n = load(b.N, i);
-    Vec3 raw = (1.f - p.u - p.v) * mesh.tangent[t.v[0]].direction +
-               p.u * mesh.tangent[t.v[1]].direction + p.v * mesh.tangent[t.v[2]].direction;
+    Tangent own;
+    if (mesh.is_fibres()) {
+      own = {fibre_point(mesh, t, p.u, p.side).axis, 1.f};
+    } else {
+      own = {(1.f - p.u - p.v) * mesh.tangent[t.v[0]].direction +
+                 p.u * mesh.tangent[t.v[1]].direction + p.v * mesh.tangent[t.v[2]].direction,
+             mesh.tangent[t.v[0]].sign};
+    }
+    Vec3 raw = own.direction;
     const Pose& pose = this->pose(p, i, buffer);
     if (!mesh.instances.empty()) raw = transform_vector(pose.to_world, raw);
-    const float sign = pose.mirrors ? -mesh.tangent[t.v[0]].sign : mesh.tangent[t.v[0]].sign;
+    const float sign = pose.mirrors ? -own.sign : own.sign;
     const Vec3 tangent = normalize_or(raw - dot(n, raw) * n, perpendicular(n));
     const Vec3 bitangent = sign * cross(n, tangent);
     store(b.T, i, tangent);

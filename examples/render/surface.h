@@ -6,6 +6,7 @@
 
 #include "examples/render/batch_buffer.h"
 #include "examples/render/camera.h"
+#include "examples/render/fibre.h"
 #include "examples/render/scene.h"
 #include "examples/render/shader.h"
 
@@ -23,6 +24,7 @@ struct SurfacePoint {
   float width = 0.f;
   std::uint32_t instance = 0;  ///< As Hit.
   float time = 0.f;            ///< As Ray.
+  FibreSide side = {};         ///< As Hit.
 };
 
 /// World position, by interpolation, so that offset_point() may be used on it.
@@ -56,6 +58,7 @@ class SurfaceGeometry {
 
  private:
   void fill_position(std::span<const SurfacePoint>, bool object_space, BatchBuffer&) const;
+  void fill_through(std::span<const SurfacePoint>, BatchBuffer&) const;
   void fill_tangents(std::span<const SurfacePoint>, bool object_space, BatchBuffer&) const;
   void fill_derivatives(std::span<const SurfacePoint>, std::uint32_t attributes, const PixelCamera&,
                         BatchBuffer&) const;
@@ -69,6 +72,7 @@ class SurfaceGeometry {
   const Scene& scene_;
   Clock clock_;
   bool has_instances_ = false;
+  bool has_fibres_ = false;
   std::vector<Pose> baked_;  ///< By mesh; of those without instances.
 };
 

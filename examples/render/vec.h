@@ -38,6 +38,7 @@ inline Vec3 clamp_unit(Vec3 a) {
   const auto f = [](float v) { return v >= 0.f ? std::min(v, 1.f) : 0.f; };
   return {f(a.x), f(a.y), f(a.z)};
 }
+inline bool is_zero(Vec3 a) { return a.x == 0.f && a.y == 0.f && a.z == 0.f; }
 inline bool is_finite(Vec3 a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "examples/render/mis.h"
+#include "examples/render/offset.h"
 
 namespace nacre::host {
 
@@ -37,6 +38,7 @@ Wavefront::Wavefront(const RenderContext& context, std::size_t max_paths)
   groups_.resize(context.materials.size());
   light_groups_.resize(context.materials.size());
   shadow_groups_.resize(context.materials.size());
+  lit_groups_.resize(context.point_lights.size());
 }
 
 void Wavefront::trace(std::span<Path> paths) {
@@ -48,6 +50,7 @@ void Wavefront::trace(std::span<Path> paths) {
     next_.clear();
     shadows_.clear();
     intersect();
+    if (context_.any_interior) cross_media();
     add_environment();
     group_by_material();
     if (context_.any_opacity) apply_opacity();
@@ -123,7 +126,15 @@ SurfacePoint Wavefront::surface_point(std::uint32_t i) const {
           distance,
           path.width + path.spread * distance,
           hit.instance,
-          path.ray.time};
+          path.ray.time,
+          hit.side};
+}
+
+Vec3 leave(const BatchBuffer& buffer, std::size_t lane, Vec3 direction) {
+  const Vec3 p = load(buffer.batch.P, lane);
+  const Vec3 ng = load(buffer.batch.Ng, lane);
+  if (!(dot(ng, direction) < 0.f)) return offset_point(p, ng);
+  return offset_point(p + load(buffer.through, lane), -ng);
 }
 
 void Wavefront::fill(std::span<const std::uint32_t> paths, const Material& material) {
@@ -138,12 +149,13 @@ Uniform2 Wavefront::draw(const Path& path, Draw what) const {
 
 /// Density per area with which light sampling finds points of this triangle.
 float Wavefront::light_chance(std::uint32_t mesh, std::uint32_t triangle) const {
-  return (1.f - context_.environment_chance) * context_.lights.area_pdf(mesh, triangle);
+  return context_.area_chance * context_.lights.area_pdf(mesh, triangle);
 }
 
 bool Wavefront::connects() const {
   return context_.settings.strategy != Strategy::bsdf_only &&
-         (context_.environment != nullptr || !context_.lights.empty());
+         (context_.environment != nullptr || !context_.lights.empty() ||
+          !context_.point_lights.empty());
 }
 
 /// Weight of light found by the path's own direction.

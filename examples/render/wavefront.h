@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "examples/render/batch_buffer.h"
+#include "examples/render/medium.h"
 #include "examples/render/render_context.h"
 #include "examples/render/sampler.h"
 
@@ -15,10 +16,12 @@ struct Path {
   SampleKey key;  ///< key.event counts intersections.
   Ray ray;
   Vec3 throughput = {1.f, 1.f, 1.f};
-  Vec3 radiance;      ///< What the path has brought so far.
-  float alpha = 1.f;  ///< 0: it ended on a matte.
-  int depth = 0;      ///< Scattering events.
-  int passes = 0;     ///< Transparent surfaces passed.
+  Vec3 radiance;        ///< What the path has brought so far.
+  float alpha = 1.f;    ///< 0: it ended on a matte.
+  int depth = 0;        ///< Scattering events.
+  int passes = 0;       ///< Transparent surfaces passed.
+  Media media;          ///< What it is inside of.
+  int scatterings = 0;  ///< Within media.
 
   /// How the direction of `ray` was drawn, for multiple importance sampling.
   Vec3 vertex;              ///< Where.
@@ -40,6 +43,14 @@ struct Group {
   std::uint32_t begin = 0, end = 0;
 };
 
+/// Where a ray leaves the point of a lane in a direction: off the surface on the side that it goes
+/// to. Through a fibre it goes at once: what happens inside is its material's.
+Vec3 leave(const BatchBuffer& buffer, std::size_t lane, Vec3 direction);
+
+/// Opening angle for a direction drawn with this density: the cone that holds a
+/// quarter of the directions one sample stands for, at most a quarter radian.
+float scattered_spread(float pdf);
+
 /// Follows many paths at once, stage by stage, with the memory of one thread:
 /// trace, sort by material, opacity, choose light samples, shade, trace shadows.
 class Wavefront {
@@ -58,6 +69,7 @@ class Wavefront {
     Vec3 target;      ///< Off the light's surface; unused for the environment.
     float pdf = 0.f;  ///< Per solid angle, with all choices; 0: no sample.
     bool infinite = false;
+    bool unseen = false;  ///< No ray meets it, so no other sample finds it.
   };
   struct LightPoint {
     std::uint32_t path;
@@ -93,10 +105,16 @@ class Wavefront {
   SurfacePoint shadow_point(std::size_t i) const;
   void attenuate(const Material& material, std::span<const std::uint32_t> shadows);
 
+  // wavefront_medium.cpp
+  void cross_media();
+  bool scatter_inside(Path& path, const Medium& medium, float distance);
+  void change_medium(Path& path, const Hit& hit, std::size_t lane);
+
   // wavefront_light.cpp
   void sample_lights();
   void sample_light(std::uint32_t path);
   void light_emission(const Material& material, std::span<const std::uint32_t> points);
+  void light_points(const LightShader& light, std::span<const std::uint32_t> paths);
 
   // wavefront_shade.cpp
   void shade();
@@ -119,6 +137,10 @@ class Wavefront {
   std::vector<LightPoint> light_points_;
   std::vector<std::uint32_t> light_order_;
   std::vector<Group> light_groups_;
+  /// Paths that a light is chosen for that no ray meets, and which.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> lit_;
+  std::vector<std::uint32_t> lit_order_;
+  std::vector<Group> lit_groups_;  ///< By light.
   std::vector<ShadowRay> shadows_;
   std::vector<std::uint32_t> shadow_order_;
   std::vector<Group> shadow_groups_;

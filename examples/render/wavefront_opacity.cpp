@@ -1,17 +1,6 @@
-#include "examples/render/offset.h"
 #include "examples/render/wavefront.h"
 
 namespace nacre::host {
-
-namespace {
-
-/// The surface point of lane i moved off to the side a ray leaves by.
-Vec3 leave(const ShadingBatch& batch, std::size_t i, Vec3 direction) {
-  const Vec3 ng = load(batch.Ng, i);
-  return offset_point(load(batch.P, i), dot(ng, direction) < 0.f ? -ng : ng);
-}
-
-}  // namespace
 
 /// Lets paths through surfaces by chance, and takes those out of their group.
 void Wavefront::apply_opacity() {
@@ -51,7 +40,7 @@ std::uint32_t Wavefront::pass_through(const Material& material, std::span<std::u
     }
     if (++path.passes > context_.settings.max_transparent) continue;
     path.throughput *= (1.f / chance) * clear;
-    path.ray.origin = leave(buffer_.batch, lane, path.ray.direction);
+    path.ray.origin = leave(buffer_, lane, path.ray.direction);
     path.distance += hits_[i].distance;
     ++path.key.event;
     next_.push_back(i);
@@ -127,8 +116,8 @@ void Wavefront::trace_transparent_shadows() {
 SurfacePoint Wavefront::shadow_point(std::size_t i) const {
   const Hit& hit = ray_hits_[i];
   const Ray& ray = shadows_[i].ray;
-  return {hit.mesh, hit.triangle, hit.u, hit.v,        -ray.direction,
-          false,    0.f,          0.f,   hit.instance, ray.time};
+  return {hit.mesh, hit.triangle, hit.u,        hit.v,    -ray.direction, false,
+          0.f,      0.f,          hit.instance, ray.time, hit.side};
 }
 
 void Wavefront::attenuate(const Material& material, std::span<const std::uint32_t> shadows) {
@@ -142,7 +131,7 @@ void Wavefront::attenuate(const Material& material, std::span<const std::uint32_
   for (std::size_t lane = 0; lane < shadows.size(); ++lane) {
     ShadowRay& shadow = shadows_[shadows[lane]];
     shadow.contribution *= Vec3{1.f, 1.f, 1.f} - clamp_unit(load(buffer_.rgb, lane));
-    shadow.ray.origin = leave(buffer_.batch, lane, shadow.ray.direction);
+    shadow.ray.origin = leave(buffer_, lane, shadow.ray.direction);
     if (shadow.infinite) continue;
     const Vec3 rest = shadow.target - shadow.ray.origin;
     shadow.ray.far = length(rest);

@@ -1,21 +1,14 @@
 #include <algorithm>
 
-#include "examples/render/offset.h"
 #include "examples/render/wavefront.h"
 
 namespace nacre::host {
 
-namespace {
+namespace {}  // namespace
 
-bool is_zero(Vec3 v) { return v.x == 0.f && v.y == 0.f && v.z == 0.f; }
-
-/// Opening angle for a direction drawn with this density: the cone that holds a
-/// quarter of the directions one sample stands for, at most a quarter radian.
 float scattered_spread(float pdf) {
   return std::min(0.25f, 0.25f / std::sqrt(std::max(pdf, 1e-8f)));
 }
-
-}  // namespace
 
 void Wavefront::shade() {
   for (std::size_t m = 0; m < groups_.size(); ++m) {
@@ -78,7 +71,7 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
     const LightSample& light = light_samples_[paths[lane]];
     if (!(light.pdf > 0.f)) continue;
     const Vec3 value = load(buffer_.value.value, lane);
-    const float weight = connection_weight(light.pdf, buffer_.value.pdf[lane]);
+    const float weight = light.unseen ? 1.f : connection_weight(light.pdf, buffer_.value.pdf[lane]);
     const Vec3 contribution =
         (weight / light.pdf) * (paths_[paths[lane]].throughput * value * light.radiance);
     if (is_zero(contribution)) continue;
@@ -86,9 +79,7 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
       ++statistics_.invalid_results;
       continue;
     }
-    const Vec3 ng = load(buffer_.batch.Ng, lane);
-    const Vec3 origin =
-        offset_point(load(buffer_.batch.P, lane), dot(ng, light.wi) < 0.f ? -ng : ng);
+    const Vec3 origin = leave(buffer_, lane, light.wi);
     Ray ray = {origin, light.wi, INFINITY, ray_shadow, paths_[paths[lane]].ray.time};
     if (!light.infinite) {
       ray.far = length(light.target - origin);
@@ -107,13 +98,19 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
   {
     const Stopwatch watch(statistics_.shading_seconds);
     material.shader->sample(buffer_.batch, buffer_.state, buffer_.u, buffer_.sample);
+    if (material.capabilities.has_interior) {
+      material.shader->interior(buffer_.batch, buffer_.interior);
+    }
   }
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
     Path& path = paths_[paths[lane]];
     if (path.depth >= context_.settings.max_depth) continue;
     const Hit& hit = hits_[paths[lane]];
     path.unlit = !context_.scene.meshes[hit.mesh].illuminated;
-    if (scatter(path, lane, hit.distance)) next_.push_back(paths[lane]);
+    if (!scatter(path, lane, hit.distance)) continue;
+    const bool crosses = (buffer_.sample.flags[lane] & sample_transmitted) != 0;
+    if (crosses && material.capabilities.has_interior) change_medium(path, hit, lane);
+    next_.push_back(paths[lane]);
   }
 }
 
@@ -143,12 +140,10 @@ bool Wavefront::scatter(Path& path, std::size_t lane, float distance) {
   path.distance = 0.f;
   path.from_camera = false;
   if (!delta) path.spread = std::max(path.spread, scattered_spread(pdf));
-  const Vec3 ng = load(buffer_.batch.Ng, lane);
   path.vertex = load(buffer_.batch.P, lane);
   path.pdf = pdf;
   path.light_blind = delta;
-  path.ray = {offset_point(path.vertex, dot(ng, wi) < 0.f ? -ng : ng), wi, INFINITY, ray_secondary,
-              path.ray.time};
+  path.ray = {leave(buffer_, lane, wi), wi, INFINITY, ray_secondary, path.ray.time};
   ++path.key.event;
   return true;
 }

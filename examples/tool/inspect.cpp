@@ -95,7 +95,7 @@ Json inspect_material(const Opened& opened, const std::string& material,
       {"evaluate", &kernels->evaluate}, {"albedo", &kernels->albedo},
       {"emission", &kernels->emission}, {"opacity", &kernels->opacity},
       {"volume", &kernels->volume},     {"displacement", &kernels->displacement},
-      {"light", &kernels->light}};
+      {"light", &kernels->light},       {"interior", &kernels->interior}};
   std::vector<NamedKernel> present;
   for (const auto& [name, kernel] : all) {
     if (!kernel->has_value()) continue;

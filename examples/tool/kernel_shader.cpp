@@ -103,16 +103,28 @@ std::string primvar_name(std::string_view group) {
 
 }  // namespace
 
+bool has_medium(const MaterialKernels& kernels) {
+  if (!kernels.interior) return false;
+  return std::ranges::any_of(kernels.interior->program().outputs, [](const Channel& output) {
+    return parse_channel(output.name).group == "absorption";
+  });
+}
+
 KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop)
     : kernels_(std::move(kernels)), stop_(stop) {
   capabilities_.scatters = kernels_->sample.has_value() && kernels_->evaluate.has_value();
-  capabilities_.emits = kernels_->emission.has_value();
+  // Of a lightmaterial what its mesh emits.
+  std::optional<BoundKernel>& emitted =
+      kernels_->has_surface || !kernels_->light ? kernels_->emission : kernels_->light;
+  capabilities_.emits = emitted.has_value();
   capabilities_.has_opacity = kernels_->opacity.has_value();
+  capabilities_.has_interior = has_medium(*kernels_);
   bind(kernels_->begin, begin_, {});
   bind(kernels_->sample, sample_, {"u.x", "u.y", "u.z"});
   bind(kernels_->evaluate, evaluate_, {"wi.x", "wi.y", "wi.z"});
-  bind(kernels_->emission, emission_, {});
+  bind(emitted, emission_, {});
   bind(kernels_->opacity, opacity_, {});
+  if (capabilities_.has_interior) bind(kernels_->interior, interior_, {});
 }
 
 int KernelShader::find_primvar(std::string_view name, int components) {
@@ -172,7 +184,7 @@ std::uint32_t KernelShader::stride(std::uint32_t count) {
 
 std::vector<const BoundKernel*> KernelShader::kernels() const {
   std::vector<const BoundKernel*> all;
-  for (const Bound* bound : {&begin_, &sample_, &evaluate_, &emission_, &opacity_}) {
+  for (const Bound* bound : {&begin_, &sample_, &evaluate_, &emission_, &opacity_, &interior_}) {
     if (bound->kernel != nullptr) all.push_back(bound->kernel);
   }
   return all;
@@ -263,6 +275,14 @@ void KernelShader::opacity(const ShadingBatch& batch, Lanes3 rgb) const {
   for (std::uint32_t i = 0; i < batch.count; ++i) {
     for (float* channel : {rgb.x, rgb.y, rgb.z}) channel[i] = presence[i] * (1.0f - channel[i]);
   }
+}
+
+void KernelShader::interior(const ShadingBatch& batch, host::InteriorLanes out) const {
+  std::vector<float> index(batch.count);  // What bends light knows it.
+  const std::array<void*, 8> outputs{index.data(),     out.absorption.x, out.absorption.y,
+                                     out.absorption.z, out.scattering.x, out.scattering.y,
+                                     out.scattering.z, out.anisotropy};
+  run(interior_, batch, nullptr, {}, outputs);
 }
 
 }  // namespace nacre::tool

@@ -42,6 +42,9 @@ class RenderStop {
   std::optional<std::stop_callback<std::function<void()>>> asked_;
 };
 
+/// Whether light that enters the material is in something.
+bool has_medium(const MaterialKernels& kernels);
+
 /// The kernels of a material behind the render host's interface: binds the
 /// host's lanes to the kernels' channels by name, once.
 class KernelShader final : public host::Shader {
@@ -65,6 +68,7 @@ class KernelShader final : public host::Shader {
                 host::EvaluateLanes out) const override;
   void emission(const host::ShadingBatch& batch, host::Lanes3 radiance) const override;
   void opacity(const host::ShadingBatch& batch, host::Lanes3 rgb) const override;
+  void interior(const host::ShadingBatch& batch, host::InteriorLanes out) const override;
 
  private:
   /// Where one input channel of a kernel is found in a batch.
@@ -91,7 +95,7 @@ class KernelShader final : public host::Shader {
   mutable std::atomic<bool> failed_ = false;
   host::Capabilities capabilities_;
   bool reads_uv_ = false;
-  Bound begin_, sample_, evaluate_, emission_, opacity_;
+  Bound begin_, sample_, evaluate_, emission_, opacity_, interior_;
 };
 
 }  // namespace nacre::tool

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "examples/render/mesh.h"
 #include "jit/document/inheritance.h"
 #include "jit/document/select.h"
 #include "jit/graph/resolve/feed.h"
@@ -45,17 +46,6 @@ NotRendered::NotRendered(const Opened& opened, Diagnostics& diagnostics)
         return Definitions(*opened.document, &opened.system->library().definitions(), known);
       }()) {}
 
-void NotRendered::look_at_document() {
-  for (const Element& element : opened_.document->root().children()) {
-    if (!is_node(element) || element.attribute("type") != "lightshader") continue;
-    diagnostics_.warning(
-        "lights-not-rendered", location(element),
-        "light shaders are not rendered; surfaces that emit and the environment are", {},
-        std::string(element.category()));
-    return;
-  }
-}
-
 void NotRendered::look_at_material(const std::string& name, const MaterialKernels& kernels) {
   if (!said_.insert(name).second) return;
   const Element* element = opened_.document->root().child(name);
@@ -75,6 +65,17 @@ void NotRendered::look_at_material(const std::string& name, const MaterialKernel
   if (element == nullptr) return;
   for (const std::string_view side : {"surfaceshader", "backsurfaceshader"}) {
     if (const Element* input = find_input(*element, side)) look_at_shader(*input);
+  }
+}
+
+void NotRendered::look_at_solids(const std::string& material,
+                                 const std::vector<const host::Mesh*>& meshes) {
+  for (const host::Mesh* mesh : meshes) {
+    if (mesh->is_fibres() || host::is_closed(*mesh)) continue;
+    diagnostics_.warning("open-solid", {},
+                         "light that enters '" + mesh->object_name +
+                             "' may never leave it: material '" + material + "' is solid",
+                         "a mesh without a border, or a thin-walled material");
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
+#include "examples/render/scene.h"
 #include "examples/tool/options.h"
 
 namespace nacre::tool {
@@ -12,11 +14,12 @@ class NotRendered {
  public:
   NotRendered(const Opened& opened, Diagnostics& diagnostics);
 
-  /// Light shaders, which belong to no material.
-  void look_at_document();
   /// What the kernels of a material leave out, and inputs of its shader nodes that are set
   /// and that the shading model's own graph does not read.
   void look_at_material(const std::string& name, const MaterialKernels& kernels);
+
+  /// Meshes of a material with a medium inside that are no solids.
+  void look_at_solids(const std::string& material, const std::vector<const host::Mesh*>& meshes);
 
  private:
   void look_at_shader(const Element& input);

@@ -15,6 +15,7 @@
 #include "examples/render/image_io.h"
 #include "examples/render/load_scene.h"
 #include "examples/tool/assignment.h"
+#include "examples/tool/kernel_light.h"
 #include "examples/tool/kernel_shader.h"
 #include "examples/tool/missing_attributes.h"
 #include "examples/tool/missing_material.h"
@@ -26,6 +27,8 @@
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
 #include "examples/tool/varying_slots.h"
+#include "jit/document/inheritance.h"
+#include "jit/document/select.h"
 
 namespace nacre::tool {
 
@@ -88,26 +91,36 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     meshes[assignments[i].key()].push_back(&world.meshes[i]);
   }
   NotRendered not_rendered(opened, diagnostics);
-  not_rendered.look_at_document();
   for (const MeshAssignment& assignment : assignments) {
     if (assignment.material.empty() || shaders.contains(assignment.key())) continue;
     ShaderOptions shader = options.common.shader_options();
     shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
     shader.graph.variants = assignment.variants;
     shader.graph.geometry_tokens = assignment.tokens;
+    shader.kernels.entries |= entry_interior;
+    shader.kernels.energy_conserving = options.energy_conserving;
     shader.varying = varying_slots(meshes.at(assignment.key()), host::is_open(options.settings));
     auto kernels =
         opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
-    if (!kernels->has_surface) {
+    if (!kernels->has_surface && kernels->light && has_place(kernels->light->program())) {
+      diagnostics.error("light-has-place", {},
+                        "material '" + assignment.material +
+                            "' is a light that stands somewhere by itself, and no mesh's",
+                        "a <light>, which is where its mesh is");
+      return false;
+    }
+    if (!kernels->has_surface && !kernels->light) {
       diagnostics.error(
           "no-surface", {},
           "material '" + assignment.material + "' has no surface, and nothing else is rendered",
-          "a surface shader");
+          "a surface or a light shader");
       return false;
     }
     not_rendered.look_at_material(assignment.material, *kernels);
     TwoShaders& place = shaders[assignment.key()];
+    const std::string& material = assignment.material;
+    if (has_medium(*kernels)) not_rendered.look_at_solids(material, meshes.at(assignment.key()));
     const bool has_back = kernels->has_back;
     place.front = std::make_unique<KernelShader>(std::move(kernels), stop);
     if (!has_back) continue;
@@ -116,6 +129,41 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
         opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
     if (kernels == nullptr) return false;
     place.back = std::make_unique<KernelShader>(std::move(kernels), stop);
+  }
+  return true;
+}
+
+bool is_of_material(const Opened& opened, const Element& light) {
+  return std::ranges::any_of(opened.document->root().children(), [&](const Element& material) {
+    const Element* input =
+        material.category() == "lightmaterial" ? find_input(material, "lightshader") : nullptr;
+    return input != nullptr && input->attribute("nodename") == light.name();
+  });
+}
+
+/// Light shaders of the document that stand somewhere by themselves: those that have a direction.
+bool compile_lights(const RenderOptions& options, const Opened& opened, RenderStop& stop,
+                    std::vector<std::unique_ptr<host::LightShader>>& lights,
+                    Diagnostics& diagnostics) {
+  for (const Element& element : opened.document->root().children()) {
+    if (!is_node(element) || element.attribute("type") != "lightshader") continue;
+    ShaderOptions shader = options.common.shader_options();
+    shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
+    if (host::is_open(options.settings)) shader.varying = {"time", "frame"};
+    auto kernel = opened.system->compile_outputs(*opened.document, {std::string(element.name())},
+                                                 shader, diagnostics);
+    if (kernel == nullptr) return false;
+    if (!has_place(kernel->kernel.program())) {
+      if (!is_of_material(opened, element)) {
+        diagnostics.warning("light-without-place", location(element),
+                            "the light is nowhere and not rendered",
+                            "a <lightmaterial> that is assigned to a mesh");
+      }
+      continue;
+    }
+    auto light = KernelLight::create(std::move(kernel), stop, diagnostics);
+    if (light == nullptr) return false;
+    lights.push_back(std::move(light));
   }
   return true;
 }
@@ -178,6 +226,13 @@ void report_invalid_results(const host::RenderStatistics& statistics, Diagnostic
                       fmt::format("{} that were not", statistics.invalid_results));
 }
 
+void report_cut_paths(const host::RenderStatistics& statistics, Diagnostics& diagnostics) {
+  if (statistics.paths_cut == 0) return;
+  diagnostics.warning("paths-cut", {}, "some light was scattered too often in media and is missing",
+                      "more --max-scatterings",
+                      fmt::format("{} of {} paths", statistics.paths_cut, statistics.paths));
+}
+
 int run(RenderOptions& options) {
   Diagnostics diagnostics;
   if (!parse_size(options.size, options.settings.width, options.settings.height, diagnostics)) {
@@ -214,6 +269,12 @@ int run(RenderOptions& options) {
       !compile_shaders(options, opened, world, assignments, stop, shaders, diagnostics)) {
     return report(diagnostics);
   }
+  std::vector<std::unique_ptr<host::LightShader>> lights;
+  if (!compile_lights(options, opened, stop, lights, diagnostics)) return report(diagnostics);
+  for (const host::PunctualLight& light : world.lights) {
+    lights.push_back(std::make_unique<host::PunctualShader>(light));
+  }
+  for (const auto& light : lights) input.lights.push_back(light.get());
   auto grey = neutral_material(*opened.system, options.common.shader_options(), diagnostics);
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
@@ -232,6 +293,7 @@ int run(RenderOptions& options) {
   host::RenderStatistics statistics;
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
   report_invalid_results(statistics, diagnostics);
+  report_cut_paths(statistics, diagnostics);
   report_failed(opened, assignments, shaders, diagnostics);
   for (const BoundKernel* kernel : kernels) {
     report_code(*kernel, options.common.shader_options(), diagnostics);

@@ -39,8 +39,10 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   options.common.add_document(command);
   options.assignment.add(command);
   host::RenderSettings& settings = options.settings;
-  command.add_option("--scene", options.scene, "glTF 2.0 or OBJ (default: a built-in one)")
+  command.add_option("--scene", options.scene, "glTF 2.0, HAIR or OBJ (default: a built-in one)")
       ->type_name("FILE");
+  command.add_flag("--energy-conserving", options.energy_conserving,
+                   "Let no material send back more light than arrives, whatever its model says");
   command.add_flag("--ground", options.ground, "Put a neutral floor below the scene");
   command.add_option("--spp", settings.samples, "Samples a pixel")
       ->check(number_within(1, 1e9))
@@ -51,6 +53,11 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE");
   command.add_option("--max-depth", settings.max_depth, "Scattering events on a path")
       ->check(number_within(0, 1e9))
+      ->capture_default_str();
+  command
+      .add_option("--max-scatterings", settings.max_scatterings,
+                  "Scattering events within media, on a path")
+      ->check(number_within(0, 1e6))
       ->capture_default_str();
   command.add_option("--seed", settings.seed, "Of the random numbers")->capture_default_str();
   command.add_option("--frame", settings.frame, "Frame number")

@@ -26,6 +26,7 @@ struct RenderOptions {
   float lens_radius = 0.0f;
   float focus_distance = 0.0f;
   bool ground = false;
+  bool energy_conserving = false;  ///< KernelRequest::energy_conserving
 };
 
 /// Its options; they write to `options`, which lives as long as `command`.

@@ -1,0 +1,83 @@
+#include "examples/render/fibre.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "examples/render/scene_limits.h"
+
+namespace nacre::host {
+
+namespace {
+
+struct Axes {
+  Vec3 along, x, y;
+};
+
+Axes axes_of(const Mesh& mesh, const Triangle& piece) {
+  const Vec3 along = normalize(mesh.position[piece.v[1]] - mesh.position[piece.v[0]]);
+  const Vec3 x = perpendicular(along);
+  return {along, x, cross(along, x)};
+}
+
+bool is_usable(const Mesh& mesh, const Triangle& piece) {
+  for (const std::uint32_t v : piece.v) {
+    if (!is_within_reach(mesh.position[v])) return false;
+    if (!(mesh.radius[v] > 0.f && mesh.radius[v] <= largest_coordinate)) return false;
+  }
+  const Vec3 way = mesh.position[piece.v[1]] - mesh.position[piece.v[0]];
+  return way.x != 0.f || way.y != 0.f || way.z != 0.f;
+}
+
+}  // namespace
+
+FibrePoint fibre_point(const Mesh& mesh, const Triangle& piece, float along,
+                       const FibreSide& side) {
+  const Axes axes = axes_of(mesh, piece);
+  const Vec3 centre = (1.f - along) * mesh.position[piece.v[0]] + along * mesh.position[piece.v[1]];
+  const float radius = (1.f - along) * mesh.radius[piece.v[0]] + along * mesh.radius[piece.v[1]];
+  const float across = std::sqrt(std::max(0.f, (1.f - side.tilt) * (1.f + side.tilt)));
+  const Vec3 normal = side.tilt * axes.along + (across * std::cos(side.turn)) * axes.x +
+                      (across * std::sin(side.turn)) * axes.y;
+  return {centre, axes.along, normal, radius};
+}
+
+FibreSide fibre_side(const Mesh& mesh, const Triangle& piece, Vec3 normal) {
+  const Axes axes = axes_of(mesh, piece);
+  const Vec3 n = normalize_or(normal, axes.x);
+  return {std::atan2(dot(n, axes.y), dot(n, axes.x)), std::clamp(dot(n, axes.along), -1.f, 1.f)};
+}
+
+std::vector<Triangle> fibre_pieces(const std::vector<std::uint32_t>& counts) {
+  std::vector<Triangle> pieces;
+  std::uint32_t first = 0;
+  for (const std::uint32_t count : counts) {
+    for (std::uint32_t k = 0; k + 1 < count; ++k) {
+      pieces.push_back({{first + k, first + k + 1, first + k + 1}});
+    }
+    first += count;
+  }
+  return pieces;
+}
+
+bool finish_fibres(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnostics) {
+  const std::string called = mesh.object_name.empty() ? "a mesh" : '\'' + mesh.object_name + '\'';
+  const std::size_t dropped =
+      std::erase_if(mesh.triangles, [&](const Triangle& piece) { return !is_usable(mesh, piece); });
+  if (dropped != 0) {
+    diagnostics.warning(
+        "bad-fibres", where,
+        fmt::format("{} pieces of the fibres of {} cannot be traced and were left out", dropped,
+                    called),
+        fmt::format("two ends, at most {:g} from 0, and a radius above 0", largest_coordinate));
+  }
+  // Nothing of a fibre is of a surface.
+  mesh.normal.clear();
+  mesh.tangent.clear();
+  if (!mesh.triangles.empty()) return true;
+  diagnostics.error("empty-mesh", where, called + " has no fibre",
+                    "at least one piece with a length and a radius");
+  return false;
+}
+
+}  // namespace nacre::host

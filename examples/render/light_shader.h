@@ -1,0 +1,23 @@
+#pragma once
+
+#include "examples/render/shader.h"
+
+namespace nacre::host {
+
+/// Light as a point sees it.
+struct LightLanes {
+  Lanes3 intensity;           ///< rgb: irradiance across the direction.
+  Lanes3 direction;           ///< World, unit, from the point to the light; 0: there is none.
+  float* distance = nullptr;  ///< To the light; infinite where it is nowhere.
+};
+
+/// A light that no ray meets: of no extent, or infinitely far away. Calls are const and come from
+/// several threads at once.
+class LightShader {
+ public:
+  virtual ~LightShader() = default;
+  /// Of the batch it reads P, the time and the frame.
+  virtual void light(const ShadingBatch& batch, LightLanes out) const = 0;
+};
+
+}  // namespace nacre::host

@@ -1,0 +1,71 @@
+#include "examples/render/medium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace nacre::host {
+
+bool Media::enter(std::uint32_t mesh, std::uint32_t instance, const Medium& medium) {
+  if (count_ == inside_.size()) return false;
+  inside_[count_++] = {mesh, instance, medium};
+  return true;
+}
+
+void Media::leave(std::uint32_t mesh, std::uint32_t instance) {
+  for (std::uint32_t i = count_; i-- > 0;) {
+    if (inside_[i].mesh != mesh || inside_[i].instance != instance) continue;
+    std::copy(inside_.begin() + i + 1, inside_.begin() + count_, inside_.begin() + i);
+    --count_;
+    return;
+  }
+}
+
+namespace {
+
+/// exp(-rate distance), with 0 times infinity 0.
+float left_after(float rate, float distance) {
+  return rate > 0.f ? std::exp(-rate * distance) : 1.f;
+}
+
+Vec3 left_after(Vec3 rate, float distance) {
+  return {left_after(rate.x, distance), left_after(rate.y, distance), left_after(rate.z, distance)};
+}
+
+}  // namespace
+
+Flight sample_flight(const Medium& medium, Vec3 throughput, float far, Uniform2 u) {
+  const Vec3 rate = medium.absorption + medium.scattering;
+  if (max_component(medium.scattering) <= 0.f) return {false, 0.f, left_after(rate, far)};
+  const float total = throughput.x + throughput.y + throughput.z;
+  if (!(total > 0.f)) return {};
+  const Vec3 chance = (1.f / total) * throughput;
+  const float of_channel = u.x < chance.x ? rate.x : u.x < chance.x + chance.y ? rate.y : rate.z;
+  const float distance = of_channel > 0.f ? -std::log1p(-u.y) / of_channel : INFINITY;
+  if (!(distance < far)) {
+    const Vec3 left = left_after(rate, far);
+    const float probability = dot(chance, left);
+    return {false, 0.f, probability > 0.f ? (1.f / probability) * left : Vec3{}};
+  }
+  const Vec3 left = left_after(rate, distance);
+  const float pdf = dot(chance, rate * left);
+  return {true, distance, pdf > 0.f ? (1.f / pdf) * (medium.scattering * left) : Vec3{}};
+}
+
+Scattered sample_phase(float anisotropy, Vec3 along, Uniform2 u) {
+  const float g = anisotropy;
+  const float s = 2.f * u.x - 1.f;
+  // (1 + g^2 - ((1 - g^2) / (1 + g s))^2) / (2 g), divided out.
+  const float below = 1.f + g * s;
+  const float above = s + 0.5f * g * (s * s + 3.f) + g * g * s + 0.5f * g * g * g * (s * s - 1.f);
+  const float cosine = std::clamp(above / (below * below), -1.f, 1.f);
+  const float sine = std::sqrt((1.f - cosine) * (1.f + cosine));
+  const float phi = 2.f * std::numbers::pi_v<float> * u.y;
+  const Vec3 x = perpendicular(along);
+  const Vec3 y = cross(along, x);
+  const float base = std::max(1.f + g * g - 2.f * g * cosine, 1e-12f);
+  return {normalize(cosine * along + (sine * std::cos(phi)) * x + (sine * std::sin(phi)) * y),
+          (1.f - g * g) / (4.f * std::numbers::pi_v<float> * base * std::sqrt(base))};
+}
+
+}  // namespace nacre::host

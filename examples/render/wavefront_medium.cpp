@@ -1,0 +1,68 @@
+#include <algorithm>
+
+#include "examples/render/wavefront.h"
+
+namespace nacre::host {
+
+/// Takes the paths that are inside of something to where they meet a surface, or are scattered
+/// before. Those go on from there.
+void Wavefront::cross_media() {
+  const auto is_over = [this](std::uint32_t i) {
+    Path& path = paths_[i];
+    if (path.media.empty()) return false;
+    const Medium medium = path.media.current();
+    const Flight flight =
+        sample_flight(medium, path.throughput, hits_[i].missed() ? INFINITY : hits_[i].distance,
+                      draw(path, Draw::flight));
+    path.throughput *= flight.weight;
+    if (!is_finite(path.throughput)) {
+      ++statistics_.invalid_results;
+      return true;
+    }
+    if (!(max_component(path.throughput) > 0.f)) return true;
+    if (flight.scatters && scatter_inside(path, medium, flight.distance)) next_.push_back(i);
+    return flight.scatters;
+  };
+  active_.erase(std::remove_if(active_.begin(), active_.end(), is_over), active_.end());
+}
+
+/// False where the path ends.
+bool Wavefront::scatter_inside(Path& path, const Medium& medium, float distance) {
+  if (++path.scatterings > context_.settings.max_scatterings) {
+    ++statistics_.paths_cut;
+    return false;
+  }
+  const float brightest = max_component(path.throughput);
+  if (brightest < 1.f) {
+    if (!(draw(path, Draw::roulette).x < brightest)) return false;
+    path.throughput = (1.f / brightest) * path.throughput;
+  }
+  const Scattered to = sample_phase(medium.anisotropy, path.ray.direction, draw(path, Draw::phase));
+  if (path.from_camera) path.spread = context_.camera.sample_angle();
+  path.width += path.spread * (path.distance + distance);
+  path.spread = std::max(path.spread, scattered_spread(to.pdf));
+  path.distance = 0.f;
+  path.from_camera = false;
+  path.vertex = path.ray.origin + distance * path.ray.direction;
+  path.pdf = to.pdf;
+  // Lights are not sampled from inside: what encloses the medium is in the way.
+  path.light_blind = true;
+  path.ray = {path.vertex, to.direction, INFINITY, ray_secondary, path.ray.time};
+  ++path.key.event;
+  return true;
+}
+
+/// As the sample of a lane goes through a surface: into what it encloses, or out. Through a fibre
+/// light has gone already.
+void Wavefront::change_medium(Path& path, const Hit& hit, std::size_t lane) {
+  if (context_.scene.meshes[hit.mesh].is_fibres()) return;
+  const Vec3 wi = load(buffer_.sample.wi, lane);
+  if (!(dot(load(buffer_.batch.Ng, lane), wi) < 0.f))
+    return path.media.leave(hit.mesh, hit.instance);
+  const Medium medium{load(buffer_.interior.absorption, lane),
+                      load(buffer_.interior.scattering, lane),
+                      std::clamp(buffer_.interior.anisotropy[lane], -0.999f, 0.999f)};
+  if (!medium.is_empty()) path.media.enter(hit.mesh, hit.instance, medium);
+}
+
+}  // namespace nacre::host

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "examples/render/light_shader.h"
+#include "examples/tool/kernel_shader.h"
+
+namespace nacre::tool {
+
+/// Whether a light stands somewhere by itself; else it is of a mesh.
+bool has_place(const Program& light);
+
+/// A light shader of a document that a point sees: point, spot, directional.
+class KernelLight final : public host::LightShader {
+ public:
+  /// Null, with an error at the node, where the light reads more of a point than where it is. The
+  /// kernel has a place.
+  static std::unique_ptr<KernelLight> create(std::unique_ptr<OutputKernel> kernel, RenderStop& stop,
+                                             Diagnostics& diagnostics);
+  void light(const host::ShadingBatch& batch, host::LightLanes out) const override;
+  /// Whether its kernel took too many steps.
+  bool has_failed() const { return failed_; }
+
+ private:
+  KernelLight(std::unique_ptr<OutputKernel> kernel, RenderStop& stop)
+      : kernel_(std::move(kernel)), stop_(stop) {}
+
+  std::unique_ptr<OutputKernel> kernel_;
+  RenderStop& stop_;
+  mutable std::atomic<bool> failed_ = false;
+};
+
+}  // namespace nacre::tool
