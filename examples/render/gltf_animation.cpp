@@ -103,9 +103,8 @@ std::vector<double> GltfAnimation::boundaries(const Tracks& tracks) const {
     }
   }
   std::ranges::sort(bounds);
-  // Segments are told apart in floats.
   const auto same = [](double a, double b) {
-    return static_cast<float>(a) == static_cast<float>(b);
+    return b - a < static_cast<double>(Motion::shortest);
   };
   bounds.erase(std::unique(bounds.begin(), bounds.end(), same), bounds.end());
   bounds.back() = 1.0;

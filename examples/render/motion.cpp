@@ -119,7 +119,9 @@ Motion operator*(const Motion& outer, const Motion& inner) {
     for (const auto& s : each->segments()) bounds.push_back(s.begin);
   }
   std::ranges::sort(bounds);
-  bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+  const auto same = [](float a, float b) { return b - a < Motion::shortest; };
+  bounds.erase(std::unique(bounds.begin(), bounds.end(), same), bounds.end());
+  bounds.back() = 1.f;
   std::vector<Motion::Segment> segments;
   for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
     Motion::Segment s{bounds[i], bounds[i + 1], {}};

@@ -28,6 +28,8 @@ class Motion {
     std::vector<Affine> steps;  ///< 2 to most_steps + 1.
   };
   static constexpr int most_steps = 128;  ///< From one of Embree's 129 to the next.
+  /// What is shorter is no segment: Embree divides by its length, and nobody sees it.
+  static constexpr float shortest = 1e-6f;
 
   Motion() = default;
   explicit Motion(const Affine& still) : still_(still) {}

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "examples/render/bvh.h"
 #include "examples/render/load_scene.h"
 #include "tests/examples/render/scene_samples.h"
 #include "tests/support/temporary_folder.h"
@@ -139,6 +140,23 @@ TEST_F(Animation, OpenShuttersSeeTheWay) {
   // What does not move while the shutter is open is baked as if it never did.
   const Scene still = load(moving_card(translate, R"({"input": 5, "output": 6})"), {5, 6});
   EXPECT_TRUE(still.meshes.at(0).instances.empty());
+}
+
+// Embree divides by the length of a segment: found by a fuzzer, with keys at denormal times.
+TEST_F(Animation, WhatLastsNoTimeIsNoSegment) {
+  const std::string linear = moving_card(translate, R"({"input": 5, "output": 6})");
+  for (const Shutter& shutter : {Shutter{2 - 1e-9, 3}, Shutter{1.5, 2 + 1e-9}}) {
+    const Scene scene = load(linear, shutter);
+    ASSERT_EQ(scene.meshes.size(), 1u) << diagnostics_.to_string();
+    const Motion& way = scene.meshes[0].instances.at(0);
+    ASSERT_EQ(way.segments().size(), 1u);
+    EXPECT_EQ(way.segments()[0].begin, 0.f);
+    EXPECT_EQ(way.segments()[0].end, 1.f);
+    const Motion product = way * way;
+    ASSERT_EQ(product.segments().size(), 1u);
+    EXPECT_EQ(product.segments()[0].end, 1.f);
+    EXPECT_TRUE(Bvh(scene, diagnostics_).ok());
+  }
 }
 
 TEST_F(Animation, ChildrenAndCamerasGoAlong) {
