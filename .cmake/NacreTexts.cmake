@@ -2,7 +2,7 @@
 #
 #     const std::vector<std::pair<std::string_view, std::string_view>>& FUNCTION();
 #
-# name and text of each, by name.
+# name and text of each, by name: "nacre:a.mtlx", so that no file of a user is taken for one.
 function(nacre_texts target folder function)
   file(GLOB files CONFIGURE_DEPENDS ${folder}/*.mtlx)
   list(SORT files)
@@ -11,7 +11,7 @@ function(nacre_texts target folder function)
   foreach(file IN LISTS files)
     file(READ ${file} text)
     get_filename_component(name ${file} NAME)
-    string(APPEND rows "      {\"${name}\", R\"mtlx(${text})mtlx\"},\n")
+    string(APPEND rows "      {\"nacre:${name}\", R\"mtlx(${text})mtlx\"},\n")
   endforeach()
   nacre_table(${target} ${function} "std::pair<std::string_view, std::string_view>" "" "${rows}")
 endfunction()

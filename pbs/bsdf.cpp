@@ -22,12 +22,10 @@ Color3 LobeBsdf::part_weight(std::size_t, Color3, const Throughput&) const { ret
 
 Color3 LobeBsdf::throughput(const View& view, Color3, Color3) const {
   if (lobe_->is_opaque()) return Color3(0.0f);
-  if (weight_.is_constant(0.0f)) return Color3(1.0f);
+  if (weight().is_constant(0.0f)) return Color3(1.0f);
   const Color3 lost = Color3(1.0f) - lobe_->throughput(view);
-  return saturate(Color3(1.0f) - product(Color3(weight_), lost));
+  return saturate(Color3(1.0f) - product(Color3(weight()), lost));
 }
-
-BsdfPtr LobeBsdf::with_parts(BsdfPtr, BsdfPtr) const { return with_lobe(lobe_); }
 
 BsdfPtr LobeBsdf::with_lobe(LobePtr lobe) const {
   return std::make_shared<LobeBsdf>(std::move(lobe), weight_, left_out_, origin_);
@@ -40,10 +38,9 @@ void LobeBsdf::report(const View& view, Color3) const {
 
 void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out, bool is_nothing) {
   Recorder& recorder = call.recorder();
-  const Float weight =
-      is_nothing ? Float(0.0f) : keep(recorder, clamp(call.number("weight"), 0.0f, 1e6f));
-  call.set(
-      std::make_shared<LobeBsdf>(std::move(lobe), weight, std::move(left_out), recorder.origin()));
+  const Float weight = keep(recorder, clamp(call.number("weight"), 0.0f, 1e6f));
+  call.set(std::make_shared<LobeBsdf>(std::move(lobe), weight, std::move(left_out),
+                                      recorder.origin(), is_nothing));
 }
 
 Color3 LayerBsdf::part_weight(std::size_t i, Color3 weight, const Throughput& passes) const {

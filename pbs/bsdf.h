@@ -50,8 +50,10 @@ class Bsdf : public Closure {
   /// What passes through to a layer underneath, in [0, 1], by what the parts let pass: 1
   /// for those that have nothing to do with it.
   virtual Color3 throughput(const View& view, Color3 first, Color3 second) const = 0;
-  /// The same of other parts; never asked of a leaf.
-  virtual BsdfPtr with_parts(BsdfPtr first, BsdfPtr second) const = 0;
+  /// The same of other parts; null for a leaf, which has none.
+  virtual BsdfPtr with_parts(BsdfPtr first, BsdfPtr second) const {
+    return (void)first, (void)second, nullptr;
+  }
   /// Whether nothing else of this node lies on part `i`.
   virtual bool is_uppermost(std::size_t i) const { return (void)i, true; }
   /// Adds to view.left_out and view.media, where they are not null, what of this node the kernels
@@ -65,21 +67,25 @@ class Bsdf : public Closure {
 /// A leaf: a lobe times a scalar weight in [0, 1], or more where the graph says so.
 class LobeBsdf final : public Bsdf {
  public:
-  /// `left_out` lists what the lobe does not model of its node; see View::left_out.
+  /// `left_out` lists what the lobe does not model of its node; see View::left_out. `is_nothing`:
+  /// as set_lobe.
   LobeBsdf(LobePtr lobe, Float weight, std::vector<std::string> left_out = {},
-           std::uint32_t origin = 0)
-      : lobe_(std::move(lobe)), weight_(weight), left_out_(std::move(left_out)), origin_(origin) {}
+           std::uint32_t origin = 0, bool is_nothing = false)
+      : lobe_(std::move(lobe)),
+        weight_(weight),
+        left_out_(std::move(left_out)),
+        origin_(origin),
+        is_nothing_(is_nothing) {}
   /// Never null.
   const LobePtr& lobe() const { return lobe_; }
-  /// What the node's own input says.
-  Float weight() const { return weight_; }
+  /// What the node's own input says; 0 where the lobe is nothing.
+  Float weight() const { return is_nothing_ ? Float(0.0f) : weight_; }
   /// As in WeightedLobe.
   std::uint32_t origin() const { return origin_; }
   const LobeBsdf* leaf() const override { return this; }
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
-  BsdfPtr with_parts(BsdfPtr first, BsdfPtr second) const override;
-  /// Another lobe, not null, in its place.
+  /// Another lobe, not null, in its place; it counts where the one before was nothing.
   BsdfPtr with_lobe(LobePtr lobe) const;
   void report(const View& view, Color3 weight) const override;
 
@@ -88,6 +94,7 @@ class LobeBsdf final : public Bsdf {
   Float weight_;
   std::vector<std::string> left_out_;
   std::uint32_t origin_;
+  bool is_nothing_;
 };
 
 /// Sets a node's output to its lobe, times its input "weight": in [0, 1e6]. `is_nothing`: it

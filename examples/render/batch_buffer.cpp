@@ -31,31 +31,13 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
       memory_((array_count + 5 * primvar_count) * LaneMemory::lane_bytes(capacity) +
               LaneMemory::rounded(state_bytes)) {
   ShadingBatch& b = batch;
-  for (Lanes3* lanes : {&b.P,
-                        &b.N,
-                        &b.Ng,
-                        &b.wo,
-                        &b.T,
-                        &b.B,
-                        &b.P_object,
-                        &b.N_object,
-                        &b.T_object,
-                        &b.B_object,
-                        &b.dPdu,
-                        &b.dPdv,
-                        &b.dPdx,
-                        &b.dPdy,
-                        &b.dPdx_object,
-                        &b.dPdy_object,
-                        &u,
-                        &wi,
-                        &rgb,
-                        &through,
-                        &sample.wi,
-                        &sample.weight,
-                        &value.value,
-                        &interior.absorption,
-                        &interior.scattering}) {
+  for (Lanes3* lanes : {&b.P,        &b.N,        &b.Ng,          &b.wo,          &b.T,    &b.B,
+                        &b.P_object, &b.N_object, &b.T_object,    &b.B_object,    &b.dPdu, &b.dPdv,
+                        &b.dPdx,     &b.dPdy,     &b.dPdx_object, &b.dPdy_object, &u,      &wi,
+                        &rgb,        &sample.wi,  &sample.weight, &value.value}) {
+    *lanes = memory_.lanes3(capacity);
+  }
+  for (Lanes3* lanes : {&through, &interior.absorption, &interior.scattering}) {
     *lanes = memory_.lanes3(capacity);
   }
   for (Lanes2* lanes : {&b.uv, &b.dUVdx, &b.dUVdy}) *lanes = memory_.lanes2(capacity);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "examples/render/fibre.h"
 #include "examples/render/shader.h"
 #include "examples/render/vec.h"
 
@@ -66,6 +67,7 @@ class BatchBuffer {
   ShadingBatch batch;
   std::vector<PrimvarLanes> primvars;  ///< Storage behind batch.primvars.
   std::vector<Pose> poses;             ///< Of the points, while they are filled in.
+  std::vector<FibrePoint> fibres;      ///< Likewise, of those on fibres.
   std::uint32_t* geometry_id;
   std::uint32_t* primitive_id;
   void* state;

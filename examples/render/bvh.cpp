@@ -133,6 +133,7 @@ struct Bvh::Embree {
   /// What a geometry of `scene` shows. Embree numbers them as they come.
   struct Shown {
     std::uint32_t mesh, instance;
+    bool is_fibre;
   };
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
@@ -153,12 +154,12 @@ struct Bvh::Embree {
 
   bool add(const Mesh& mesh, std::uint32_t number);
   void show(const Mesh& mesh, std::uint32_t number, RTCScene own);
-  Hit hit(const Scene& of_scene, const RTCRayHit& of) const;
+  Hit hit(const RTCRayHit& of) const;
 };
 
 bool Bvh::Embree::add(const Mesh& mesh, std::uint32_t number) {
   if (mesh.instances.empty()) {
-    shown.push_back({number, 0});
+    shown.push_back({number, 0, mesh.is_fibres()});
     return add_pieces(device, scene, mesh);
   }
   RTCScene own = rtcNewScene(device);
@@ -177,25 +178,23 @@ void Bvh::Embree::show(const Mesh& mesh, std::uint32_t number, RTCScene own) {
     const std::span<const Motion::Segment> segments =
         motion.is_still() ? std::span(&still, 1) : std::span(motion.segments());
     for (const Motion::Segment& segment : segments) {
-      shown.push_back({number, i});
+      shown.push_back({number, i, mesh.is_fibres()});
       add_instance(device, scene, own, mesh.visible_to, segment);
     }
   }
 }
 
-Hit Bvh::Embree::hit(const Scene& of_scene, const RTCRayHit& of) const {
+Hit Bvh::Embree::hit(const RTCRayHit& of) const {
   const RTCHit& h = of.hit;
   if (h.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const bool is_instance = h.instID[0] != RTC_INVALID_GEOMETRY_ID;
   const Shown& what = shown[is_instance ? h.instID[0] : h.geomID];
-  const Mesh& mesh = of_scene.meshes[what.mesh];
-  if (!mesh.is_fibres()) return {what.mesh, h.primID, h.u, h.v, of.ray.tfar, what.instance, {}};
-  const FibreSide side = fibre_side(mesh, mesh.triangles[h.primID], {h.Ng_x, h.Ng_y, h.Ng_z});
-  return {what.mesh, h.primID, std::clamp(h.u, 0.f, 1.f), 0.f, of.ray.tfar, what.instance, side};
+  if (!what.is_fibre) return {what.mesh, h.primID, h.u, h.v, of.ray.tfar, what.instance};
+  const Vec3 normal = normalize({h.Ng_x, h.Ng_y, h.Ng_z});
+  return {what.mesh, h.primID, std::clamp(h.u, 0.f, 1.f), 0.f, of.ray.tfar, what.instance, normal};
 }
 
-Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics)
-    : scene_(scene), embree_(std::make_unique<Embree>()) {
+Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_unique<Embree>()) {
   embree_->device = rtcNewDevice(nullptr);
   if (embree_->device != nullptr) {
     embree_->scene = rtcNewScene(embree_->device);
@@ -248,7 +247,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coheren
     }
     rtcIntersect1M(embree_->scene, &context, stream, static_cast<unsigned>(count),
                    sizeof(RTCRayHit));
-    for (std::size_t i = 0; i < count; ++i) hits[first + i] = embree_->hit(scene_, stream[i]);
+    for (std::size_t i = 0; i < count; ++i) hits[first + i] = embree_->hit(stream[i]);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <memory>
 #include <span>
 
-#include "examples/render/fibre.h"
 #include "examples/render/scene.h"
 #include "runtime/diagnostic.h"
 
@@ -25,7 +24,8 @@ struct Hit {
   float u = 0.f, v = 0.f;  ///< P = (1-u-v) p0 + u p1 + v p2.
   float distance = 0.f;
   std::uint32_t instance = 0;  ///< Of the mesh; 0 of one that is baked.
-  FibreSide side = {};         ///< Of a fibre; u is along it then, and v 0.
+  /// Of a fibre, unit, in the space of the mesh; u is along it then, and v 0.
+  Vec3 normal = {};
 
   bool missed() const { return mesh == none; }
 };
@@ -39,7 +39,7 @@ bool is_traceable(const Ray& ray);
 /// and one for each segment of it.
 class Bvh {
  public:
-  /// `scene` stays where it is, as it is. `ok` is false, with an error, when memory ran out.
+  /// Copies what it needs. `ok` is false, with an error, when memory ran out.
   Bvh(const Scene& scene, Diagnostics& diagnostics);
   ~Bvh();
   Bvh(const Bvh&) = delete;
@@ -55,7 +55,6 @@ class Bvh {
 
  private:
   struct Embree;
-  const Scene& scene_;
   std::unique_ptr<Embree> embree_;
 };
 

@@ -2,23 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "examples/render/scene_limits.h"
 
 namespace nacre::host {
 
 namespace {
-
-struct Axes {
-  Vec3 along, x, y;
-};
-
-Axes axes_of(const Mesh& mesh, const Triangle& piece) {
-  const Vec3 along = normalize(mesh.position[piece.v[1]] - mesh.position[piece.v[0]]);
-  const Vec3 x = perpendicular(along);
-  return {along, x, cross(along, x)};
-}
 
 bool is_usable(const Mesh& mesh, const Triangle& piece) {
   for (const std::uint32_t v : piece.v) {
@@ -31,21 +19,12 @@ bool is_usable(const Mesh& mesh, const Triangle& piece) {
 
 }  // namespace
 
-FibrePoint fibre_point(const Mesh& mesh, const Triangle& piece, float along,
-                       const FibreSide& side) {
-  const Axes axes = axes_of(mesh, piece);
-  const Vec3 centre = (1.f - along) * mesh.position[piece.v[0]] + along * mesh.position[piece.v[1]];
-  const float radius = (1.f - along) * mesh.radius[piece.v[0]] + along * mesh.radius[piece.v[1]];
-  const float across = std::sqrt(std::max(0.f, (1.f - side.tilt) * (1.f + side.tilt)));
-  const Vec3 normal = side.tilt * axes.along + (across * std::cos(side.turn)) * axes.x +
-                      (across * std::sin(side.turn)) * axes.y;
-  return {centre, axes.along, normal, radius};
-}
-
-FibreSide fibre_side(const Mesh& mesh, const Triangle& piece, Vec3 normal) {
-  const Axes axes = axes_of(mesh, piece);
-  const Vec3 n = normalize_or(normal, axes.x);
-  return {std::atan2(dot(n, axes.y), dot(n, axes.x)), std::clamp(dot(n, axes.along), -1.f, 1.f)};
+FibrePoint fibre_point(const Mesh& mesh, const Triangle& piece, float along, Vec3 normal) {
+  const Vec3 a = mesh.position[piece.v[0]], b = mesh.position[piece.v[1]];
+  return {.centre = (1.f - along) * a + along * b,
+          .axis = normalize(b - a),
+          .normal = normal,
+          .radius = (1.f - along) * mesh.radius[piece.v[0]] + along * mesh.radius[piece.v[1]]};
 }
 
 std::vector<Triangle> fibre_pieces(const std::vector<std::uint32_t>& counts) {

@@ -18,17 +18,9 @@ struct FibrePoint {
   Vec3 opposite() const { return centre - radius * normal; }
 };
 
-/// Where a normal of a fibre points: by its angle about the axis, and its part along the axis.
-struct FibreSide {
-  float turn = 0.f;  ///< Radians.
-  float tilt = 0.f;  ///< In [-1, 1].
-};
-
-/// `along` in [0, 1] from the first end of the piece to the second.
-FibrePoint fibre_point(const Mesh& mesh, const Triangle& piece, float along, const FibreSide& side);
-
-/// The side that a normal of any length is of; fibre_point() has the same frame.
-FibreSide fibre_side(const Mesh& mesh, const Triangle& piece, Vec3 normal);
+/// `along` in [0, 1] from the first end of the piece to the second; `normal`: unit, in the space of
+/// the mesh.
+FibrePoint fibre_point(const Mesh& mesh, const Triangle& piece, float along, Vec3 normal);
 
 /// Pieces of fibres through vertices as they follow each other, `counts` of them for each fibre.
 /// Fibres of one vertex have no piece.

@@ -176,9 +176,10 @@ class GltfReader {
 
   void add_light(const GltfValue& node, const GltfValue& source, const Motion& world) {
     if (!world.is_still()) {
-      dropped_.say("light-stands", node, "a light that moves stands where it is at first");
+      dropped_.say("light-stands", node,
+                   "a light that moves stands where it is as the shutter opens");
     }
-    if (const auto light = read_light(source, world.still())) scene_.lights.push_back(*light);
+    if (const auto light = read_light(source, world.at(0.f))) scene_.lights.push_back(*light);
   }
 
   /// The first perspective camera; glTF cameras look along -z with +y up.

@@ -59,28 +59,6 @@ int least_components(const std::string& semantic) {
   return semantic.starts_with("TEXCOORD_") ? 2 : 1;
 }
 
-template <class T>
-std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& order,
-                        std::size_t components = 1) {
-  std::vector<T> result;
-  if (values.empty()) return result;
-  result.reserve(order.size() * components);
-  for (const std::uint32_t v : order) {
-    for (std::size_t c = 0; c < components; ++c) result.push_back(values[v * components + c]);
-  }
-  return result;
-}
-
-void take_order(Mesh& mesh, const std::vector<std::uint32_t>& order) {
-  mesh.position = gathered(mesh.position, order);
-  mesh.uv = gathered(mesh.uv, order);
-  mesh.normal.clear();
-  mesh.tangent.clear();
-  for (Primvar& primvar : mesh.primvars) {
-    primvar.values = gathered(primvar.values, order, static_cast<std::size_t>(primvar.components));
-  }
-}
-
 }  // namespace
 
 bool GltfPrimitives::read(const GltfValue& primitive, Mesh& mesh) {
@@ -209,6 +187,8 @@ bool GltfPrimitives::read_lines(const GltfValue& primitive, std::size_t mode,
   for (const Attribute& attribute : list) read_attribute(attribute, mesh);
   const std::uint32_t length = mode == mode_lines ? 2u : static_cast<std::uint32_t>(order.size());
   mesh.triangles = fibre_pieces(std::vector<std::uint32_t>(order.size() / length, length));
+  mesh.normal.clear();
+  mesh.tangent.clear();
   take_order(mesh, order);
   const auto radius = std::ranges::find(mesh.primvars, "RADIUS", &Primvar::name);
   if (radius->components != 1) {

@@ -7,7 +7,7 @@ namespace nacre::host {
 /// Light as a point sees it.
 struct LightLanes {
   Lanes3 intensity;           ///< rgb: irradiance across the direction.
-  Lanes3 direction;           ///< World, unit, from the point to the light; 0: there is none.
+  Lanes3 direction;           ///< World, from the point to the light; 0: there is none.
   float* distance = nullptr;  ///< To the light; infinite where it is nowhere.
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
 #include <utility>
 
 #include "examples/render/scene_limits.h"
@@ -57,31 +56,13 @@ void make_normals(Mesh& mesh) {
   }
 }
 
-template <class T>
-std::vector<T> at_corners(const std::vector<T>& values, const std::vector<Triangle>& triangles,
-                          std::size_t components = 1) {
-  std::vector<T> result;
-  if (values.empty()) return result;
-  result.reserve(3 * triangles.size() * components);
-  for (const Triangle& t : triangles) {
-    for (const std::uint32_t v : t.v) {
-      for (std::size_t c = 0; c < components; ++c) result.push_back(values[v * components + c]);
-    }
-  }
-  return result;
-}
-
 /// Gives each triangle vertices of its own, and them its normal.
 void make_flat(Mesh& mesh) {
-  mesh.position = at_corners(mesh.position, mesh.triangles);
-  mesh.position_object = at_corners(mesh.position_object, mesh.triangles);
-  mesh.uv = at_corners(mesh.uv, mesh.triangles);
-  mesh.tangent = at_corners(mesh.tangent, mesh.triangles);
-  for (Primvar& primvar : mesh.primvars) {
-    primvar.values =
-        at_corners(primvar.values, mesh.triangles, static_cast<std::size_t>(primvar.components));
-  }
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.v, t.v + 3);
   mesh.normal.clear();
+  take_order(mesh, corners);
   mesh.normal.reserve(mesh.position.size());
   std::uint32_t next = 0;
   for (Triangle& t : mesh.triangles) {
@@ -196,6 +177,17 @@ bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnosti
   return true;
 }
 
+void take_order(Mesh& mesh, const std::vector<std::uint32_t>& order) {
+  mesh.position = gathered(mesh.position, order);
+  mesh.position_object = gathered(mesh.position_object, order);
+  mesh.normal = gathered(mesh.normal, order);
+  mesh.tangent = gathered(mesh.tangent, order);
+  mesh.uv = gathered(mesh.uv, order);
+  for (Primvar& primvar : mesh.primvars) {
+    primvar.values = gathered(primvar.values, order, static_cast<std::size_t>(primvar.components));
+  }
+}
+
 void bake_transform(Mesh& mesh, const Affine& object_to_world) {
   const Affine world_to_object = inverse(object_to_world);
   mesh.object_to_world = object_to_world;
@@ -233,18 +225,28 @@ bool surface_derivatives(const Mesh& mesh, const Triangle& triangle, Vec3& dPdu,
 
 bool is_closed(const Mesh& mesh) {
   if (mesh.is_fibres()) return false;
-  using Point = std::array<float, 3>;
-  std::map<std::pair<Point, Point>, int> open;  // How often one way more than the other.
+  struct Edge {
+    std::array<float, 6> ends;  ///< The lesser one first.
+    int way;                    ///< 1 from there, -1 to there.
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
     for (int c = 0; c < 3; ++c) {
       const Vec3 p = mesh.position[t.v[c]], q = mesh.position[t.v[(c + 1) % 3]];
-      const Point a{p.x, p.y, p.z}, b{q.x, q.y, q.z};
-      if (a == b) continue;
-      const bool forth = a < b;
-      open[forth ? std::pair(a, b) : std::pair(b, a)] += forth ? 1 : -1;
+      const std::array<float, 6> forth{p.x, p.y, p.z, q.x, q.y, q.z};
+      const std::array<float, 6> back{q.x, q.y, q.z, p.x, p.y, p.z};
+      if (forth != back) edges.push_back(forth < back ? Edge{forth, 1} : Edge{back, -1});
     }
   }
-  return std::ranges::all_of(open, [](const auto& edge) { return edge.second == 0; });
+  std::ranges::sort(edges, {}, &Edge::ends);
+  for (std::size_t i = 0; i < edges.size();) {
+    int sum = 0;
+    const std::array<float, 6> ends = edges[i].ends;
+    for (; i < edges.size() && edges[i].ends == ends; ++i) sum += edges[i].way;
+    if (sum != 0) return false;
+  }
+  return true;
 }
 
 Bounds vertex_bounds(const Mesh& mesh) {

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <cstdint>
+#include <vector>
 
 #include "examples/render/scene.h"
 #include "runtime/diagnostic.h"
@@ -37,6 +38,23 @@ void bake_transform(Mesh& mesh, const Affine& object_to_world);
 /// The derivatives of position by uv over a triangle. False, and zeros, when
 /// its uv map has no area.
 bool surface_derivatives(const Mesh& mesh, const Triangle& triangle, Vec3& dPdu, Vec3& dPdv);
+
+/// Elements of a vertex array in that order; of none none.
+template <class T>
+std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& order,
+                        std::size_t components = 1) {
+  std::vector<T> result;
+  if (values.empty()) return result;
+  result.reserve(order.size() * components);
+  for (const std::uint32_t v : order) {
+    for (std::size_t c = 0; c < components; ++c) result.push_back(values[v * components + c]);
+  }
+  return result;
+}
+
+/// Gives each number of `order` a vertex of its own; what uses vertices is the caller's to
+/// renumber.
+void take_order(Mesh& mesh, const std::vector<std::uint32_t>& order);
 
 /// Whether triangles bound a solid: each edge is that of two, by where its ends are, which run
 /// along it in opposite directions. What enters by one leaves by another.

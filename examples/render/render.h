@@ -33,7 +33,7 @@ struct RenderSettings {
   int width = 512, height = 512;
   int samples = 16;            ///< Per pixel.
   int max_depth = 8;           ///< Scattering events on a path; 0: emission only.
-  int max_scatterings = 2048;  ///< Within media, on a path.
+  int max_scatterings = 2048;  ///< Within media, on a path; Russian roulette is on from the first.
   int roulette_depth = 4;    ///< Scattering events before Russian roulette; above max_depth: never.
   int max_transparent = 64;  ///< Surfaces that one path or shadow ray passes through.
   int threads = 0;           ///< 0: as many as the machine has.
@@ -81,6 +81,7 @@ struct RenderStatistics {
   std::uint64_t shadow_rays = 0;
   /// Kernel results that were not finite, and were dropped. Not 0: a bug in a shader.
   std::uint64_t invalid_results = 0;
+  std::uint64_t media_dropped = 0;  ///< Of paths that were inside of more than Media holds.
   std::uint64_t paths_cut = 0;  ///< That were scattered more often in media than max_scatterings.
   /// Seconds, summed over threads, within Shader calls and within Embree.
   double shading_seconds = 0, tracing_seconds = 0;

@@ -17,18 +17,18 @@ T interpolate(const std::vector<T>& values, const Triangle& t, float u, float v)
 }
 
 Vec3 shading_normal(const Mesh& mesh, const Triangle& t, const SurfacePoint& p, Vec3 ng) {
-  if (mesh.is_fibres()) return ng;
+  if (mesh.is_fibres()) return p.normal;
   return normalize_or(interpolate(mesh.normal, t, p.u, p.v), ng);
 }
 
 Vec3 own_normal(const Mesh& mesh, const Triangle& t, const SurfacePoint& p) {
-  if (mesh.is_fibres()) return fibre_point(mesh, t, p.u, p.side).normal;
+  if (mesh.is_fibres()) return p.normal;
   const Vec3 a = mesh.position[t.v[0]];
   return normalize(cross(mesh.position[t.v[1]] - a, mesh.position[t.v[2]] - a));
 }
 
 Vec3 own_position(const Mesh& mesh, const Triangle& t, const SurfacePoint& p) {
-  if (mesh.is_fibres()) return fibre_point(mesh, t, p.u, p.side).position();
+  if (mesh.is_fibres()) return fibre_point(mesh, t, p.u, p.normal).position();
   return interpolate(mesh.position, t, p.u, p.v);
 }
 
@@ -117,6 +117,23 @@ void SurfaceGeometry::find_poses(std::span<const SurfacePoint> points, BatchBuff
   }
 }
 
+/// And where light that goes straight through each comes out.
+void SurfaceGeometry::find_fibres(std::span<const SurfacePoint> points, BatchBuffer& buffer) const {
+  buffer.fibres.resize(buffer.capacity());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SurfacePoint& p = points[i];
+    const Mesh& mesh = scene_.meshes[p.mesh];
+    Vec3 way;
+    if (mesh.is_fibres()) {
+      FibrePoint& at = buffer.fibres[i];
+      at = fibre_point(mesh, mesh.triangles[p.triangle], p.u, p.normal);
+      way = at.opposite() - at.position();
+      if (!mesh.instances.empty()) way = transform_vector(pose(p, i, buffer).to_world, way);
+    }
+    store(buffer.through, i, way);
+  }
+}
+
 const Pose& SurfaceGeometry::pose(const SurfacePoint& p, std::size_t i,
                                   const BatchBuffer& buffer) const {
   return scene_.meshes[p.mesh].instances.empty() ? baked_[p.mesh] : buffer.poses[i];
@@ -130,8 +147,8 @@ void SurfaceGeometry::fill(std::span<const SurfacePoint> points, const Capabilit
   const std::uint32_t wanted = needs.attributes;
   const bool object_space = (wanted & attribute_object_space) != 0;
   if (has_instances_) find_poses(points, buffer);
+  if (has_fibres_) find_fibres(points, buffer);
   fill_position(points, object_space, buffer);
-  if (has_fibres_) fill_through(points, buffer);
   if ((wanted & attribute_tangents) != 0) fill_tangents(points, object_space, buffer);
   constexpr std::uint32_t derivatives =
       attribute_surface_derivatives | attribute_footprint_position | attribute_footprint_uv;
@@ -150,7 +167,8 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
     const Triangle& t = mesh.triangles[p.triangle];
     Vec3 ng = own_normal(mesh, t, p);
     Vec3 n = shading_normal(mesh, t, p, ng);
-    const Vec3 own = own_position(mesh, t, p);
+    const Vec3 own =
+        mesh.is_fibres() ? buffer.fibres[i].position() : interpolate(mesh.position, t, p.u, p.v);
     Vec3 position = own;
     const Pose& pose = this->pose(p, i, buffer);
     if (!mesh.instances.empty()) {
@@ -172,22 +190,6 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
   }
 }
 
-/// From each point to where light that goes straight through its fibre comes out; 0 on surfaces.
-void SurfaceGeometry::fill_through(std::span<const SurfacePoint> points,
-                                   BatchBuffer& buffer) const {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const SurfacePoint& p = points[i];
-    const Mesh& mesh = scene_.meshes[p.mesh];
-    Vec3 way;
-    if (mesh.is_fibres()) {
-      const FibrePoint at = fibre_point(mesh, mesh.triangles[p.triangle], p.u, p.side);
-      way = at.opposite() - at.position();
-      if (!mesh.instances.empty()) way = transform_vector(pose(p, i, buffer).to_world, way);
-    }
-    store(buffer.through, i, way);
-  }
-}
-
 void SurfaceGeometry::fill_tangents(std::span<const SurfacePoint> points, bool object_space,
                                     BatchBuffer& buffer) const {
   ShadingBatch& b = buffer.batch;
@@ -198,7 +200,7 @@ void SurfaceGeometry::fill_tangents(std::span<const SurfacePoint> points, bool o
     const Vec3 n = load(b.N, i);
     Tangent own;
     if (mesh.is_fibres()) {
-      own = {fibre_point(mesh, t, p.u, p.side).axis, 1.f};
+      own = {buffer.fibres[i].axis, 1.f};
     } else {
       own = {(1.f - p.u - p.v) * mesh.tangent[t.v[0]].direction +
                  p.u * mesh.tangent[t.v[1]].direction + p.v * mesh.tangent[t.v[2]].direction,

@@ -6,7 +6,6 @@
 
 #include "examples/render/batch_buffer.h"
 #include "examples/render/camera.h"
-#include "examples/render/fibre.h"
 #include "examples/render/scene.h"
 #include "examples/render/shader.h"
 
@@ -24,7 +23,7 @@ struct SurfacePoint {
   float width = 0.f;
   std::uint32_t instance = 0;  ///< As Hit.
   float time = 0.f;            ///< As Ray.
-  FibreSide side = {};         ///< As Hit.
+  Vec3 normal = {};            ///< As Hit.
 };
 
 /// World position, by interpolation, so that offset_point() may be used on it.
@@ -58,7 +57,6 @@ class SurfaceGeometry {
 
  private:
   void fill_position(std::span<const SurfacePoint>, bool object_space, BatchBuffer&) const;
-  void fill_through(std::span<const SurfacePoint>, BatchBuffer&) const;
   void fill_tangents(std::span<const SurfacePoint>, bool object_space, BatchBuffer&) const;
   void fill_derivatives(std::span<const SurfacePoint>, std::uint32_t attributes, const PixelCamera&,
                         BatchBuffer&) const;
@@ -66,6 +64,7 @@ class SurfaceGeometry {
   void fill_matrices(std::span<const SurfacePoint>, std::uint32_t entries, BatchBuffer&) const;
 
   void fill_times(std::span<const SurfacePoint>, BatchBuffer&) const;
+  void find_fibres(std::span<const SurfacePoint>, BatchBuffer&) const;
   void find_poses(std::span<const SurfacePoint>, BatchBuffer&) const;
   const Pose& pose(const SurfacePoint&, std::size_t i, const BatchBuffer&) const;
 

@@ -127,7 +127,7 @@ SurfacePoint Wavefront::surface_point(std::uint32_t i) const {
           path.width + path.spread * distance,
           hit.instance,
           path.ray.time,
-          hit.side};
+          hit.normal};
 }
 
 Vec3 leave(const BatchBuffer& buffer, std::size_t lane, Vec3 direction) {

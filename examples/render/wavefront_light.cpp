@@ -105,11 +105,10 @@ void Wavefront::light_points(const LightShader& light, std::span<const std::uint
   }
   const float pdf = context_.point_chance / static_cast<float>(context_.point_lights.size());
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
-    const Vec3 direction = load(seen.direction, lane);
+    const Vec3 direction = normalize_or(load(seen.direction, lane), {});
     const Vec3 intensity = load(seen.intensity, lane);
-    const float squared = dot(direction, direction);
     // A point that is the light has no direction to it.
-    if (!(squared > 0.9f && squared < 1.1f) || is_zero(intensity)) continue;
+    if (is_zero(direction) || is_zero(intensity)) continue;
     const float distance = seen.distance[lane];
     const bool infinite = !(distance < largest_coordinate);
     const Vec3 target = load(buffer_.batch.P, lane) + (infinite ? 0.f : distance) * direction;

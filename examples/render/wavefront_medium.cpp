@@ -52,6 +52,12 @@ bool Wavefront::scatter_inside(Path& path, const Medium& medium, float distance)
   return true;
 }
 
+/// Whether the sample of any lane goes through its surface.
+bool Wavefront::any_crosses(std::size_t lanes) const {
+  return std::any_of(buffer_.sample.flags, buffer_.sample.flags + lanes,
+                     [](std::uint32_t flags) { return (flags & sample_transmitted) != 0; });
+}
+
 /// As the sample of a lane goes through a surface: into what it encloses, or out. Through a fibre
 /// light has gone already.
 void Wavefront::change_medium(Path& path, const Hit& hit, std::size_t lane) {
@@ -62,7 +68,9 @@ void Wavefront::change_medium(Path& path, const Hit& hit, std::size_t lane) {
   const Medium medium{load(buffer_.interior.absorption, lane),
                       load(buffer_.interior.scattering, lane),
                       std::clamp(buffer_.interior.anisotropy[lane], -0.999f, 0.999f)};
-  if (!medium.is_empty()) path.media.enter(hit.mesh, hit.instance, medium);
+  if (!medium.is_empty() && !path.media.enter(hit.mesh, hit.instance, medium)) {
+    ++statistics_.media_dropped;
+  }
 }
 
 }  // namespace nacre::host

@@ -117,7 +117,7 @@ SurfacePoint Wavefront::shadow_point(std::size_t i) const {
   const Hit& hit = ray_hits_[i];
   const Ray& ray = shadows_[i].ray;
   return {hit.mesh, hit.triangle, hit.u,        hit.v,    -ray.direction, false,
-          0.f,      0.f,          hit.instance, ray.time, hit.side};
+          0.f,      0.f,          hit.instance, ray.time, hit.normal};
 }
 
 void Wavefront::attenuate(const Material& material, std::span<const std::uint32_t> shadows) {

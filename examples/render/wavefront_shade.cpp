@@ -4,8 +4,6 @@
 
 namespace nacre::host {
 
-namespace {}  // namespace
-
 float scattered_spread(float pdf) {
   return std::min(0.25f, 0.25f / std::sqrt(std::max(pdf, 1e-8f)));
 }
@@ -98,7 +96,7 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
   {
     const Stopwatch watch(statistics_.shading_seconds);
     material.shader->sample(buffer_.batch, buffer_.state, buffer_.u, buffer_.sample);
-    if (material.capabilities.has_interior) {
+    if (material.capabilities.has_interior && any_crosses(paths.size())) {
       material.shader->interior(buffer_.batch, buffer_.interior);
     }
   }

@@ -15,11 +15,6 @@ float* component(const host::Lanes3& lanes, int i) {
   return i == 0 ? lanes.x : i == 1 ? lanes.y : lanes.z;
 }
 
-/// "direction.x" of "L.direction.x".
-std::string_view own_name(const std::string& channel, const std::string& light) {
-  return std::string_view(channel).substr(light.size() + 1);
-}
-
 }  // namespace
 
 bool has_place(const Program& light) {
@@ -42,34 +37,50 @@ std::unique_ptr<KernelLight> KernelLight::create(std::unique_ptr<OutputKernel> k
   return std::unique_ptr<KernelLight>(new KernelLight(std::move(kernel), stop));
 }
 
-void KernelLight::light(const host::ShadingBatch& batch, host::LightLanes out) const {
+KernelLight::KernelLight(std::unique_ptr<OutputKernel> kernel, RenderStop& stop)
+    : kernel_(std::move(kernel)), stop_(stop) {
   const Program& program = kernel_->kernel.program();
-  const std::string& name = kernel_->outputs.front().name;
-  std::vector<const void*> inputs;
   for (const Channel& channel : program.inputs) {
-    const auto [group, i] = parse_channel(channel.name);
-    inputs.push_back(group == "P"      ? component(batch.P, i)
-                     : group == "time" ? batch.times
-                                       : batch.frames);
+    const auto parsed = parse_channel(channel.name);
+    const int i = parsed.component;
+    if (parsed.group == "P") {
+      inputs_.emplace_back([i](const host::ShadingBatch& batch) { return component(batch.P, i); });
+    } else {
+      const auto lanes =
+          parsed.group == "time" ? &host::ShadingBatch::times : &host::ShadingBatch::frames;
+      inputs_.emplace_back([lanes](const host::ShadingBatch& batch) { return batch.*lanes; });
+    }
   }
-  for (std::uint32_t i = 0; i < batch.count; ++i) out.distance[i] = INFINITY;
-  std::vector<void*> outputs;
+  const std::size_t own = kernel_->outputs.front().name.size() + 1;  // "L." of "L.direction.x".
   for (const Channel& channel : program.outputs) {
-    const auto [group, i] = parse_channel(own_name(channel.name, name));
-    outputs.push_back(group == "intensity"   ? component(out.intensity, i)
-                      : group == "direction" ? component(out.direction, i)
-                                             : out.distance);
+    const auto parsed = parse_channel(std::string_view(channel.name).substr(own));
+    const int i = parsed.component;
+    if (parsed.group == "distance") {
+      outputs_.emplace_back([](const host::LightLanes& out) { return out.distance; });
+      continue;
+    }
+    const auto lanes =
+        parsed.group == "intensity" ? &host::LightLanes::intensity : &host::LightLanes::direction;
+    outputs_.emplace_back(
+        [lanes, i](const host::LightLanes& out) { return component(out.*lanes, i); });
   }
+  time_ = kernel_->kernel.parameter_index("time");
+  frame_ = kernel_->kernel.parameter_index("frame");
+}
+
+void KernelLight::light(const host::ShadingBatch& batch, host::LightLanes out) const {
+  std::vector<const void*> inputs;
+  for (const auto& input : inputs_) inputs.push_back(input(batch));
+  std::vector<void*> outputs;
+  for (const auto& output : outputs_) outputs.push_back(output(out));
+  std::fill_n(out.distance, batch.count, INFINITY);  // Of lights that are nowhere it is no channel.
   std::vector<std::uint32_t> parameters = kernel_->kernel.parameters();
-  if (const auto slot = kernel_->kernel.parameter_index("time")) {
-    parameters[*slot] = std::bit_cast<std::uint32_t>(batch.time);
-  }
-  if (const auto slot = kernel_->kernel.parameter_index("frame")) {
-    parameters[*slot] = std::bit_cast<std::uint32_t>(batch.frame);
-  }
+  if (time_) parameters[*time_] = std::bit_cast<std::uint32_t>(batch.time);
+  if (frame_) parameters[*frame_] = std::bit_cast<std::uint32_t>(batch.frame);
   const RunStatus status =
       kernel_->kernel.run(inputs, outputs, batch.count, parameters, &stop_.flag());
   if (status == RunStatus::done) return;
+  // As KernelShader: there will be no image.
   for (void* output : outputs) std::memset(output, 0, batch.count * sizeof(float));
   if (status == RunStatus::stopped) return;
   failed_ = true;

@@ -20,13 +20,17 @@ class KernelLight final : public host::LightShader {
   void light(const host::ShadingBatch& batch, host::LightLanes out) const override;
   /// Whether its kernel took too many steps.
   bool has_failed() const { return failed_; }
+  const OutputKernel& kernel() const { return *kernel_; }
 
  private:
-  KernelLight(std::unique_ptr<OutputKernel> kernel, RenderStop& stop)
-      : kernel_(std::move(kernel)), stop_(stop) {}
+  KernelLight(std::unique_ptr<OutputKernel> kernel, RenderStop& stop);
 
   std::unique_ptr<OutputKernel> kernel_;
   RenderStop& stop_;
+  /// Where its channels are found, in their order.
+  std::vector<std::function<const void*(const host::ShadingBatch&)>> inputs_;
+  std::vector<std::function<void*(const host::LightLanes&)>> outputs_;
+  std::optional<std::size_t> time_, frame_;  ///< Slots of the parameter block.
   mutable std::atomic<bool> failed_ = false;
 };
 

@@ -143,8 +143,7 @@ bool is_of_material(const Opened& opened, const Element& light) {
 
 /// Light shaders of the document that stand somewhere by themselves: those that have a direction.
 bool compile_lights(const RenderOptions& options, const Opened& opened, RenderStop& stop,
-                    std::vector<std::unique_ptr<host::LightShader>>& lights,
-                    Diagnostics& diagnostics) {
+                    std::vector<std::unique_ptr<KernelLight>>& lights, Diagnostics& diagnostics) {
   for (const Element& element : opened.document->root().children()) {
     if (!is_node(element) || element.attribute("type") != "lightshader") continue;
     ShaderOptions shader = options.common.shader_options();
@@ -168,9 +167,17 @@ bool compile_lights(const RenderOptions& options, const Opened& opened, RenderSt
   return true;
 }
 
-/// Says of which materials a kernel took too many steps.
+/// Says of which materials and lights a kernel took too many steps.
 void report_failed(const Opened& opened, const std::vector<MeshAssignment>& assignments,
-                   const Shaders& shaders, Diagnostics& diagnostics) {
+                   const Shaders& shaders, const std::vector<std::unique_ptr<KernelLight>>& lights,
+                   Diagnostics& diagnostics) {
+  for (const auto& light : lights) {
+    const OutputKernel::Output& output = light->kernel().outputs.front();
+    if (!light->has_failed()) continue;
+    diagnostics.error("too-many-steps", output.where,
+                      "light '" + output.name +
+                          "' takes too many steps for a point, or a loop of it does not end");
+  }
   std::set<std::string> said;
   for (const MeshAssignment& assignment : assignments) {
     const auto found = shaders.find(assignment.key());
@@ -185,8 +192,11 @@ void report_failed(const Opened& opened, const std::vector<MeshAssignment>& assi
 }
 
 /// What a render calls.
-std::vector<const BoundKernel*> kernels_of(const Shaders& shaders, const KernelShader& neutral) {
+std::vector<const BoundKernel*> kernels_of(
+    const Shaders& shaders, const KernelShader& neutral,
+    const std::vector<std::unique_ptr<KernelLight>>& lights) {
   std::vector<const BoundKernel*> kernels = neutral.kernels();
+  for (const auto& light : lights) kernels.push_back(&light->kernel().kernel);
   for (const auto& [key, both] : shaders) {
     for (const KernelShader* shader : both.all()) {
       const std::vector<const BoundKernel*> more = shader->kernels();
@@ -226,11 +236,18 @@ void report_invalid_results(const host::RenderStatistics& statistics, Diagnostic
                       fmt::format("{} that were not", statistics.invalid_results));
 }
 
-void report_cut_paths(const host::RenderStatistics& statistics, Diagnostics& diagnostics) {
-  if (statistics.paths_cut == 0) return;
-  diagnostics.warning("paths-cut", {}, "some light was scattered too often in media and is missing",
-                      "more --max-scatterings",
-                      fmt::format("{} of {} paths", statistics.paths_cut, statistics.paths));
+/// What was left out of media.
+void report_media(const host::RenderStatistics& statistics, Diagnostics& diagnostics) {
+  if (statistics.paths_cut != 0) {
+    diagnostics.warning("paths-cut", {},
+                        "some light was scattered too often in media and is missing",
+                        "more --max-scatterings",
+                        fmt::format("{} of {} paths", statistics.paths_cut, statistics.paths));
+  }
+  if (statistics.media_dropped != 0) {
+    diagnostics.warning("media-dropped", {}, "some media lie in too many others and were left out",
+                        "4 within one another", fmt::format("{} times", statistics.media_dropped));
+  }
 }
 
 int run(RenderOptions& options) {
@@ -269,17 +286,16 @@ int run(RenderOptions& options) {
       !compile_shaders(options, opened, world, assignments, stop, shaders, diagnostics)) {
     return report(diagnostics);
   }
-  std::vector<std::unique_ptr<host::LightShader>> lights;
+  std::vector<std::unique_ptr<KernelLight>> lights;
   if (!compile_lights(options, opened, stop, lights, diagnostics)) return report(diagnostics);
-  for (const host::PunctualLight& light : world.lights) {
-    lights.push_back(std::make_unique<host::PunctualShader>(light));
-  }
   for (const auto& light : lights) input.lights.push_back(light.get());
+  const std::vector<host::PunctualShader> scene_lights(world.lights.begin(), world.lights.end());
+  for (const host::PunctualShader& light : scene_lights) input.lights.push_back(&light);
   auto grey = neutral_material(*opened.system, options.common.shader_options(), diagnostics);
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
-  const std::vector<const BoundKernel*> kernels = kernels_of(shaders, neutral);
+  const std::vector<const BoundKernel*> kernels = kernels_of(shaders, neutral, lights);
 
   stop.follow(tool::stop().token());
   ProgressLine line("render", options.common.quiet);
@@ -293,8 +309,8 @@ int run(RenderOptions& options) {
   host::RenderStatistics statistics;
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
   report_invalid_results(statistics, diagnostics);
-  report_cut_paths(statistics, diagnostics);
-  report_failed(opened, assignments, shaders, diagnostics);
+  report_media(statistics, diagnostics);
+  report_failed(opened, assignments, shaders, lights, diagnostics);
   for (const BoundKernel* kernel : kernels) {
     report_code(*kernel, options.common.shader_options(), diagnostics);
   }

@@ -40,7 +40,7 @@ std::string standard_folder(const Definitions& library) {
   return {};
 }
 
-/// Whether a file is one of pbs/library, which have no folder.
+/// Whether a file is one of pbs/library.
 bool is_own(const std::string& file) {
   return std::ranges::any_of(own_library(), [&](const auto& text) { return text.first == file; });
 }

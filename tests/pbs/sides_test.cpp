@@ -13,7 +13,6 @@ class NoBsdf final : public Bsdf {
     return weight;
   }
   Color3 throughput(const View&, Color3, Color3) const override { return Color3(1.0f); }
-  BsdfPtr with_parts(BsdfPtr, BsdfPtr) const override { return std::make_shared<NoBsdf>(); }
 };
 
 SurfacePtr surface(bool scatters, bool thin) {

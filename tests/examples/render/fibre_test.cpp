@@ -201,7 +201,7 @@ TEST_F(Fibre, RaysMeetACylinder) {
       const float z = std::sqrt(r * r - x * x);
       EXPECT_NEAR(hit.distance, 5.f - z, 1e-4f);
       const SurfacePoint point{hit.mesh, hit.triangle, hit.u, hit.v, {0, 0, 1}, false,
-                               0.f,      0.f,          0,     0.f,   hit.side};
+                               0.f,      0.f,          0,     0.f,   hit.normal};
       expect_near(surface_position(scene, point), {x, y, z}, 1e-4f);
       expect_near(surface_normal(scene, point), {x / r, 0.f, z / r}, 2e-3f);
       geometry.fill({&point, 1}, needs, camera, buffer);

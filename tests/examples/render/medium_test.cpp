@@ -8,6 +8,7 @@
 
 #include "examples/render/builtin_scene.h"
 #include "examples/render/camera.h"
+#include "examples/render/mesh.h"
 #include "examples/render/render.h"
 #include "tests/examples/render/test_shaders.h"
 
@@ -106,6 +107,17 @@ TEST(Media, WhatEnclosesComesBack) {
   EXPECT_TRUE(media.empty());
   for (std::uint32_t i = 0; i < 4; ++i) EXPECT_TRUE(media.enter(i, 0, a));
   EXPECT_FALSE(media.enter(9, 0, a));
+}
+
+// By where vertices are: a sphere's seam has two for one place. And not by their number of edges.
+TEST(Solid, HasNoBorder) {
+  Mesh ball = make_sphere("ball", {}, 1.f, 12);
+  EXPECT_TRUE(is_closed(ball));
+  std::swap(ball.triangles[5].v[0], ball.triangles[5].v[1]);
+  EXPECT_FALSE(is_closed(ball));
+  std::swap(ball.triangles[5].v[0], ball.triangles[5].v[1]);
+  ball.triangles.pop_back();
+  EXPECT_FALSE(is_closed(ball));
 }
 
 /// A surface that does not bend light, full of something.

@@ -135,6 +135,38 @@ TEST(Punctual, ThrowsShadows) {
   EXPECT_EQ(lit(scene, {&grey, &grey}, light, Strategy::multiple_importance).pixels()[5].x, 0.f);
 }
 
+// A light of an animated node, at the moment that the shutter opens.
+TEST(Punctual, AMovingLightStandsWhereItIsAtFirst) {
+  TemporaryFolder folder;
+  std::string data = card_data();  // And two times, and two places.
+  append<float>(data, {0, 2, 0, 0, 3, 8, 0, 3});
+  folder.write("card.bin", data);
+  std::string text = spoiled_card(R"({"camera": 0, "translation": [0.5, 0.5, 3]})",
+                                  R"({"extensions": {"KHR_lights_punctual": {"light": 0}}})");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace(R"("byteLength": 204)", R"("byteLength": 236)");
+  replace(R"({"buffer": 0, "byteOffset": 140, "byteLength": 64}])",
+          R"({"buffer": 0, "byteOffset": 140, "byteLength": 64},
+             {"buffer": 0, "byteOffset": 204, "byteLength": 8},
+             {"buffer": 0, "byteOffset": 212, "byteLength": 24}])");
+  replace(R"("count": 4, "type": "VEC4"}])", R"("count": 4, "type": "VEC4"},
+      {"bufferView": 5, "componentType": 5126, "count": 2, "type": "SCALAR"},
+      {"bufferView": 6, "componentType": 5126, "count": 2, "type": "VEC3"}],
+    "animations": [{"samplers": [{"input": 5, "output": 6}],
+      "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}],
+    "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}})");
+  Diagnostics diagnostics;
+  const Scene scene =
+      load_scene(folder.write("a.gltf", text), {}, diagnostics, {.open = 0.5, .close = 1.5});
+  ASSERT_EQ(scene.lights.size(), 1u) << diagnostics.to_string();
+  EXPECT_FLOAT_EQ(scene.lights[0].position.x, 2.f);
+  EXPECT_FLOAT_EQ(scene.lights[0].position.z, 3.f);
+  ASSERT_EQ(diagnostics.all().size(), 1u) << diagnostics.to_string();
+  EXPECT_EQ(diagnostics.all()[0].code, "light-stands");
+}
+
 TEST(Punctual, GltfLightsAreRead) {
   TemporaryFolder folder;
   folder.write("card.bin", card_data());

@@ -53,6 +53,12 @@ TEST_F(Lights, ADirectionalOne) {
       <input name="intensity" type="float" value="3"/></directional_light>)");
   EXPECT_NEAR(light, 3 * 0.8 / pi, 1e-3);
   EXPECT_EQ(errors_, "");
+  // The data library takes the direction as it is; its length is no brightness.
+  EXPECT_NEAR(card(R"(<directional_light name="L" type="lightshader">
+      <input name="color" type="color3" value="1, 1, 1"/>
+      <input name="direction" type="vector3" value="0, 6, -8"/>
+      <input name="intensity" type="float" value="3"/></directional_light>)"),
+              3 * 0.8 / pi, 1e-3);
 }
 
 // The data library's text: intensity / (distance + 1)^decay_rate.

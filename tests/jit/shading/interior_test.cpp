@@ -61,7 +61,6 @@ TEST_F(Interior, OnlyWhereLightEnters) {
   EXPECT_TRUE(inside("open_pbr_surface", value_of("transmission_weight", "float", "1") +
                                              value_of("geometry_thin_walled", "boolean", "true"))
                   .empty());
-  options_.kernels.entries = entry_usual;
 }
 
 TEST_F(Interior, IsNotThereUnasked) {

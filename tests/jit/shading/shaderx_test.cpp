@@ -324,6 +324,23 @@ TEST_F(ShaderX, AFilmIsThatOfTheClosureBelow) {
   }
 }
 
+// An interface of index 1 is nothing, and a film on it is not.
+TEST_F(ShaderX, AFilmOnAnInterfaceOfNoIndexIsSeen) {
+  const std::string index =
+      value_of("ior", "float", "1") + value_of("roughness", "vector2", "0, 0");
+  const Colour today = albedo(node("dielectric_bsdf", "BSDF", "b",
+                                   index + value_of("thinfilm_thickness", "float", "400") +
+                                       value_of("thinfilm_ior", "float", "1.5")),
+                              0.5f);
+  EXPECT_GT(today[0], 0.01f);
+  EXPECT_EQ(albedo(node("dielectric_bsdf", "BSDF", "x", index) +
+                       node("thinfilmbsdf", "BSDF", "b",
+                            value_of("thickness", "float", "400") +
+                                value_of("ior", "float", "1.5") + from("base", "BSDF", "x")),
+                   0.5f),
+            today);
+}
+
 TEST_F(ShaderX, AFilmOverNothingThatHasFacetsIsSaid) {
   const auto kernels = material(node("diffusebrdf", "BSDF", "x", "") +
                                 node("thinfilmbsdf", "BSDF", "b", from("base", "BSDF", "x")));
