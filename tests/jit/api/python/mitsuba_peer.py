@@ -7,6 +7,7 @@ is left out: Mitsuba brings nothing back of what facets lose to several scatteri
 masking by shadowing. Densities, Fresnel's factors, and fibres are the same.
 """
 
+import importlib
 import pathlib
 import subprocess
 import sys
@@ -29,6 +30,7 @@ def import_mitsuba(folder: pathlib.Path):
         if subprocess.run(command, check=False).returncode != 0:
             print("skipped: Mitsuba cannot be had")
             sys.exit(SKIPPED)
+        importlib.invalidate_caches()  # The folder was not there when it was looked for.
         import mitsuba
     mitsuba.set_variant("scalar_rgb")
     return mitsuba
