@@ -28,19 +28,19 @@ Color3 LobeBsdf::throughput(const View& view, Color3, Color3) const {
 }
 
 BsdfPtr LobeBsdf::with_lobe(LobePtr lobe) const {
-  return std::make_shared<LobeBsdf>(std::move(lobe), weight_, left_out_, origin_);
+  return std::make_shared<LobeBsdf>(std::move(lobe), weight_, origin_);
 }
 
 void LobeBsdf::report(const View& view, Color3) const {
-  if (view.left_out == nullptr) return;
-  for (const std::string& line : left_out_) view.left_out->add(line);
+  if (view.left_out == nullptr || view.follows_subsurface || !lobe_->goes_below()) return;
+  view.left_out->add(std::string(lobe_->name()) +
+                     ": radius and anisotropy; light leaves where it enters");
 }
 
-void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out, bool is_nothing) {
+void set_lobe(NodeCall& call, LobePtr lobe, bool is_nothing) {
   Recorder& recorder = call.recorder();
   const Float weight = keep(recorder, clamp(call.number("weight"), 0.0f, 1e6f));
-  call.set(std::make_shared<LobeBsdf>(std::move(lobe), weight, std::move(left_out),
-                                      recorder.origin(), is_nothing));
+  call.set(std::make_shared<LobeBsdf>(std::move(lobe), weight, recorder.origin(), is_nothing));
 }
 
 Color3 LayerBsdf::part_weight(std::size_t i, Color3 weight, const Throughput& passes) const {

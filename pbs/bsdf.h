@@ -67,15 +67,9 @@ class Bsdf : public Closure {
 /// A leaf: a lobe times a scalar weight in [0, 1], or more where the graph says so.
 class LobeBsdf final : public Bsdf {
  public:
-  /// `left_out` lists what the lobe does not model of its node; see View::left_out. `is_nothing`:
-  /// as set_lobe.
-  LobeBsdf(LobePtr lobe, Float weight, std::vector<std::string> left_out = {},
-           std::uint32_t origin = 0, bool is_nothing = false)
-      : lobe_(std::move(lobe)),
-        weight_(weight),
-        left_out_(std::move(left_out)),
-        origin_(origin),
-        is_nothing_(is_nothing) {}
+  /// `is_nothing`: as set_lobe.
+  LobeBsdf(LobePtr lobe, Float weight, std::uint32_t origin = 0, bool is_nothing = false)
+      : lobe_(std::move(lobe)), weight_(weight), origin_(origin), is_nothing_(is_nothing) {}
   /// Never null.
   const LobePtr& lobe() const { return lobe_; }
   /// What the node's own input says; 0 where the lobe is nothing.
@@ -92,15 +86,13 @@ class LobeBsdf final : public Bsdf {
  private:
   LobePtr lobe_;
   Float weight_;
-  std::vector<std::string> left_out_;
   std::uint32_t origin_;
   bool is_nothing_;
 };
 
 /// Sets a node's output to its lobe, times its input "weight": in [0, 1e6]. `is_nothing`: it
 /// scatters nothing and lets all pass, whatever its weight.
-void set_lobe(NodeCall& call, LobePtr lobe, std::vector<std::string> left_out = {},
-              bool is_nothing = false);
+void set_lobe(NodeCall& call, LobePtr lobe, bool is_nothing = false);
 
 /// top over base: base is seen through what top lets pass. A medium behind top is the
 /// renderer's to trace, and left out.

@@ -57,6 +57,7 @@ class SurfaceRecorder {
              .accuracy = accuracy,
              .wo = view_direction(recorder),
              .thin_walled = surface.thin_walled,
+             .follows_subsurface = wants(entry_subsurface),
              .left_out = &left_out_,
              .media = wants(entry_interior) ? &media_ : nullptr,
              .unseen = &unseen_};
@@ -84,6 +85,7 @@ class SurfaceRecorder {
     if (wants(entry_emission)) record_emission();
     if (wants(entry_opacity)) record_opacity();
     if (wants(entry_interior)) record_interior();
+    if (wants(entry_subsurface)) record_subsurface();
     record_point();
     return std::move(kernels_);
   }
@@ -232,7 +234,8 @@ class SurfaceRecorder {
     const Bool crosses = (dot(ng, wi) < 0.0f) ^ (dot(ng, view_.wo) < 0.0f);
     const Int flags = select(valid, Int(sample_valid), Int(0)) |
                       select(delta, Int(sample_delta), Int(0)) |
-                      select(valid & crosses, Int(sample_transmission), Int(0));
+                      select(valid & crosses, Int(sample_transmission), Int(0)) |
+                      select(delta & goes_below(lobe), Int(sample_subsurface), Int(0));
     kernels_.sample = {
         {"wi.x", wi.x.ref()},      {"wi.y", wi.y.ref()},      {"wi.z", wi.z.ref()},
         {"weight.x", out.x.ref()}, {"weight.y", out.y.ref()}, {"weight.z", out.z.ref()},
@@ -247,6 +250,16 @@ class SurfaceRecorder {
           select(smooth, total.by_lobe[i] * Color3(inverse), select(mine, discrete, Color3(0.0f)));
       add_color(kernels_.sample, "weight.lobe" + std::to_string(i), part);
     }
+  }
+
+  /// Whether light of that lobe, where it is a delta, goes below the surface.
+  Bool goes_below(Int lobe) const {
+    Bool result = false;
+    if (!view_.follows_subsurface) return result;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (terms_[i].lobe->goes_below()) result = result | (lobe == Int(static_cast<int>(i)));
+    }
+    return result;
   }
 
   Color3 albedo() {
@@ -284,6 +297,35 @@ class SurfaceRecorder {
     add_color(kernels_.interior, "absorption", inside(medium.absorption));
     add_color(kernels_.interior, "scattering", inside(medium.scattering));
     kernels_.interior.push_back({"anisotropy", medium.anisotropy.ref()});
+  }
+
+  /// Of the lobe that the host names; of the first one where light goes below, if it names another.
+  void record_subsurface() {
+    if (surface_.thin_walled.is_constant(true)) return;
+    const ScopedOrigin origin(recorder_, "subsurface");
+    const Int asked(recorder_.input("of_lobe", Scalar::i32));
+    bool any = false;
+    Vdf medium;
+    Color3 albedo;
+    Float3 normal;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      const Lobe& lobe = *terms_[i].lobe;
+      if (!lobe.goes_below()) continue;
+      const Vdf below = lobe.medium_below();
+      const Bool mine = any ? asked == Int(static_cast<int>(i)) : Bool(true);
+      medium.absorption = select(mine, below.absorption, medium.absorption);
+      medium.scattering = select(mine, below.scattering, medium.scattering);
+      medium.anisotropy = select(mine, below.anisotropy, medium.anisotropy);
+      albedo = select(mine, lobe.albedo(view_), albedo);
+      normal = select(mine, facing(lobe.normal(view_), view_.wo), normal);
+      any = true;
+    }
+    if (!any) return;
+    add_color(kernels_.subsurface, "absorption", medium.absorption);
+    add_color(kernels_.subsurface, "scattering", medium.scattering);
+    kernels_.subsurface.push_back({"anisotropy", medium.anisotropy.ref()});
+    add_color(kernels_.subsurface, "albedo", albedo);
+    add_color(kernels_.subsurface, "normal", normal);
   }
 
   /// As denoisers like it: of what is seen, and of the shading normal where nothing is.

@@ -23,8 +23,9 @@ enum KernelEntry : std::uint32_t {
   entry_light = 1 << 10,
   entry_shade = 1 << 11,
   entry_interior = 1 << 12,
+  entry_subsurface = 1 << 13,
   /// What most renderers ask one after another.
-  entry_usual = ~std::uint32_t(entry_evaluate_at | entry_shade | entry_interior),
+  entry_usual = ~std::uint32_t(entry_evaluate_at | entry_shade | entry_interior | entry_subsurface),
 };
 
 /// What a host wants of a surface's kernels; only this is recorded.
@@ -72,13 +73,19 @@ bool is_point_result(std::string_view name);
 ///   interior  out: eta [, absorption.x .y .z, scattering.x .y .z, anisotropy]: the index over that
 ///             outside, and the medium where there is one, per unit of length; of several
 ///             interfaces the mean by how much is seen of each. Absent where light cannot enter
+///   subsurface  in: of_lobe (i32): what `sample` says with sample_subsurface
+///             out: absorption.x .y .z, scattering.x .y .z, anisotropy: what light is in below the
+///                  surface, per unit of length; albedo.x .y .z: the share that leaves again;
+///                  normal.x .y .z: unit, towards wo, to leave about. Absent where no light
+///                  goes below; asked for it, `evaluate` leaves that light out, and `sample`
+///                  sends it there
 ///   point     out: what KernelRequest::with_begin names; besides the above
 ///             normal.x .y .z          unit, towards wo: the lobes' mean, as `sample` picks them
 ///             roughness               [0, 1]: their mean
 struct SurfaceKernels {
   /// Channels as listed above.
   /// @{
-  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity, interior, point;
+  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity, interior, subsurface, point;
   /// @}
   /// One line for each thing that was left out, with the reason.
   std::vector<std::string> manifest;
@@ -97,6 +104,11 @@ enum SampleFlag : std::int32_t {
   /// what a ray along wi passes through, whatever normal it was shaded by (Veach 1997,
   /// "Robust Monte Carlo Methods", section 5.3).
   sample_transmission = 4,
+  /// Light goes on below the surface: along wi, drawn by its cosine to Ng, in the medium that the
+  /// kernel `subsurface` gives. Where it meets the surface again it leaves, as from paper: into all
+  /// directions of the outside by their cosine to the normal. With sample_delta, as no direction
+  /// outside leads there.
+  sample_subsurface = 8,
 };
 
 /// Records the kernels of `surface`. Everything in `surface` must have been

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string_view>
 
-#include "pbs/view.h"
+#include "pbs/vdf.h"
 
 namespace nacre {
 
@@ -99,6 +99,10 @@ class Lobe {
 
   /// Of refraction of the inside over the outside; null where light does not enter by it.
   virtual const Float* interior_index() const { return nullptr; }
+  /// Whether light may go on below the surface, where the host follows it.
+  virtual bool goes_below() const { return false; }
+  /// What it is in there. Recorded for a kernel of its own; only where goes_below().
+  virtual Vdf medium_below() const { return {}; }
 };
 
 }  // namespace nacre

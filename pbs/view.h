@@ -39,6 +39,9 @@ struct View {
   Accuracy accuracy = Accuracy::standard;  ///< What closures aim at.
   Float3 wo;                               ///< Unit, world space, from the point to the viewer.
   Bool thin_walled = false;                ///< Light that enters leaves at the same point.
+  /// Light that enters below the surface is the host's to follow (SurfaceKernels::subsurface); else
+  /// it leaves where it enters.
+  bool follows_subsurface = false;
   /// Where closures put down what of them the kernels leave out though it would change the
   /// picture; null: nowhere.
   LeftOut* left_out = nullptr;

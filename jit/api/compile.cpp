@@ -11,7 +11,7 @@ namespace {
 
 static_assert(entry_begin == 1u << NACRE_BEGIN && entry_evaluate_at == 1u << NACRE_EVALUATE_AT &&
               entry_opacity == 1u << NACRE_OPACITY && entry_shade == 1u << NACRE_SHADE &&
-              entry_interior == 1u << NACRE_INTERIOR);
+              entry_interior == 1u << NACRE_INTERIOR && entry_subsurface == 1u << NACRE_SUBSURFACE);
 
 GraphOptions graph_options(const nacre_compile_options& asked, const Document& document) {
   constexpr std::array preferences{Preference::body, Preference::graph, Preference::source};

@@ -154,6 +154,8 @@ struct MaterialKernels {
   /// Only if requested: what the surface encloses, see SurfaceKernels. Then the manifest does not
   /// say that its medium is left out.
   std::optional<BoundKernel> interior;
+  /// Only if requested: where light that goes below the surface is; likewise.
+  std::optional<BoundKernel> subsurface;
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
   std::vector<LobeInfo> lobes;        ///< The channel `lobe` of sample counts in this order.

@@ -288,8 +288,8 @@ void record_closure_chiang_hair_bsdf(NodeCall& call) {
     in.tilt_sine[way] = keep(recorder, sin(angle));
     in.tilt_cosine[way] = keep(recorder, cos(angle));
   }
-  call.set(std::make_shared<LobeBsdf>(std::make_shared<ChiangHair>(in), Float(1.0f),
-                                      std::vector<std::string>(), recorder.origin()));
+  call.set(
+      std::make_shared<LobeBsdf>(std::make_shared<ChiangHair>(in), Float(1.0f), recorder.origin()));
 }
 
 }  // namespace nacre

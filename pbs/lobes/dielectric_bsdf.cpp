@@ -48,7 +48,7 @@ void record_closure_dielectric_bsdf(NodeCall& call) {
   const std::string& mode = call.text("scatter_mode");
   // What open_pbr_surface makes of a specular_weight of 0.
   const bool is_nothing = mode == "R" && index.is_constant(1.0f) && !film.exists();
-  set_lobe(call, microfacet_lobe(recorder, mode, prepare_facets(call), fresnel, options), {},
+  set_lobe(call, microfacet_lobe(recorder, mode, prepare_facets(call), fresnel, options),
            is_nothing);
 }
 

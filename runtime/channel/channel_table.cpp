@@ -44,6 +44,7 @@ constexpr std::array groups = std::to_array<ChannelGroup>({
      "a geometric property by name; integers are i32, booleans b1"},
     {"u", direction, 3, f32, "[0, 1)", "independent random numbers that choose a direction"},
     {"wi", direction, 3, f32, unit_vector, "from the point to the light, world space"},
+    {"of_lobe", direction, 1, i32, "", "index of the lobe that is asked about: `lobe` of sample"},
     {"state", ChannelRole::state, 1, f32, "", "what begin stores of the point for other kernels"},
     {"f", result, 3, f32, "1/sr", "scattering function times |cos(wi)|"},
     {"f.lobe*", result, 3, f32, "1/sr", "what one lobe adds to f"},

@@ -76,7 +76,8 @@ void bind_shader(nb::module_& module) {
       .value("VOLUME", NACRE_VOLUME, "A medium's absorption, scattering, anisotropy, emission.")
       .value("LIGHT", NACRE_LIGHT, "Intensity and direction of a light.")
       .value("SHADE", NACRE_SHADE, "Point, wi and u at once, without a state.")
-      .value("INTERIOR", NACRE_INTERIOR, "Index and medium of what the surface encloses.");
+      .value("INTERIOR", NACRE_INTERIOR, "Index and medium of what the surface encloses.")
+      .value("SUBSURFACE", NACRE_SUBSURFACE, "Medium of light that goes below the surface.");
 
   nb::class_<Shader>(module, "Shader")
       .def(

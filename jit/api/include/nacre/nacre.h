@@ -118,18 +118,25 @@ typedef enum nacre_entry {
   NACRE_DISPLACEMENT = 8,
   NACRE_VOLUME = 9,
   NACRE_LIGHT = 10,
-  NACRE_SHADE = 11,    /* Point, wi and u at once, without a state: f and pdf of wi; as "next.wi",
-                          "next.weight", "next.pdf" the direction that u leads to. */
-  NACRE_INTERIOR = 12, /* What light that enters is in: eta over the outside; where there is a
-                          medium its absorption and scattering per unit of length, anisotropy. */
-  NACRE_ENTRY_COUNT = 13
+  NACRE_SHADE = 11,      /* Point, wi and u at once, without a state: f and pdf of wi; as "next.wi",
+                            "next.weight", "next.pdf" the direction that u leads to. */
+  NACRE_INTERIOR = 12,   /* What light that enters is in: eta over the outside; where there is a
+                            medium its absorption and scattering per unit of length, anisotropy. */
+  NACRE_SUBSURFACE = 13, /* What light is in below the surface; of_lobe: "lobe" of NACRE_SAMPLE:
+                            absorption and scattering per unit of length, anisotropy; the albedo,
+                            and the normal to leave about. Asked for, NACRE_EVALUATE leaves that
+                            light out and NACRE_SAMPLE sends it there. */
+  NACRE_ENTRY_COUNT = 14
 } nacre_entry;
 
 /* Bits of the channel `flags` of NACRE_SAMPLE. */
 enum {
-  NACRE_SAMPLE_VALID = 1,       /* Else weight and densities are 0. */
-  NACRE_SAMPLE_DELTA = 2,       /* pdf is a probability; NACRE_EVALUATE gives 0. */
-  NACRE_SAMPLE_TRANSMISSION = 4 /* wi and wo are on different sides, by Ng. */
+  NACRE_SAMPLE_VALID = 1,        /* Else weight and densities are 0. */
+  NACRE_SAMPLE_DELTA = 2,        /* pdf is a probability; NACRE_EVALUATE gives 0. */
+  NACRE_SAMPLE_TRANSMISSION = 4, /* wi and wo are on different sides, by Ng. */
+  /* Light goes on below the surface along wi, in the medium of NACRE_SUBSURFACE, and leaves where
+     it meets the surface again, by the cosine to the normal. With NACRE_SAMPLE_DELTA. */
+  NACRE_SAMPLE_SUBSURFACE = 8
 };
 
 /* Bits of nacre_compile_options::lobes. */
@@ -174,7 +181,7 @@ typedef struct nacre_compile_options {
                       behind rough bounces find no sharp lobes. */
   /* Bits 1 << nacre_entry of those that are compiled, for rays that ask no more: a shadow ray needs
      NACRE_OPACITY. NACRE_BEGIN comes with what reads its state. 0: all but NACRE_EVALUATE_AT,
-     NACRE_SHADE and NACRE_INTERIOR. */
+     NACRE_SHADE, NACRE_INTERIOR and NACRE_SUBSURFACE. */
   uint32_t entries;
   /* What NACRE_BEGIN and NACRE_SHADE also store, so that nothing of a point is computed twice:
      "albedo", "emission", "opacity" (and transmission), "normal", "roughness", or a value of the
