@@ -36,6 +36,10 @@ echo "== motion"
 "$nacre" render "$here/motion/motion.mtlx" --scene "$out/motion.gltf" --time 0.2 --shutter -0.1 0.1 \
   --spp "$spp" --size "$size" --out "$out/rendered/motion.png"
 
+echo "== displacement"
+"$nacre" render "$here/displacement/pebbles.mtlx" --spp "$spp" --size "$size" \
+  --out "$out/rendered/pebbles.png"
+
 echo "== lights"
 "$nacre" render "$here/lights/room.mtlx" --scene "$here/lights/room.obj" --spp "$spp" --size "$size" \
   --out "$out/rendered/lights.png"

@@ -10,7 +10,7 @@ namespace {
 
 /// Float arrays in a BatchBuffer besides its primvars, counted generously; an
 /// assert in take() would notice too few.
-constexpr std::size_t array_count = 128;
+constexpr std::size_t array_count = 160;
 
 }  // namespace
 
@@ -37,7 +37,9 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
                         &rgb,        &sample.wi,  &sample.weight, &value.value}) {
     *lanes = memory_.lanes3(capacity);
   }
-  for (Lanes3* lanes : {&through, &interior.absorption, &interior.scattering}) {
+  for (Lanes3* lanes :
+       {&through, &interior.absorption, &interior.scattering, &below.medium.absorption,
+        &below.medium.scattering, &below.albedo, &below.normal}) {
     *lanes = memory_.lanes3(capacity);
   }
   for (Lanes2* lanes : {&b.uv, &b.dUVdx, &b.dUVdy}) *lanes = memory_.lanes2(capacity);
@@ -46,8 +48,10 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
   sample.pdf = memory_.floats(capacity);
   value.pdf = memory_.floats(capacity);
   interior.anisotropy = memory_.floats(capacity);
+  below.medium.anisotropy = memory_.floats(capacity);
   const std::size_t id_bytes = LaneMemory::lane_bytes(capacity);
   sample.flags = static_cast<std::uint32_t*>(memory_.take(id_bytes));
+  sample.lobe = static_cast<std::int32_t*>(memory_.take(id_bytes));
   geometry_id = static_cast<std::uint32_t*>(memory_.take(id_bytes));
   primitive_id = static_cast<std::uint32_t*>(memory_.take(id_bytes));
   primvars.resize(primvar_count);

@@ -78,6 +78,7 @@ class BatchBuffer {
   SampleLanes sample;
   EvaluateLanes value;
   InteriorLanes interior;
+  SubsurfaceLanes below;
 
  private:
   std::uint32_t capacity_;

@@ -6,10 +6,17 @@
 
 namespace nacre::host {
 
-bool Media::enter(std::uint32_t mesh, std::uint32_t instance, const Medium& medium) {
+bool Media::enter(std::uint32_t mesh, std::uint32_t instance, const Medium& medium,
+                  std::uint32_t exit) {
   if (count_ == inside_.size()) return false;
-  inside_[count_++] = {mesh, instance, medium};
+  inside_[count_++] = {mesh, instance, medium, exit};
   return true;
+}
+
+std::uint32_t Media::exit(std::uint32_t mesh, std::uint32_t instance) const {
+  if (count_ == 0) return no_exit;
+  const Inside& last = inside_[count_ - 1];
+  return last.mesh == mesh && last.instance == instance ? last.exit : no_exit;
 }
 
 void Media::leave(std::uint32_t mesh, std::uint32_t instance) {

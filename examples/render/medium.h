@@ -23,12 +23,18 @@ struct Medium {
 /// when it is left.
 class Media {
  public:
+  static constexpr std::uint32_t no_exit = ~0u;
+
   bool empty() const { return count_ == 0; }
   /// Not empty() before.
   const Medium& current() const { return inside_[count_ - 1].medium; }
 
-  /// False, and nothing is done, where more is nested than anybody nests.
-  bool enter(std::uint32_t mesh, std::uint32_t instance, const Medium& medium);
+  /// False, and nothing is done, where more is nested than anybody nests. `exit`: the material
+  /// that light meets on the inside of that mesh, if another than on the outside.
+  bool enter(std::uint32_t mesh, std::uint32_t instance, const Medium& medium,
+             std::uint32_t exit = no_exit);
+  /// `exit` of what the path is inside of, if that is this mesh; else no_exit.
+  std::uint32_t exit(std::uint32_t mesh, std::uint32_t instance) const;
   /// Nothing is done where the path is not inside of that.
   void leave(std::uint32_t mesh, std::uint32_t instance);
 
@@ -36,6 +42,7 @@ class Media {
   struct Inside {
     std::uint32_t mesh, instance;
     Medium medium;
+    std::uint32_t exit;
   };
   std::array<Inside, 4> inside_ = {};
   std::uint32_t count_ = 0;

@@ -51,7 +51,7 @@ float corner_angle(const Mesh& mesh, const Triangle& t, int corner) {
 void make_normals(Mesh& mesh) {
   mesh.normal.assign(mesh.position.size(), {});
   for (const Triangle& t : mesh.triangles) {
-    const Vec3 n = normalize(face_cross(mesh, t));
+    const Vec3 n = normalize_or(face_cross(mesh, t), {});
     for (int c = 0; c < 3; ++c) mesh.normal[t.v[c]] += corner_angle(mesh, t, c) * n;
   }
 }
@@ -175,6 +175,17 @@ bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnosti
   }
   repair_tangents(mesh);
   return true;
+}
+
+void renew_frames(Mesh& mesh, const std::vector<std::uint32_t>& places) {
+  make_normals(mesh);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i] != i) mesh.normal[places[i]] += mesh.normal[i];
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) mesh.normal[i] = mesh.normal[places[i]];
+  repair_normals(mesh);
+  make_tangents(mesh);
+  repair_tangents(mesh);
 }
 
 void take_order(Mesh& mesh, const std::vector<std::uint32_t>& order) {

@@ -56,6 +56,10 @@ std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uin
 /// renumber.
 void take_order(Mesh& mesh, const std::vector<std::uint32_t>& order);
 
+/// Normals and tangents anew, of the triangles that meet at a place: `places` has for each vertex
+/// the first one at its place.
+void renew_frames(Mesh& mesh, const std::vector<std::uint32_t>& places);
+
 /// Whether triangles bound a solid: each edge is that of two, by where its ends are, which run
 /// along it in opposite directions. What enters by one leaves by another.
 bool is_closed(const Mesh& mesh);

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "examples/render/exit_shader.h"
+
 namespace nacre::host {
 
 namespace {
@@ -51,8 +53,9 @@ void RenderContext::collect_materials(const RenderInput& input) {
     const Shader* front = input.shaders[mesh];
     const Shader* back = input.back_shaders.empty() ? nullptr : input.back_shaders[mesh];
     if (m.light_radiance) {
-      emitters_.push_back(std::make_unique<ConstantEmitter>(*m.light_radiance, m.light_two_sided));
-      front = emitters_.back().get();
+      own_shaders_.push_back(
+          std::make_unique<ConstantEmitter>(*m.light_radiance, m.light_two_sided));
+      front = own_shaders_.back().get();
       back = nullptr;
     }
     assert(front != nullptr);
@@ -67,11 +70,18 @@ std::uint32_t RenderContext::add_material(const Shader& shader) {
   if (!fresh) return slot->second;
   Capabilities capabilities = shader.capabilities();
   any_opacity = any_opacity || capabilities.has_opacity;
-  any_interior = any_interior || capabilities.has_interior;
+  any_media = any_media || capabilities.has_interior || capabilities.has_subsurface;
   state_bytes = std::max(state_bytes, shader.state_bytes(settings.batch_size));
   primvars = std::max(primvars, capabilities.primvars.size());
+  const bool has_subsurface = capabilities.has_subsurface;
   materials.push_back({&shader, std::move(capabilities)});
-  return slot->second;
+  const std::uint32_t index = slot->second;
+  if (has_subsurface) {
+    own_shaders_.push_back(std::make_unique<ExitShader>(shader));
+    const std::uint32_t exit = add_material(*own_shaders_.back());
+    materials[index].exit = exit;
+  }
+  return index;
 }
 
 void RenderContext::collect_lights() {

@@ -9,6 +9,7 @@
 #include "examples/render/area_light.h"
 #include "examples/render/bvh.h"
 #include "examples/render/camera.h"
+#include "examples/render/medium.h"
 #include "examples/render/render.h"
 #include "examples/render/surface.h"
 
@@ -19,6 +20,8 @@ namespace nacre::host {
 struct Material {
   const Shader* shader = nullptr;
   Capabilities capabilities;
+  /// Index of what light meets from below, where it has gone there.
+  std::uint32_t exit = Media::no_exit;
 };
 
 /// Everything the threads of a render share, read-only once built.
@@ -38,7 +41,7 @@ class RenderContext {
   std::vector<std::uint32_t> front_materials, back_materials;
   bool any_opacity = false;
   bool any_matte = false;
-  bool any_interior = false;
+  bool any_media = false;
   std::vector<const LightShader*> point_lights;  ///< That no ray meets.
   /// Chances that light sampling asks the environment, surfaces that emit, or what no ray meets.
   float environment_chance = 0.f, area_chance = 0.f, point_chance = 0.f;
@@ -62,7 +65,7 @@ class RenderContext {
                 BatchBuffer& buffer) const;
 
   std::map<const Shader*, std::uint32_t> known_;
-  std::vector<std::unique_ptr<const Shader>> emitters_;
+  std::vector<std::unique_ptr<const Shader>> own_shaders_;  ///< Emitters and exits.
 };
 
 }  // namespace nacre::host

@@ -94,6 +94,9 @@ enum ScatterFlag : std::uint32_t {
   sample_delta =
       1u << 1,  ///< From a Dirac lobe: `pdf` is a probability and light sampling is blind.
   sample_transmitted = 1u << 2,
+  /// Light goes on below the surface, in what subsurface() says, and leaves where it meets the
+  /// surface again: see ExitShader. With sample_delta.
+  sample_subsurface = 1u << 3,
 };
 
 struct SampleLanes {
@@ -101,6 +104,7 @@ struct SampleLanes {
   Lanes3 weight;                   ///< rgb: f·cos/pdf.
   float* pdf = nullptr;            ///< Forward, per solid angle, over all lobes.
   std::uint32_t* flags = nullptr;  ///< ScatterFlag bits.
+  std::int32_t* lobe = nullptr;    ///< Which one; for subsurface().
 };
 
 struct EvaluateLanes {
@@ -114,12 +118,21 @@ struct InteriorLanes {
   float* anisotropy = nullptr;
 };
 
+/// Light below a surface.
+struct SubsurfaceLanes {
+  InteriorLanes medium;
+  Lanes3 albedo;  ///< rgb in [0, 1]: the share that leaves again.
+  Lanes3 normal;  ///< World, unit, on either side: what light leaves about.
+};
+
 struct Capabilities {
-  bool emits = false;         ///< emission() may be non-zero.
-  bool has_opacity = false;   ///< opacity() may differ from 1.
-  bool has_interior = false;  ///< Light that enters is in a medium.
-  bool scatters = true;       ///< False: emission only; begin, sample, evaluate are never called.
-  bool only_delta = false;    ///< evaluate() is always 0: no light sampling, no call.
+  bool emits = false;           ///< emission() may be non-zero.
+  bool has_opacity = false;     ///< opacity() may differ from 1.
+  bool has_interior = false;    ///< Light that enters is in a medium.
+  bool displaces = false;       ///< displacement() moves the surface.
+  bool has_subsurface = false;  ///< sample() may say sample_subsurface.
+  bool scatters = true;         ///< False: emission only; begin, sample, evaluate are never called.
+  bool only_delta = false;      ///< evaluate() is always 0: no light sampling, no call.
   std::uint32_t attributes = 0;  ///< Attribute bits read by any of the kernels.
   /// Entries read of `object_to_world`, bits 0 to 15, and of `world_to_object`, 16 to 31.
   std::uint32_t matrix_entries = 0;
@@ -164,6 +177,19 @@ class Shader {
   /// What light is in behind the surface. Needs no state. Called when `has_interior`.
   virtual void interior(const ShadingBatch& batch, InteriorLanes out) const {
     (void)batch, (void)out;
+  }
+
+  /// By how much the surface moves there, in world space, before anything is traced. Needs no
+  /// state. Called when `displaces`.
+  virtual void displacement(const ShadingBatch& batch, Lanes3 offset) const {
+    (void)batch, (void)offset;
+  }
+
+  /// What light is in below the surface, by SampleLanes::lobe. Needs no state. Called when
+  /// `has_subsurface`.
+  virtual void subsurface(const ShadingBatch& batch, const std::int32_t* lobe,
+                          SubsurfaceLanes out) const {
+    (void)batch, (void)lobe, (void)out;
   }
 };
 

@@ -50,7 +50,7 @@ void Wavefront::trace(std::span<Path> paths) {
     next_.clear();
     shadows_.clear();
     intersect();
-    if (context_.any_interior) cross_media();
+    if (context_.any_media) cross_media();
     add_environment();
     group_by_material();
     if (context_.any_opacity) apply_opacity();
@@ -93,8 +93,10 @@ void Wavefront::add_environment() {
 
 void Wavefront::group_by_material() {
   group_by(active_.size(), sorted_, groups_, [this](std::size_t i) {
-    if (hits_[active_[i]].missed()) return ~0u;
-    return context_.material_of(surface_point(active_[i]));
+    const Hit& hit = hits_[active_[i]];
+    if (hit.missed()) return ~0u;
+    const std::uint32_t exit = paths_[active_[i]].media.exit(hit.mesh, hit.instance);
+    return exit != Media::no_exit ? exit : context_.material_of(surface_point(active_[i]));
   });
   for (std::uint32_t& i : sorted_) i = active_[i];
 }

@@ -108,8 +108,8 @@ class Wavefront {
   // wavefront_medium.cpp
   void cross_media();
   bool scatter_inside(Path& path, const Medium& medium, float distance);
-  bool any_crosses(std::size_t lanes) const;
-  void change_medium(Path& path, const Hit& hit, std::size_t lane);
+  void find_media(const Material& material, std::size_t lanes);
+  void change_medium(const Material& material, Path& path, const Hit& hit, std::size_t lane);
 
   // wavefront_light.cpp
   void sample_lights();

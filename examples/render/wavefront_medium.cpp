@@ -52,23 +52,37 @@ bool Wavefront::scatter_inside(Path& path, const Medium& medium, float distance)
   return true;
 }
 
-/// Whether the sample of any lane goes through its surface.
-bool Wavefront::any_crosses(std::size_t lanes) const {
-  return std::any_of(buffer_.sample.flags, buffer_.sample.flags + lanes,
-                     [](std::uint32_t flags) { return (flags & sample_transmitted) != 0; });
+/// What light is in behind the surface, where the samples of a batch go there.
+void Wavefront::find_media(const Material& material, std::size_t lanes) {
+  const auto any = [&](std::uint32_t flag) {
+    return std::any_of(buffer_.sample.flags, buffer_.sample.flags + lanes,
+                       [&](std::uint32_t flags) { return (flags & flag) != 0; });
+  };
+  if (material.capabilities.has_interior && any(sample_transmitted)) {
+    material.shader->interior(buffer_.batch, buffer_.interior);
+  }
+  if (material.capabilities.has_subsurface && any(sample_subsurface)) {
+    material.shader->subsurface(buffer_.batch, buffer_.sample.lobe, buffer_.below);
+  }
 }
 
 /// As the sample of a lane goes through a surface: into what it encloses, or out. Through a fibre
 /// light has gone already.
-void Wavefront::change_medium(Path& path, const Hit& hit, std::size_t lane) {
+void Wavefront::change_medium(const Material& material, Path& path, const Hit& hit,
+                              std::size_t lane) {
   if (context_.scene.meshes[hit.mesh].is_fibres()) return;
   const Vec3 wi = load(buffer_.sample.wi, lane);
-  if (!(dot(load(buffer_.batch.Ng, lane), wi) < 0.f))
-    return path.media.leave(hit.mesh, hit.instance);
-  const Medium medium{load(buffer_.interior.absorption, lane),
-                      load(buffer_.interior.scattering, lane),
-                      std::clamp(buffer_.interior.anisotropy[lane], -0.999f, 0.999f)};
-  if (!medium.is_empty() && !path.media.enter(hit.mesh, hit.instance, medium)) {
+  const bool is_below = (buffer_.sample.flags[lane] & sample_subsurface) != 0;
+  const bool leaves = path.media.exit(hit.mesh, hit.instance) != Media::no_exit ||
+                      (!is_below && !(dot(load(buffer_.batch.Ng, lane), wi) < 0.f));
+  if (leaves) return path.media.leave(hit.mesh, hit.instance);
+  if (!is_below && !material.capabilities.has_interior) return;
+  const InteriorLanes& lanes = is_below ? buffer_.below.medium : buffer_.interior;
+  const Medium medium{load(lanes.absorption, lane), load(lanes.scattering, lane),
+                      std::clamp(lanes.anisotropy[lane], -0.999f, 0.999f)};
+  if (medium.is_empty()) return;
+  if (!path.media.enter(hit.mesh, hit.instance, medium,
+                        is_below ? material.exit : Media::no_exit)) {
     ++statistics_.media_dropped;
   }
 }

@@ -96,9 +96,7 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
   {
     const Stopwatch watch(statistics_.shading_seconds);
     material.shader->sample(buffer_.batch, buffer_.state, buffer_.u, buffer_.sample);
-    if (material.capabilities.has_interior && any_crosses(paths.size())) {
-      material.shader->interior(buffer_.batch, buffer_.interior);
-    }
+    find_media(material, paths.size());
   }
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
     Path& path = paths_[paths[lane]];
@@ -106,8 +104,9 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
     const Hit& hit = hits_[paths[lane]];
     path.unlit = !context_.scene.meshes[hit.mesh].illuminated;
     if (!scatter(path, lane, hit.distance)) continue;
-    const bool crosses = (buffer_.sample.flags[lane] & sample_transmitted) != 0;
-    if (crosses && material.capabilities.has_interior) change_medium(path, hit, lane);
+    if ((buffer_.sample.flags[lane] & sample_transmitted) != 0) {
+      change_medium(material, path, hit, lane);
+    }
     next_.push_back(paths[lane]);
   }
 }
@@ -126,7 +125,8 @@ bool Wavefront::scatter(Path& path, std::size_t lane, float distance) {
   }
   path.throughput *= weight;
   if (is_zero(path.throughput)) return false;
-  ++path.depth;
+  // What goes below and comes back is scattered once: where it leaves.
+  if ((flags & sample_subsurface) == 0) ++path.depth;
   if (path.depth >= context_.settings.roulette_depth) {
     const float survival = std::min(1.f, max_component(path.throughput));
     if (!(draw(path, Draw::roulette).x < survival)) return false;

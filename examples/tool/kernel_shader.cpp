@@ -125,6 +125,10 @@ KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop&
   bind(emitted, emission_, {});
   bind(kernels_->opacity, opacity_, {});
   if (capabilities_.has_interior) bind(kernels_->interior, interior_, {});
+  capabilities_.displaces = kernels_->displacement.has_value();
+  bind(kernels_->displacement, displacement_, {});
+  capabilities_.has_subsurface = kernels_->subsurface.has_value();
+  bind(kernels_->subsurface, subsurface_, {"of_lobe"});
 }
 
 int KernelShader::find_primvar(std::string_view name, int components) {
@@ -184,7 +188,8 @@ std::uint32_t KernelShader::stride(std::uint32_t count) {
 
 std::vector<const BoundKernel*> KernelShader::kernels() const {
   std::vector<const BoundKernel*> all;
-  for (const Bound* bound : {&begin_, &sample_, &evaluate_, &emission_, &opacity_, &interior_}) {
+  for (const Bound* bound : {&begin_, &sample_, &evaluate_, &emission_, &opacity_, &interior_,
+                             &displacement_, &subsurface_}) {
     if (bound->kernel != nullptr) all.push_back(bound->kernel);
   }
   return all;
@@ -206,7 +211,7 @@ std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound, const Sh
 }
 
 void KernelShader::run(const Bound& bound, const ShadingBatch& batch, const void* state,
-                       std::span<const float* const> extras, std::span<void* const> outputs) const {
+                       std::span<const void* const> extras, std::span<void* const> outputs) const {
   static constexpr std::size_t most = 512;
   const std::size_t count = bound.extra.size();
   assert(count <= most);
@@ -247,17 +252,15 @@ void KernelShader::begin(const ShadingBatch& batch, void* state) const {
 void KernelShader::sample(const ShadingBatch& batch, const void* state, Lanes3 u,
                           host::SampleLanes out) const {
   // The host's first number chooses the lobe; the kernel's third does.
-  const std::array<const float*, 3> extras{u.y, u.z, u.x};
-  std::vector<std::int32_t> lobe(batch.count);
-  const std::array<void*, 9> outputs{out.wi.x,     out.wi.y,     out.wi.z,
-                                     out.weight.x, out.weight.y, out.weight.z,
-                                     out.pdf,      lobe.data(),  out.flags};
+  const std::array<const void*, 3> extras{u.y, u.z, u.x};
+  const std::array<void*, 9> outputs{out.wi.x,     out.wi.y, out.wi.z, out.weight.x, out.weight.y,
+                                     out.weight.z, out.pdf,  out.lobe, out.flags};
   run(sample_, batch, state, extras, outputs);
 }
 
 void KernelShader::evaluate(const ShadingBatch& batch, const void* state, Lanes3 wi,
                             host::EvaluateLanes out) const {
-  const std::array<const float*, 3> extras{wi.x, wi.y, wi.z};
+  const std::array<const void*, 3> extras{wi.x, wi.y, wi.z};
   const std::array<void*, 4> outputs{out.value.x, out.value.y, out.value.z, out.pdf};
   run(evaluate_, batch, state, extras, outputs);
 }
@@ -283,6 +286,23 @@ void KernelShader::interior(const ShadingBatch& batch, host::InteriorLanes out) 
                                      out.absorption.z, out.scattering.x, out.scattering.y,
                                      out.scattering.z, out.anisotropy};
   run(interior_, batch, nullptr, {}, outputs);
+}
+
+void KernelShader::displacement(const ShadingBatch& batch, Lanes3 offset) const {
+  const std::array<void*, 3> outputs{offset.x, offset.y, offset.z};
+  run(displacement_, batch, nullptr, {}, outputs);
+}
+
+void KernelShader::subsurface(const ShadingBatch& batch, const std::int32_t* lobe,
+                              host::SubsurfaceLanes out) const {
+  const std::array<const void*, 1> extras{lobe};
+  const host::InteriorLanes& medium = out.medium;
+  const std::array<void*, 13> outputs{medium.absorption.x, medium.absorption.y, medium.absorption.z,
+                                      medium.scattering.x, medium.scattering.y, medium.scattering.z,
+                                      medium.anisotropy,   out.albedo.x,        out.albedo.y,
+                                      out.albedo.z,        out.normal.x,        out.normal.y,
+                                      out.normal.z};
+  run(subsurface_, batch, nullptr, extras, outputs);
 }
 
 }  // namespace nacre::tool

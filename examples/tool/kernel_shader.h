@@ -69,6 +69,9 @@ class KernelShader final : public host::Shader {
   void emission(const host::ShadingBatch& batch, host::Lanes3 radiance) const override;
   void opacity(const host::ShadingBatch& batch, host::Lanes3 rgb) const override;
   void interior(const host::ShadingBatch& batch, host::InteriorLanes out) const override;
+  void displacement(const host::ShadingBatch& batch, host::Lanes3 offset) const override;
+  void subsurface(const host::ShadingBatch& batch, const std::int32_t* lobe,
+                  host::SubsurfaceLanes out) const override;
 
  private:
   /// Where one input channel of a kernel is found in a batch.
@@ -86,7 +89,7 @@ class KernelShader final : public host::Shader {
             const std::vector<std::string_view>& extras);
   int find_primvar(std::string_view name, int components);
   void run(const Bound& bound, const host::ShadingBatch& batch, const void* state,
-           std::span<const float* const> extras, std::span<void* const> outputs) const;
+           std::span<const void* const> extras, std::span<void* const> outputs) const;
   static std::vector<std::uint32_t> parameters(const Bound& bound, const host::ShadingBatch& batch);
   static std::uint32_t stride(std::uint32_t count);
 
@@ -95,7 +98,7 @@ class KernelShader final : public host::Shader {
   mutable std::atomic<bool> failed_ = false;
   host::Capabilities capabilities_;
   bool reads_uv_ = false;
-  Bound begin_, sample_, evaluate_, emission_, opacity_, interior_;
+  Bound begin_, sample_, evaluate_, emission_, opacity_, interior_, displacement_, subsurface_;
 };
 
 }  // namespace nacre::tool

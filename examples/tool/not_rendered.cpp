@@ -55,16 +55,23 @@ void NotRendered::look_at_material(const std::string& name, const MaterialKernel
   for (const std::string& line : kernels.not_modelled) {
     diagnostics_.warning("not-modelled", where, "a part of the material is not rendered", {}, line);
   }
-  if (kernels.displacement) {
-    diagnostics_.warning("displacement-not-rendered", where,
-                         "displacement is not rendered: the surface stays where it is");
-  }
   if (kernels.volume) {
     diagnostics_.warning("volume-not-rendered", where, "volumes are not rendered");
   }
   if (element == nullptr) return;
   for (const std::string_view side : {"surfaceshader", "backsurfaceshader"}) {
     if (const Element* input = find_input(*element, side)) look_at_shader(*input);
+  }
+}
+
+void NotRendered::look_at_displaced(const std::string& material,
+                                    const std::vector<const host::Mesh*>& meshes, bool displaces) {
+  for (const host::Mesh* mesh : meshes) {
+    if (displaces && !mesh->is_fibres()) continue;
+    diagnostics_.warning("displacement-not-rendered", {},
+                         "'" + mesh->object_name + "' stays where it is: the displacement of '" +
+                             material + "' is not rendered",
+                         mesh->is_fibres() ? "triangles" : "--dice above 0");
   }
 }
 

@@ -18,6 +18,10 @@ class NotRendered {
   /// and that the shading model's own graph does not read.
   void look_at_material(const std::string& name, const MaterialKernels& kernels);
 
+  /// Meshes of a material that displaces, and that stay where they are.
+  void look_at_displaced(const std::string& material, const std::vector<const host::Mesh*>& meshes,
+                         bool displaces);
+
   /// Meshes of a material with a medium inside that are no solids.
   void look_at_solids(const std::string& material, const std::vector<const host::Mesh*>& meshes);
 

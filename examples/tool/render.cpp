@@ -12,8 +12,10 @@
 #include "examples/common/image_writer.h"
 #include "examples/render/builtin_scene.h"
 #include "examples/render/camera.h"
+#include "examples/render/displace.h"
 #include "examples/render/image_io.h"
 #include "examples/render/load_scene.h"
+#include "examples/render/mesh.h"
 #include "examples/tool/assignment.h"
 #include "examples/tool/kernel_light.h"
 #include "examples/tool/kernel_shader.h"
@@ -83,6 +85,11 @@ struct TwoShaders {
 /// By MeshAssignment::key.
 using Shaders = std::map<std::string, TwoShaders>;
 
+/// Whether what enters any of them by one side leaves by another.
+bool are_solids(const std::vector<const host::Mesh*>& meshes) {
+  return std::ranges::all_of(meshes, [](const host::Mesh* mesh) { return host::is_closed(*mesh); });
+}
+
 bool compile_shaders(const RenderOptions& options, const Opened& opened, const host::Scene& world,
                      const std::vector<MeshAssignment>& assignments, RenderStop& stop,
                      Shaders& shaders, Diagnostics& diagnostics) {
@@ -98,10 +105,21 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     shader.graph.variants = assignment.variants;
     shader.graph.geometry_tokens = assignment.tokens;
     shader.kernels.entries |= entry_interior;
+    if (options.walks) shader.kernels.entries |= entry_subsurface;
     shader.kernels.energy_conserving = options.energy_conserving;
     shader.varying = varying_slots(meshes.at(assignment.key()), host::is_open(options.settings));
-    auto kernels =
-        opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
+    const auto compile = [&](Diagnostics& to) {
+      return opened.system->compile_material(*opened.document, assignment.material, shader, to);
+    };
+    auto kernels = compile(diagnostics);
+    if (kernels != nullptr && kernels->subsurface && !are_solids(meshes.at(assignment.key()))) {
+      shader.kernels.entries &= ~entry_subsurface;
+      Diagnostics said;  // Already.
+      kernels = compile(said);
+      if (kernels == nullptr) {
+        for (const Diagnostic& each : said.all()) diagnostics.add(each);
+      }
+    }
     if (kernels == nullptr) return false;
     if (!kernels->has_surface && kernels->light && has_place(kernels->light->program())) {
       diagnostics.error("light-has-place", {},
@@ -120,13 +138,15 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     not_rendered.look_at_material(assignment.material, *kernels);
     TwoShaders& place = shaders[assignment.key()];
     const std::string& material = assignment.material;
+    if (kernels->displacement) {
+      not_rendered.look_at_displaced(material, meshes.at(assignment.key()), options.dice > 0.0f);
+    }
     if (has_medium(*kernels)) not_rendered.look_at_solids(material, meshes.at(assignment.key()));
     const bool has_back = kernels->has_back;
     place.front = std::make_unique<KernelShader>(std::move(kernels), stop);
     if (!has_back) continue;
     shader.side = Side::back;
-    kernels =
-        opened.system->compile_material(*opened.document, assignment.material, shader, diagnostics);
+    kernels = compile(diagnostics);
     if (kernels == nullptr) return false;
     place.back = std::make_unique<KernelShader>(std::move(kernels), stop);
   }
@@ -229,6 +249,30 @@ void bind_shaders(const std::vector<MeshAssignment>& assignments, const Shaders&
   report_missing_attributes(shaded, scene_file, diagnostics);
 }
 
+/// Moves the surfaces that are displaced.
+void displace(const RenderOptions& options, host::Scene& world, const host::RenderInput& input,
+              Diagnostics& diagnostics) {
+  const host::RenderSettings& s = options.settings;
+  const host::PixelCamera camera(input.camera, s.width, s.height, 1.0f, input.camera_motion);
+  // By what a triangle takes with its share of vertices, and what rays are traced against.
+  constexpr std::size_t bytes_of_triangle = 200;
+  const host::DisplaceResult result =
+      host::displace(world, input.shaders, camera, input.camera.position,
+                     {.edge = options.dice,
+                      .most_triangles = options.scene_limits.bytes / bytes_of_triangle,
+                      .clock = {s.time, s.frame, s.shutter_open, s.shutter_close, s.fps}});
+  for (const std::uint32_t mesh : result.coarse) {
+    diagnostics.warning("coarse-displacement", {},
+                        "'" + world.meshes[mesh].object_name +
+                            "' is displaced in triangles that are larger than asked for",
+                        "a larger --max-scene-size, or a larger --dice");
+  }
+  if (result.invalid == 0) return;
+  diagnostics.warning("invalid-displacement", {},
+                      "some vertices are displaced to where nothing can be, and stay", "numbers",
+                      fmt::format("{} that are not", result.invalid));
+}
+
 void report_invalid_results(const host::RenderStatistics& statistics, Diagnostics& diagnostics) {
   if (statistics.invalid_results == 0) return;
   diagnostics.warning("invalid-results", {},
@@ -295,6 +339,7 @@ int run(RenderOptions& options) {
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
+  if (options.dice > 0.0f) displace(options, world, input, diagnostics);
   const std::vector<const BoundKernel*> kernels = kernels_of(shaders, neutral, lights);
 
   stop.follow(tool::stop().token());

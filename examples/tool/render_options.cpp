@@ -1,6 +1,7 @@
 #include "examples/tool/render_options.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <vector>
 
 #include "examples/tool/number_range.h"
@@ -43,6 +44,21 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->type_name("FILE");
   command.add_flag("--energy-conserving", options.energy_conserving,
                    "Let no material send back more light than arrives, whatever its model says");
+  command
+      .add_option("--dice", options.dice,
+                  "Longest edge of the triangles that displacement moves, in pixels; 0 leaves "
+                  "surfaces where they are")
+      ->check(number_within(0, 1e6))
+      ->capture_default_str();
+  const std::map<std::string, bool> subsurface{{"diffuse", false}, {"walk", true}};
+  command
+      .add_option("--subsurface", options.walks,
+                  "Light below surfaces: walk follows it through solids, diffuse lets it leave "
+                  "where it enters")
+      ->transform(CLI::CheckedTransformer(subsurface, CLI::ignore_case)
+                      .description("{diffuse,walk}"))  // Not the numbers behind them.
+      ->default_str("walk")
+      ->type_name("KIND");
   command.add_flag("--ground", options.ground, "Put a neutral floor below the scene");
   command.add_option("--spp", settings.samples, "Samples a pixel")
       ->check(number_within(1, 1e9))

@@ -26,6 +26,8 @@ struct RenderOptions {
   float lens_radius = 0.0f;
   float focus_distance = 0.0f;
   bool ground = false;
+  float dice = 1.0f;               ///< DisplaceSettings::edge; 0: nothing is displaced.
+  bool walks = true;               ///< Follow light below surfaces.
   bool energy_conserving = false;  ///< KernelRequest::energy_conserving
 };
 

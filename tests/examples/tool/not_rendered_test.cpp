@@ -79,6 +79,19 @@ TEST_F(NotRendered, MediaInsideAreSaidWhereTheyCount) {
   EXPECT_NE(text_of(file("stdout")).find("subsurface_bsdf: radius"), std::string::npos);
 }
 
+// Light below a surface is followed where there is a below, if that is asked for.
+TEST_F(NotRendered, SubsurfaceOfWhatIsNoSolid) {
+  const std::string flesh = material("open_pbr_surface", input("subsurface_weight", "float", "1"));
+  write("a.mtlx", std::string(head) + flesh + "</materialx>");
+  const std::string ball = "render --no-cache --spp 1 --size 4 --out " + file("a.png") + " ";
+  EXPECT_EQ(run(ball + file("a.mtlx")), 0);
+  EXPECT_EQ(errors_, "");
+  EXPECT_EQ(run(ball + "--subsurface diffuse " + file("a.mtlx")), 0);
+  EXPECT_EQ(count("not-modelled"), 1u) << errors_;
+  EXPECT_EQ(render(flesh), 0);  // On a card.
+  EXPECT_EQ(count("not-modelled"), 1u) << errors_;
+}
+
 TEST_F(NotRendered, InputsThatTheModelItselfDoesNotRead) {
   EXPECT_EQ(render(material("standard_surface", input("transmission_depth", "float", "0.0"))), 0);
   EXPECT_EQ(errors_, "");  // The default, however it is written.
@@ -88,7 +101,7 @@ TEST_F(NotRendered, InputsThatTheModelItselfDoesNotRead) {
 }
 
 TEST_F(NotRendered, DisplacementAndLights) {
-  EXPECT_EQ(render(R"(
+  const std::string both = R"(
     <standard_surface name="S" type="surfaceshader"/>
     <displacement name="D" type="displacementshader">
       <input name="displacement" type="float" value="0.1"/>
@@ -98,8 +111,10 @@ TEST_F(NotRendered, DisplacementAndLights) {
     <surfacematerial name="M" type="material">
       <input name="surfaceshader" type="surfaceshader" nodename="S"/>
       <input name="displacementshader" type="displacementshader" nodename="D"/>
-    </surfacematerial>)"),
-            0);
+    </surfacematerial>)";
+  EXPECT_EQ(render(both), 0);
+  EXPECT_EQ(count("displacement-not-rendered"), 0u) << errors_;
+  EXPECT_EQ(render(both, "--dice 0"), 0);
   EXPECT_EQ(count("displacement-not-rendered"), 1u) << errors_;
   EXPECT_EQ(count("light-without-place"), 1u) << errors_;
   EXPECT_NE(errors_.find("(L)"), errors_.npos) << errors_;

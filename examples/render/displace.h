@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "examples/render/camera.h"
+#include "examples/render/scene.h"
+#include "examples/render/shader.h"
+#include "examples/render/surface.h"
+
+namespace nacre::host {
+
+struct DisplaceSettings {
+  float edge = 1.f;  ///< Longest edge, in distances of image samples of a picture of one a pixel.
+  std::size_t most_triangles = 4'000'000;  ///< Of a mesh.
+  Clock clock;
+};
+
+struct DisplaceResult {
+  std::vector<std::uint32_t> coarse;  ///< Meshes that most_triangles kept from being fine enough.
+  std::size_t invalid = 0;  ///< Vertices that were not moved: to nowhere, or out of reach.
+};
+
+/// Moves the surfaces of a scene before it is traced: each mesh that has a shader, which displaces,
+/// is split into triangles no larger than the picture shows, and their vertices are moved. Vertices
+/// at one place are moved together, by the mean of where they go. Normals and tangents are then
+/// those of what is there; positions in object space are where the surface was, so that patterns
+/// stay on it. Of what is drawn several times the instance next to the camera decides.
+///
+/// `shaders`: by mesh; null: stays as it is. Fibres stay.
+DisplaceResult displace(Scene& scene, const std::vector<const Shader*>& shaders,
+                        const PixelCamera& camera, Vec3 eye, const DisplaceSettings& settings);
+
+}  // namespace nacre::host
