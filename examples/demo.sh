@@ -36,6 +36,9 @@ echo "== motion"
 "$nacre" render "$here/motion/motion.mtlx" --scene "$out/motion.gltf" --time 0.2 --shutter -0.1 0.1 \
   --spp "$spp" --size "$size" --out "$out/rendered/motion.png"
 
+echo "== volumes"
+"$nacre" render "$here/volumes/smoke.mtlx" --spp "$spp" --size "$size" --out "$out/rendered/smoke.png"
+
 echo "== displacement"
 "$nacre" render "$here/displacement/pebbles.mtlx" --spp "$spp" --size "$size" \
   --out "$out/rendered/pebbles.png"

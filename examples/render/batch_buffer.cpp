@@ -39,7 +39,8 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
   }
   for (Lanes3* lanes :
        {&through, &interior.absorption, &interior.scattering, &below.medium.absorption,
-        &below.medium.scattering, &below.albedo, &below.normal}) {
+        &below.medium.scattering, &below.albedo, &below.normal, &within.medium.absorption,
+        &within.medium.scattering, &within.emission}) {
     *lanes = memory_.lanes3(capacity);
   }
   for (Lanes2* lanes : {&b.uv, &b.dUVdx, &b.dUVdy}) *lanes = memory_.lanes2(capacity);
@@ -49,6 +50,7 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
   value.pdf = memory_.floats(capacity);
   interior.anisotropy = memory_.floats(capacity);
   below.medium.anisotropy = memory_.floats(capacity);
+  within.medium.anisotropy = memory_.floats(capacity);
   const std::size_t id_bytes = LaneMemory::lane_bytes(capacity);
   sample.flags = static_cast<std::uint32_t*>(memory_.take(id_bytes));
   sample.lobe = static_cast<std::int32_t*>(memory_.take(id_bytes));

@@ -78,6 +78,7 @@ class BatchBuffer {
   SampleLanes sample;
   EvaluateLanes value;
   InteriorLanes interior;
+  VolumeLanes within;
   SubsurfaceLanes below;
 
  private:

@@ -59,6 +59,35 @@ Flight sample_flight(const Medium& medium, Vec3 throughput, float far, Uniform2 
   return {true, distance, pdf > 0.f ? (1.f / pdf) * (medium.scattering * left) : Vec3{}};
 }
 
+Vec3 emitted(const Medium& medium, float length) {
+  const Vec3 rate = medium.absorption + medium.scattering;
+  const auto of = [&](float emission, float r) {
+    if (!(emission > 0.f)) return 0.f;
+    if (r * length > 1e-4f) return emission * -std::expm1(-r * length) / r;
+    return std::isfinite(length) ? emission * length : 0.f;
+  };
+  return {of(medium.emission.x, rate.x), of(medium.emission.y, rate.y),
+          of(medium.emission.z, rate.z)};
+}
+
+float sample_bound(float bound, float u) {
+  return bound > 0.f ? -std::log1p(-u) / bound : INFINITY;
+}
+
+Meeting sample_meeting(const Medium& there, float bound, Vec3 throughput, float u) {
+  const Vec3 nothing = Vec3{bound, bound, bound} - (there.absorption + there.scattering);
+  const auto amount = [&](Vec3 rate) {
+    const Vec3 light = throughput * rate;
+    return std::abs(light.x) + std::abs(light.y) + std::abs(light.z);
+  };
+  const float scattered = amount(there.scattering), passed = amount(nothing);
+  if (!(scattered + passed > 0.f)) return {};
+  const float chance = scattered / (scattered + passed);
+  const bool scatters = u < chance;
+  const float probability = scatters ? chance : 1.f - chance;
+  return {scatters, (1.f / (bound * probability)) * (scatters ? there.scattering : nothing)};
+}
+
 Scattered sample_phase(float anisotropy, Vec3 along, Uniform2 u) {
   const float g = anisotropy;
   const float s = 2.f * u.x - 1.f;

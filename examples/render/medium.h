@@ -8,14 +8,23 @@
 
 namespace nacre::host {
 
-/// What fills the space between surfaces, everywhere alike: per unit of length, by channel.
+/// What fills the space between surfaces: per unit of length, by channel.
 struct Medium {
+  static constexpr std::uint32_t everywhere = ~0u;
+
   Vec3 absorption;
   Vec3 scattering;
   float anisotropy = 0.f;  ///< Mean cosine of scattering, in (-1, 1).
+  Vec3 emission = {};
+  /// Of what differs from place to place: the index of the material that says what there is, and
+  /// what absorption and scattering together rarely exceed. The numbers above mean nothing then.
+  std::uint32_t varies_by = everywhere;
+  float bound = 0.f;
 
+  bool varies() const { return varies_by != everywhere; }
   bool is_empty() const {
-    return max_component(absorption) <= 0.f && max_component(scattering) <= 0.f;
+    return !varies() && max_component(absorption) <= 0.f && max_component(scattering) <= 0.f &&
+           max_component(emission) <= 0.f;
   }
 };
 
@@ -35,6 +44,13 @@ class Media {
              std::uint32_t exit = no_exit);
   /// `exit` of what the path is inside of, if that is this mesh; else no_exit.
   std::uint32_t exit(std::uint32_t mesh, std::uint32_t instance) const;
+  /// Whether the path is inside of something else than that.
+  bool encloses(std::uint32_t mesh, std::uint32_t instance) const {
+    return !empty() && !(this->mesh() == mesh && this->instance() == instance);
+  }
+  /// Which mesh and instance current() is of.
+  std::uint32_t mesh() const { return inside_[count_ - 1].mesh; }
+  std::uint32_t instance() const { return inside_[count_ - 1].instance; }
   /// Nothing is done where the path is not inside of that.
   void leave(std::uint32_t mesh, std::uint32_t instance);
 
@@ -59,6 +75,23 @@ struct Flight {
 /// channel, which is drawn by `throughput`; weighted by all channels (Wilkie et al., "Hero
 /// Wavelength Spectral Sampling", EGSR 2014, eq. 4).
 Flight sample_flight(const Medium& medium, Vec3 throughput, float far, Uniform2 u);
+
+/// What a medium alike everywhere sends along a ray of that length, by channel: the integral of
+/// what is left of its emission. Of a ray without end in what does not absorb: nothing.
+Vec3 emitted(const Medium& medium, float length);
+
+/// Where light might be met on its way through something of that bound; infinite: nowhere.
+float sample_bound(float bound, float u);
+
+/// What happens there. Light goes on as it was where nothing is: the bound is made up by what
+/// neither absorbs nor scatters (Woodcock et al. 1965; with weights by channel Kutz et al.,
+/// "Spectral and Decomposition Tracking", SIGGRAPH 2017, section 4). Where there is more than the
+/// bound the weights have both signs, and the mean stays.
+struct Meeting {
+  bool scatters = false;
+  Vec3 weight;  ///< Factor of the light's throughput; the rest is absorbed.
+};
+Meeting sample_meeting(const Medium& there, float bound, Vec3 throughput, float u);
 
 /// Where light that goes along the unit vector `along` is scattered to, and its density by solid
 /// angle; Henyey and Greenstein, "Diffuse radiation in the galaxy", 1941, eq. 2, inverted without a

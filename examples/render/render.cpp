@@ -103,6 +103,7 @@ void add(RenderStatistics& sum, const RenderStatistics& s) {
   sum.rays += s.rays;
   sum.shadow_rays += s.shadow_rays;
   sum.invalid_results += s.invalid_results;
+  sum.beyond_bound += s.beyond_bound;
   sum.media_dropped += s.media_dropped;
   sum.paths_cut += s.paths_cut;
   sum.shading_seconds += s.shading_seconds;

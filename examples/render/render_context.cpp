@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "examples/render/exit_shader.h"
+#include "examples/render/mesh.h"
 
 namespace nacre::host {
 
@@ -31,6 +32,7 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
   assert(input.shaders.size() == scene.meshes.size());
   if (environment != nullptr && !(environment->mean_luminance() > 0.f)) environment = nullptr;
   collect_materials(input);
+  find_bounds();
   collect_lights();
   point_lights = input.lights;
   choose_chances();
@@ -70,7 +72,9 @@ std::uint32_t RenderContext::add_material(const Shader& shader) {
   if (!fresh) return slot->second;
   Capabilities capabilities = shader.capabilities();
   any_opacity = any_opacity || capabilities.has_opacity;
-  any_media = any_media || capabilities.has_interior || capabilities.has_subsurface;
+  any_volume = any_volume || capabilities.is_volume;
+  any_media = any_media || capabilities.has_interior || capabilities.has_subsurface ||
+              capabilities.is_volume;
   state_bytes = std::max(state_bytes, shader.state_bytes(settings.batch_size));
   primvars = std::max(primvars, capabilities.primvars.size());
   const bool has_subsurface = capabilities.has_subsurface;
@@ -82,6 +86,46 @@ std::uint32_t RenderContext::add_material(const Shader& shader) {
     materials[index].exit = exit;
   }
   return index;
+}
+
+/// Looks at volumes that vary at points all over the boxes of their meshes. What lies between may
+/// be denser by a quarter.
+void RenderContext::find_bounds() {
+  constexpr int steps = 24;
+  bounds.assign(scene.meshes.size(), 0.f);
+  if (!any_volume) return;
+  BatchBuffer buffer(settings.batch_size, 0, primvars);
+  buffer.batch.time = settings.time;
+  buffer.batch.frame = settings.frame;
+  std::vector<InnerPoint> points;
+  for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+    const Material& material = materials[front_materials[mesh]];
+    if (!material.capabilities.volume_varies) continue;
+    const Bounds box = vertex_bounds(scene.meshes[mesh]);
+    const Vec3 size = box.high - box.low;
+    const auto ask = [&] {
+      geometry.fill_within(points, material.capabilities, camera, buffer);
+      material.shader->volume(buffer.batch, buffer.within);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const float density = max_component(load(buffer.within.medium.absorption, i) +
+                                            load(buffer.within.medium.scattering, i));
+        if (std::isfinite(density)) bounds[mesh] = std::max(bounds[mesh], 1.25f * density);
+      }
+      points.clear();
+    };
+    for (int i = 0; i < steps * steps * steps; ++i) {
+      const Vec3 share = {(static_cast<float>(i % steps) + 0.5f) / steps,
+                          (static_cast<float>(i / steps % steps) + 0.5f) / steps,
+                          (static_cast<float>(i / (steps * steps)) + 0.5f) / steps};
+      const Vec3 own = box.low + share * size;
+      const Vec3 P = scene.meshes[mesh].instances.empty()
+                         ? own
+                         : transform_point(scene.meshes[mesh].instances[0].at(0.f), own);
+      points.push_back({mesh, 0, 0.f, P, {0.f, 0.f, 1.f}});
+      if (points.size() == settings.batch_size) ask();
+    }
+    if (!points.empty()) ask();
+  }
 }
 
 void RenderContext::collect_lights() {

@@ -42,6 +42,8 @@ class RenderContext {
   bool any_opacity = false;
   bool any_matte = false;
   bool any_media = false;
+  bool any_volume = false;
+  std::vector<float> bounds;  ///< By mesh: Medium::bound of a volume that varies; else 0.
   std::vector<const LightShader*> point_lights;  ///< That no ray meets.
   /// Chances that light sampling asks the environment, surfaces that emit, or what no ray meets.
   float environment_chance = 0.f, area_chance = 0.f, point_chance = 0.f;
@@ -58,6 +60,7 @@ class RenderContext {
  private:
   void collect_materials(const RenderInput& input);
   std::uint32_t add_material(const Shader& shader);
+  void find_bounds();
   void collect_lights();
   void choose_chances();
   std::vector<float> triangle_luminance(std::uint32_t mesh, BatchBuffer& buffer) const;

@@ -118,6 +118,12 @@ struct InteriorLanes {
   float* anisotropy = nullptr;
 };
 
+/// What a volume is of at a point.
+struct VolumeLanes {
+  InteriorLanes medium;
+  Lanes3 emission;  ///< Radiance (rgb) per unit of length.
+};
+
 /// Light below a surface.
 struct SubsurfaceLanes {
   InteriorLanes medium;
@@ -131,8 +137,10 @@ struct Capabilities {
   bool has_interior = false;    ///< Light that enters is in a medium.
   bool displaces = false;       ///< displacement() moves the surface.
   bool has_subsurface = false;  ///< sample() may say sample_subsurface.
-  bool scatters = true;         ///< False: emission only; begin, sample, evaluate are never called.
-  bool only_delta = false;      ///< evaluate() is always 0: no light sampling, no call.
+  bool is_volume = false;  ///< There is no surface: light goes straight in, and volume() is all.
+  bool volume_varies = false;  ///< volume() differs from place to place.
+  bool scatters = true;        ///< False: emission only; begin, sample, evaluate are never called.
+  bool only_delta = false;     ///< evaluate() is always 0: no light sampling, no call.
   std::uint32_t attributes = 0;  ///< Attribute bits read by any of the kernels.
   /// Entries read of `object_to_world`, bits 0 to 15, and of `world_to_object`, 16 to 31.
   std::uint32_t matrix_entries = 0;
@@ -178,6 +186,10 @@ class Shader {
   virtual void interior(const ShadingBatch& batch, InteriorLanes out) const {
     (void)batch, (void)out;
   }
+
+  /// What there is at points within, which have a position, the ray's wo, and no more. Needs no
+  /// state. Called when `is_volume`.
+  virtual void volume(const ShadingBatch& batch, VolumeLanes out) const { (void)batch, (void)out; }
 
   /// By how much the surface moves there, in world space, before anything is traced. Needs no
   /// state. Called when `displaces`.

@@ -158,6 +158,23 @@ void SurfaceGeometry::fill(std::span<const SurfacePoint> points, const Capabilit
   fill_primvars(points, needs, buffer);
 }
 
+void SurfaceGeometry::fill_within(std::span<const InnerPoint> points, const Capabilities& needs,
+                                  const PixelCamera& camera, BatchBuffer& buffer) const {
+  // As on some triangle of the mesh, but for where they are.
+  std::vector<SurfacePoint> on_surface;
+  on_surface.reserve(points.size());
+  for (const InnerPoint& p : points) {
+    on_surface.push_back({.mesh = p.mesh, .wo = p.wo, .instance = p.instance, .time = p.time});
+  }
+  fill(on_surface, needs, camera, buffer);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Pose& pose = this->pose(on_surface[i], i, buffer);
+    store(buffer.batch.P, i, points[i].P);
+    store(buffer.batch.P_object, i, transform_point(pose.to_object, points[i].P));
+    store(buffer.batch.uv, i, Vec2{});
+  }
+}
+
 void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool object_space,
                                     BatchBuffer& buffer) const {
   ShadingBatch& b = buffer.batch;

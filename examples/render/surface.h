@@ -26,6 +26,14 @@ struct SurfacePoint {
   Vec3 normal = {};            ///< As Hit.
 };
 
+/// A point within a mesh.
+struct InnerPoint {
+  std::uint32_t mesh = 0, instance = 0;
+  float time = 0.f;  ///< As Ray.
+  Vec3 P;            ///< World.
+  Vec3 wo;           ///< World, unit: where the ray through it comes from.
+};
+
 /// World position, by interpolation, so that offset_point() may be used on it.
 Vec3 surface_position(const Scene& scene, const SurfacePoint& point);
 
@@ -54,6 +62,10 @@ class SurfaceGeometry {
   /// the standing attributes and those that `needs` asks for.
   void fill(std::span<const SurfacePoint> points, const Capabilities& needs,
             const PixelCamera& camera, BatchBuffer& buffer) const;
+
+  /// The same of points within, for volumes: of a surface there is nothing.
+  void fill_within(std::span<const InnerPoint> points, const Capabilities& needs,
+                   const PixelCamera& camera, BatchBuffer& buffer) const;
 
  private:
   void fill_position(std::span<const SurfacePoint>, bool object_space, BatchBuffer&) const;

@@ -31,6 +31,8 @@ Wavefront::Wavefront(const RenderContext& context, std::size_t max_paths)
   ray_hits_.resize(max_paths);
   hits_.resize(max_paths);
   light_samples_.resize(max_paths);
+  met_at_.resize(max_paths);
+  met_groups_.resize(context.materials.size());
   light_points_.reserve(max_paths);
   shadows_.reserve(max_paths);
   blocked_.resize(max_paths);
@@ -51,8 +53,10 @@ void Wavefront::trace(std::span<Path> paths) {
     shadows_.clear();
     intersect();
     if (context_.any_media) cross_media();
+    if (context_.any_volume) meet_media();
     add_environment();
     group_by_material();
+    if (context_.any_volume) enter_volumes();
     if (context_.any_opacity) apply_opacity();
     if (context_.any_matte) hold_out();
     if (connects()) sample_lights();

@@ -47,6 +47,10 @@ struct Group {
 /// to. Through a fibre it goes at once: what happens inside is its material's.
 Vec3 leave(const BatchBuffer& buffer, std::size_t lane, Vec3 direction);
 
+/// What lanes say of a medium: finite, at least 0.
+Medium medium_of(const InteriorLanes& lanes, std::size_t lane);
+Medium medium_of(const VolumeLanes& lanes, std::size_t lane);
+
 /// Opening angle for a direction drawn with this density: the cone that holds a
 /// quarter of the directions one sample stands for, at most a quarter radian.
 float scattered_spread(float pdf);
@@ -111,6 +115,13 @@ class Wavefront {
   void find_media(const Material& material, std::size_t lanes);
   void change_medium(const Material& material, Path& path, const Hit& hit, std::size_t lane);
 
+  // wavefront_volume.cpp
+  bool may_meet(std::uint32_t path, const Medium& medium, float far);
+  void enter_volumes();
+  void enter_volume(const Material& material, std::span<const std::uint32_t> paths);
+  void meet_media();
+  void meet_medium(const Material& material, std::span<const std::uint32_t> paths);
+
   // wavefront_light.cpp
   void sample_lights();
   void sample_light(std::uint32_t path);
@@ -131,7 +142,12 @@ class Wavefront {
   std::vector<std::uint32_t> active_, next_;  ///< Paths that have a ray now; and after this round.
   std::vector<Ray> rays_;                     ///< Of the active paths, in their order.
   std::vector<Hit> ray_hits_;
-  std::vector<Hit> hits_;                   ///< By path.
+  std::vector<Hit> hits_;           ///< By path.
+  std::vector<std::uint32_t> met_;  ///< Paths that may meet something before they hit,
+  std::vector<float> met_at_;       ///< by path: how far away;
+  std::vector<std::uint32_t> met_order_;
+  std::vector<Group> met_groups_;           ///< by material.
+  std::vector<InnerPoint> inner_points_;    ///< Of the batch at hand.
   std::vector<std::uint32_t> sorted_;       ///< Paths that hit, by material.
   std::vector<Group> groups_;               ///< Of sorted_; one per material.
   std::vector<LightSample> light_samples_;  ///< By path.

@@ -41,6 +41,8 @@ void Wavefront::sample_light(std::uint32_t i) {
   LightSample& light = light_samples_[i];
   light = {};
   if (path.depth >= context_.settings.max_depth) return;
+  // Not through a medium: what weakens the light on its way is found by paths.
+  if (path.media.encloses(hits_[i].mesh, hits_[i].instance)) return;
   if (!context_.scene.meshes[hits_[i].mesh].illuminated) return;
   const Uniform2 choice = draw(path, Draw::light_choice);
   const Uniform2 position = draw(path, Draw::light);

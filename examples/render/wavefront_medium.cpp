@@ -1,19 +1,42 @@
 #include <algorithm>
+#include <cmath>
 
 #include "examples/render/wavefront.h"
 
 namespace nacre::host {
 
+namespace {
+
+/// Nothing where it is no number; and no more than products of it can be numbers.
+float amount(float x) { return x > 0.f ? std::min(x, 1e30f) : 0.f; }
+Vec3 amount(Vec3 v) { return {amount(v.x), amount(v.y), amount(v.z)}; }
+
+}  // namespace
+
+Medium medium_of(const InteriorLanes& lanes, std::size_t lane) {
+  const float g = lanes.anisotropy[lane];
+  return {amount(load(lanes.absorption, lane)), amount(load(lanes.scattering, lane)),
+          std::isfinite(g) ? std::clamp(g, -0.999f, 0.999f) : 0.f};
+}
+
+Medium medium_of(const VolumeLanes& lanes, std::size_t lane) {
+  Medium medium = medium_of(lanes.medium, lane);
+  medium.emission = amount(load(lanes.emission, lane));
+  return medium;
+}
+
 /// Takes the paths that are inside of something to where they meet a surface, or are scattered
-/// before. Those go on from there.
+/// before. Those go on from there; those in what varies are in `met_` then.
 void Wavefront::cross_media() {
+  met_.clear();
   const auto is_over = [this](std::uint32_t i) {
     Path& path = paths_[i];
     if (path.media.empty()) return false;
     const Medium medium = path.media.current();
-    const Flight flight =
-        sample_flight(medium, path.throughput, hits_[i].missed() ? INFINITY : hits_[i].distance,
-                      draw(path, Draw::flight));
+    const float far = hits_[i].missed() ? INFINITY : hits_[i].distance;
+    if (medium.varies()) return may_meet(i, medium, far);
+    if (!is_zero(medium.emission)) path.radiance += path.throughput * emitted(medium, far);
+    const Flight flight = sample_flight(medium, path.throughput, far, draw(path, Draw::flight));
     path.throughput *= flight.weight;
     if (!is_finite(path.throughput)) {
       ++statistics_.invalid_results;
@@ -78,8 +101,7 @@ void Wavefront::change_medium(const Material& material, Path& path, const Hit& h
   if (leaves) return path.media.leave(hit.mesh, hit.instance);
   if (!is_below && !material.capabilities.has_interior) return;
   const InteriorLanes& lanes = is_below ? buffer_.below.medium : buffer_.interior;
-  const Medium medium{load(lanes.absorption, lane), load(lanes.scattering, lane),
-                      std::clamp(lanes.anisotropy[lane], -0.999f, 0.999f)};
+  const Medium medium = medium_of(lanes, lane);
   if (medium.is_empty()) return;
   if (!path.media.enter(hit.mesh, hit.instance, medium,
                         is_below ? material.exit : Media::no_exit)) {

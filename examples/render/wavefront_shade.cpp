@@ -103,7 +103,9 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
     if (path.depth >= context_.settings.max_depth) continue;
     const Hit& hit = hits_[paths[lane]];
     path.unlit = !context_.scene.meshes[hit.mesh].illuminated;
+    const bool unconnected = path.media.encloses(hit.mesh, hit.instance);  // See sample_light().
     if (!scatter(path, lane, hit.distance)) continue;
+    path.light_blind = path.light_blind || unconnected;
     if ((buffer_.sample.flags[lane] & sample_transmitted) != 0) {
       change_medium(material, path, hit, lane);
     }

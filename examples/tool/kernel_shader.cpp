@@ -126,6 +126,11 @@ KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop&
   bind(kernels_->opacity, opacity_, {});
   if (capabilities_.has_interior) bind(kernels_->interior, interior_, {});
   capabilities_.displaces = kernels_->displacement.has_value();
+  capabilities_.is_volume = !kernels_->has_surface && kernels_->volume.has_value();
+  if (capabilities_.is_volume) {
+    capabilities_.volume_varies = !kernels_->volume->program().inputs.empty();
+    bind(kernels_->volume, volume_, {});
+  }
   bind(kernels_->displacement, displacement_, {});
   capabilities_.has_subsurface = kernels_->subsurface.has_value();
   bind(kernels_->subsurface, subsurface_, {"of_lobe"});
@@ -189,7 +194,7 @@ std::uint32_t KernelShader::stride(std::uint32_t count) {
 std::vector<const BoundKernel*> KernelShader::kernels() const {
   std::vector<const BoundKernel*> all;
   for (const Bound* bound : {&begin_, &sample_, &evaluate_, &emission_, &opacity_, &interior_,
-                             &displacement_, &subsurface_}) {
+                             &displacement_, &subsurface_, &volume_}) {
     if (bound->kernel != nullptr) all.push_back(bound->kernel);
   }
   return all;
@@ -286,6 +291,15 @@ void KernelShader::interior(const ShadingBatch& batch, host::InteriorLanes out) 
                                      out.absorption.z, out.scattering.x, out.scattering.y,
                                      out.scattering.z, out.anisotropy};
   run(interior_, batch, nullptr, {}, outputs);
+}
+
+void KernelShader::volume(const ShadingBatch& batch, host::VolumeLanes out) const {
+  const host::InteriorLanes& medium = out.medium;
+  const std::array<void*, 10> outputs{medium.absorption.x, medium.absorption.y, medium.absorption.z,
+                                      medium.scattering.x, medium.scattering.y, medium.scattering.z,
+                                      medium.anisotropy,   out.emission.x,      out.emission.y,
+                                      out.emission.z};
+  run(volume_, batch, nullptr, {}, outputs);
 }
 
 void KernelShader::displacement(const ShadingBatch& batch, Lanes3 offset) const {

@@ -69,6 +69,7 @@ class KernelShader final : public host::Shader {
   void emission(const host::ShadingBatch& batch, host::Lanes3 radiance) const override;
   void opacity(const host::ShadingBatch& batch, host::Lanes3 rgb) const override;
   void interior(const host::ShadingBatch& batch, host::InteriorLanes out) const override;
+  void volume(const host::ShadingBatch& batch, host::VolumeLanes out) const override;
   void displacement(const host::ShadingBatch& batch, host::Lanes3 offset) const override;
   void subsurface(const host::ShadingBatch& batch, const std::int32_t* lobe,
                   host::SubsurfaceLanes out) const override;
@@ -98,7 +99,8 @@ class KernelShader final : public host::Shader {
   mutable std::atomic<bool> failed_ = false;
   host::Capabilities capabilities_;
   bool reads_uv_ = false;
-  Bound begin_, sample_, evaluate_, emission_, opacity_, interior_, displacement_, subsurface_;
+  Bound begin_, sample_, evaluate_, emission_, opacity_, interior_, displacement_, subsurface_,
+      volume_;
 };
 
 }  // namespace nacre::tool

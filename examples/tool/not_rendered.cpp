@@ -55,8 +55,9 @@ void NotRendered::look_at_material(const std::string& name, const MaterialKernel
   for (const std::string& line : kernels.not_modelled) {
     diagnostics_.warning("not-modelled", where, "a part of the material is not rendered", {}, line);
   }
-  if (kernels.volume) {
-    diagnostics_.warning("volume-not-rendered", where, "volumes are not rendered");
+  if (kernels.volume && kernels.has_surface) {
+    diagnostics_.warning("volume-not-rendered", where,
+                         "the volume of a material that has a surface is not rendered");
   }
   if (element == nullptr) return;
   for (const std::string_view side : {"surfaceshader", "backsurfaceshader"}) {

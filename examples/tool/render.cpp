@@ -128,11 +128,11 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
                         "a <light>, which is where its mesh is");
       return false;
     }
-    if (!kernels->has_surface && !kernels->light) {
+    if (!kernels->has_surface && !kernels->light && !kernels->volume) {
       diagnostics.error(
           "no-surface", {},
           "material '" + assignment.material + "' has no surface, and nothing else is rendered",
-          "a surface or a light shader");
+          "a surface, a volume or a light shader");
       return false;
     }
     not_rendered.look_at_material(assignment.material, *kernels);
@@ -141,7 +141,9 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     if (kernels->displacement) {
       not_rendered.look_at_displaced(material, meshes.at(assignment.key()), options.dice > 0.0f);
     }
-    if (has_medium(*kernels)) not_rendered.look_at_solids(material, meshes.at(assignment.key()));
+    const bool is_volume = !kernels->has_surface && kernels->volume;
+    if (has_medium(*kernels) || is_volume)
+      not_rendered.look_at_solids(material, meshes.at(assignment.key()));
     const bool has_back = kernels->has_back;
     place.front = std::make_unique<KernelShader>(std::move(kernels), stop);
     if (!has_back) continue;
@@ -249,6 +251,16 @@ void bind_shaders(const std::vector<MeshAssignment>& assignments, const Shaders&
   report_missing_attributes(shaded, scene_file, diagnostics);
 }
 
+/// Lights that paths cannot find do not get through the borders of volumes.
+void report_unlit_volumes(const host::RenderInput& input, Diagnostics& diagnostics) {
+  const bool has_volume = std::ranges::any_of(
+      input.shaders, [](const host::Shader* shader) { return shader->capabilities().is_volume; });
+  if (!has_volume || input.lights.empty()) return;
+  diagnostics.warning("unlit-volumes", {},
+                      "lights without a surface do not light volumes, nor what is behind them",
+                      "lights that are meshes, or an environment");
+}
+
 /// Moves the surfaces that are displaced.
 void displace(const RenderOptions& options, host::Scene& world, const host::RenderInput& input,
               Diagnostics& diagnostics) {
@@ -287,6 +299,11 @@ void report_media(const host::RenderStatistics& statistics, Diagnostics& diagnos
                         "some light was scattered too often in media and is missing",
                         "more --max-scatterings",
                         fmt::format("{} of {} paths", statistics.paths_cut, statistics.paths));
+  }
+  if (statistics.beyond_bound != 0) {
+    diagnostics.warning("dense-volume", {},
+                        "a volume is denser in places than was found before: more noise there", {},
+                        fmt::format("{} times", statistics.beyond_bound));
   }
   if (statistics.media_dropped != 0) {
     diagnostics.warning("media-dropped", {}, "some media lie in too many others and were left out",
@@ -339,6 +356,7 @@ int run(RenderOptions& options) {
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
+  report_unlit_volumes(input, diagnostics);
   if (options.dice > 0.0f) displace(options, world, input, diagnostics);
   const std::vector<const BoundKernel*> kernels = kernels_of(shaders, neutral, lights);
 

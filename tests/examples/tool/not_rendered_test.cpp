@@ -92,6 +92,27 @@ TEST_F(NotRendered, SubsurfaceOfWhatIsNoSolid) {
   EXPECT_EQ(count("not-modelled"), 1u) << errors_;
 }
 
+// A volume has an inside, which a card has not; and lights without a surface do not get there.
+TEST_F(NotRendered, VolumesOfWhatIsNoSolid) {
+  const std::string smoke = R"(
+    <noise3d name="n" type="vector3"><input name="pivot" type="float" value="1"/></noise3d>
+    <anisotropic_vdf name="v" type="VDF">
+      <input name="scattering" type="vector3" nodename="n"/></anisotropic_vdf>
+    <volume name="S" type="volumeshader"><input name="vdf" type="VDF" nodename="v"/></volume>
+    <volumematerial name="M" type="material">
+      <input name="volumeshader" type="volumeshader" nodename="S"/></volumematerial>)";
+  write("a.mtlx", std::string(head) + smoke + "</materialx>");
+  const std::string ball = "render --no-cache --spp 1 --size 4 --out " + file("a.png") + " ";
+  EXPECT_EQ(run(ball + file("a.mtlx")), 0);
+  EXPECT_EQ(errors_, "");
+  EXPECT_EQ(render(smoke), 0);
+  EXPECT_EQ(count("open-solid"), 1u) << errors_;
+  const std::string sun = R"(<directional_light name="L" type="lightshader"/>)";
+  write("a.mtlx", std::string(head) + smoke + sun + "</materialx>");
+  EXPECT_EQ(run(ball + file("a.mtlx")), 0);
+  EXPECT_EQ(count("unlit-volumes"), 1u) << errors_;
+}
+
 TEST_F(NotRendered, InputsThatTheModelItselfDoesNotRead) {
   EXPECT_EQ(render(material("standard_surface", input("transmission_depth", "float", "0.0"))), 0);
   EXPECT_EQ(errors_, "");  // The default, however it is written.

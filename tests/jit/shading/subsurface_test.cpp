@@ -125,6 +125,21 @@ TEST_F(Subsurface, SharesTheLightWithOtherLobes) {
   EXPECT_TRUE(says_radius());
 }
 
+TEST_F(Subsurface, EnginesAgreeToTheBit) {
+  const std::string nodes = flesh("b", "1, 0.5, 0.25");
+  options_.compile.accuracy = Accuracy::standard;
+  std::vector<Numbers> results;
+  for (const Backend backend : {Backend::interpreter, Backend::jit}) {
+    options_.compile.backend = backend;
+    compile(nodes);
+    for (const float u : {0.0f, 0.3f, 0.9999f}) results.push_back(sample(u));
+    results.push_back(run(*kernels_->subsurface, {{"wo.x", 0.6f}, {"wo.z", -0.8f}}));
+  }
+  for (std::size_t i = 0; i < results.size() / 2; ++i) {
+    EXPECT_EQ(results[i], results[i + results.size() / 2]) << i;
+  }
+}
+
 TEST_F(Subsurface, IsNotThereWhereLightStays) {
   compile(flesh("b", "0, 0, 0"));
   EXPECT_FALSE(kernels_->subsurface);
