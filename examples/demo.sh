@@ -36,8 +36,9 @@ echo "== motion"
 "$nacre" render "$here/motion/motion.mtlx" --scene "$out/motion.gltf" --time 0.2 --shutter -0.1 0.1 \
   --spp "$spp" --size "$size" --out "$out/rendered/motion.png"
 
+# More samples: what is within is lit by light that paths happen to meet.
 echo "== volumes"
-"$nacre" render "$here/volumes/smoke.mtlx" --spp "$spp" --size "$size" --out "$out/rendered/smoke.png"
+"$nacre" render "$here/volumes/smoke.mtlx" --spp $((4 * spp)) --size "$size" --out "$out/rendered/smoke.png"
 
 echo "== displacement"
 "$nacre" render "$here/displacement/pebbles.mtlx" --spp "$spp" --size "$size" \

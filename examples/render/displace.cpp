@@ -73,20 +73,28 @@ void average(std::vector<Vec3>& values, const std::vector<std::uint32_t>& places
 class Displacer {
  public:
   Displacer(Scene& scene, const PixelCamera& camera, Vec3 eye, const DisplaceSettings& settings)
-      : scene_(scene), camera_(camera), eye_(eye), settings_(settings) {}
+      : scene_(scene),
+        camera_(camera),
+        eye_(eye),
+        settings_(settings),
+        left_(settings.most_triangles) {}
 
   /// False where the mesh is coarser than asked.
-  bool split(std::uint32_t number) const {
+  bool split(std::uint32_t number) {
     Mesh& mesh = scene_.meshes[number];
     const Placed placed = nearest(mesh, eye_);
-    return tessellate(
+    const std::size_t before = mesh.triangles.size();
+    const bool is_fine = tessellate(
         mesh,
         [&](Vec3 a, Vec3 b) {
+          if (settings_.stop.stop_requested()) return false;
           const Vec3 p = transform_point(placed.to_world, a);
           const Vec3 q = transform_point(placed.to_world, b);
           return length(q - p) > edge_at(0.5f * (p + q));
         },
-        settings_.most_triangles);
+        before + left_);
+    left_ -= mesh.triangles.size() - before;
+    return is_fine;
   }
 
   /// Moves the vertices; how many stay because they went nowhere.
@@ -143,6 +151,7 @@ class Displacer {
     std::vector<Vec3> offsets(mesh.position.size());
     std::vector<SurfacePoint> points;
     for (std::size_t first = 0; first < asked.size(); first += batch_size) {
+      if (settings_.stop.stop_requested()) break;
       const std::size_t count = std::min<std::size_t>(batch_size, asked.size() - first);
       points.clear();
       for (std::size_t i = first; i < first + count; ++i) {
@@ -163,6 +172,7 @@ class Displacer {
   const PixelCamera& camera_;
   Vec3 eye_;
   const DisplaceSettings& settings_;
+  std::size_t left_;  ///< Triangles that may come.
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "examples/render/camera.h"
@@ -12,9 +13,10 @@
 namespace nacre::host {
 
 struct DisplaceSettings {
-  float edge = 1.f;  ///< Longest edge, in distances of image samples of a picture of one a pixel.
-  std::size_t most_triangles = 4'000'000;  ///< Of a mesh.
+  float edge = 1.f;  ///< Longest edge, in distances between the camera's samples.
+  std::size_t most_triangles = 4'000'000;  ///< More than there are, of all meshes together.
   Clock clock;
+  std::stop_token stop;  ///< Asked to: the scene is of no use then.
 };
 
 struct DisplaceResult {

@@ -272,7 +272,8 @@ void displace(const RenderOptions& options, host::Scene& world, const host::Rend
       host::displace(world, input.shaders, camera, input.camera.position,
                      {.edge = options.dice,
                       .most_triangles = options.scene_limits.bytes / bytes_of_triangle,
-                      .clock = {s.time, s.frame, s.shutter_open, s.shutter_close, s.fps}});
+                      .clock = {s.time, s.frame, s.shutter_open, s.shutter_close, s.fps},
+                      .stop = tool::stop().token()});
   for (const std::uint32_t mesh : result.coarse) {
     diagnostics.warning("coarse-displacement", {},
                         "'" + world.meshes[mesh].object_name +

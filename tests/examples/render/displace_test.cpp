@@ -233,6 +233,16 @@ TEST(Displace, SaysWhatIsCoarse) {
   const Displaced box = displaced(cube(), grow, settings);
   EXPECT_EQ(box.result.coarse, std::vector<std::uint32_t>{0});
   EXPECT_TRUE(is_closed(box.mesh()));
+  EXPECT_LE(box.mesh().triangles.size(), 1012u);
+
+  // All meshes together.
+  Scene two;
+  two.meshes = {cube(), cube()};
+  const Camera camera = look_at({0, 0, 5}, {}, 0.6f);
+  const DisplaceResult result =
+      displace(two, {&grow, &grow}, PixelCamera(camera, 100, 100, 1.f), camera.position, settings);
+  EXPECT_EQ(result.coarse.size(), 2u);
+  EXPECT_LE(two.meshes[0].triangles.size() + two.meshes[1].triangles.size(), 1024u);
 }
 
 }  // namespace
