@@ -13,6 +13,7 @@ class SampleFlag(enum.IntFlag):
     VALID = 1  # Else weight and densities are 0.
     DELTA = 2  # pdf is a probability; Entry.EVALUATE gives 0.
     TRANSMISSION = 4  # wi and wo are on different sides, by Ng.
+    SUBSURFACE = 8  # Light goes on below the surface along wi: see Entry.SUBSURFACE.
 
 
 class LobeKind(enum.IntFlag):

@@ -3,6 +3,7 @@
 import ast
 import inspect
 import pathlib
+import re
 
 import nacre
 from nacre import _core
@@ -48,9 +49,10 @@ def test_entries_are_those_of_the_header():
     for entry in nacre.Entry:
         assert f"NACRE_{entry.name} = {int(entry)}" in header
     assert f"NACRE_ENTRY_COUNT = {len(nacre.Entry)}" in header
-    for flags, prefix in (nacre.SampleFlag, "NACRE_SAMPLE_"), (nacre.LobeKind, "NACRE_"):
-        for flag in flags:
-            assert f"{prefix}{flag.name} = {int(flag)}" in header
+    flags = {flag.name: str(int(flag)) for flag in nacre.SampleFlag}
+    assert flags == dict(re.findall(r"NACRE_SAMPLE_(\w+) = (\d+)", header))
+    for kind in nacre.LobeKind:
+        assert f"NACRE_{kind.name} = {int(kind)}" in header
 
 
 def test_options_are_those_of_the_interface():
