@@ -7,3 +7,5 @@ s|^\( *\)/\* \([^-]\)|\1/** \2|
 s|\([^ ].*\) /\* |\1 /**< |
 # A defaulted comparison needs no words where it stands.
 s|operator[=<].* = default;$|& ///< Member by member.|
+# What stands in angle brackets is no tag.
+s|<UDIM>|\\<UDIM\\>|g
