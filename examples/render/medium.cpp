@@ -19,6 +19,12 @@ std::uint32_t Media::exit(std::uint32_t mesh, std::uint32_t instance) const {
   return last.mesh == mesh && last.instance == instance ? last.exit : no_exit;
 }
 
+bool Media::is_open(std::uint32_t mesh, std::uint32_t instance) const {
+  return std::all_of(inside_.begin(), inside_.begin() + count_, [&](const Inside& each) {
+    return each.medium.is_open || (each.mesh == mesh && each.instance == instance);
+  });
+}
+
 void Media::leave(std::uint32_t mesh, std::uint32_t instance) {
   for (std::uint32_t i = count_; i-- > 0;) {
     if (inside_[i].mesh != mesh || inside_[i].instance != instance) continue;
@@ -57,6 +63,10 @@ Flight sample_flight(const Medium& medium, Vec3 throughput, float far, Uniform2 
   const Vec3 left = left_after(rate, distance);
   const float pdf = dot(chance, rate * left);
   return {true, distance, pdf > 0.f ? (1.f / pdf) * (medium.scattering * left) : Vec3{}};
+}
+
+Vec3 transmittance(const Medium& medium, float length) {
+  return left_after(medium.absorption + medium.scattering, length);
 }
 
 Vec3 emitted(const Medium& medium, float length) {
@@ -99,9 +109,14 @@ Scattered sample_phase(float anisotropy, Vec3 along, Uniform2 u) {
   const float phi = 2.f * std::numbers::pi_v<float> * u.y;
   const Vec3 x = perpendicular(along);
   const Vec3 y = cross(along, x);
-  const float base = std::max(1.f + g * g - 2.f * g * cosine, 1e-12f);
   return {normalize(cosine * along + (sine * std::cos(phi)) * x + (sine * std::sin(phi)) * y),
-          (1.f - g * g) / (4.f * std::numbers::pi_v<float> * base * std::sqrt(base))};
+          phase(g, cosine)};
+}
+
+float phase(float anisotropy, float cosine) {
+  const float g = anisotropy;
+  const float base = std::max(1.f + g * g - 2.f * g * cosine, 1e-12f);
+  return (1.f - g * g) / (4.f * std::numbers::pi_v<float> * base * std::sqrt(base));
 }
 
 }  // namespace nacre::host

@@ -16,6 +16,8 @@ struct Medium {
   Vec3 scattering;
   float anisotropy = 0.f;  ///< Mean cosine of scattering, in (-1, 1).
   Vec3 emission = {};
+  /// Its border is no surface: light goes straight through.
+  bool is_open = false;
   /// Of what differs from place to place: the index of the material that says what there is, and
   /// what absorption and scattering together rarely exceed. The numbers above mean nothing then.
   std::uint32_t varies_by = everywhere;
@@ -27,6 +29,15 @@ struct Medium {
            max_component(emission) <= 0.f;
   }
 };
+
+/// What differs from place to place: see Medium::varies_by and Medium::bound.
+inline Medium varying_medium(std::uint32_t material, float bound) {
+  Medium medium;
+  medium.is_open = true;
+  medium.varies_by = material;
+  medium.bound = bound;
+  return medium;
+}
 
 /// What a path is inside of. What was entered last is what there is; what encloses it comes back
 /// when it is left.
@@ -44,10 +55,8 @@ class Media {
              std::uint32_t exit = no_exit);
   /// `exit` of what the path is inside of, if that is this mesh; else no_exit.
   std::uint32_t exit(std::uint32_t mesh, std::uint32_t instance) const;
-  /// Whether the path is inside of something else than that.
-  bool encloses(std::uint32_t mesh, std::uint32_t instance) const {
-    return !empty() && !(this->mesh() == mesh && this->instance() == instance);
-  }
+  /// Whether light goes straight out of all that the path is inside of, that mesh apart.
+  bool is_open(std::uint32_t mesh = ~0u, std::uint32_t instance = 0) const;
   /// Which mesh and instance current() is of.
   std::uint32_t mesh() const { return inside_[count_ - 1].mesh; }
   std::uint32_t instance() const { return inside_[count_ - 1].instance; }
@@ -76,6 +85,9 @@ struct Flight {
 /// Wavelength Spectral Sampling", EGSR 2014, eq. 4).
 Flight sample_flight(const Medium& medium, Vec3 throughput, float far, Uniform2 u);
 
+/// The share of light that goes as far in a medium alike everywhere, by channel (Beer's law).
+Vec3 transmittance(const Medium& medium, float length);
+
 /// What a medium alike everywhere sends along a ray of that length, by channel: the integral of
 /// what is left of its emission. Of a ray without end in what does not absorb: nothing.
 Vec3 emitted(const Medium& medium, float length);
@@ -101,5 +113,9 @@ struct Scattered {
   float pdf = 0.f;
 };
 Scattered sample_phase(float anisotropy, Vec3 along, Uniform2 u);
+
+/// The density with which it is scattered to what has that cosine with the way it went: the phase
+/// function too.
+float phase(float anisotropy, float cosine);
 
 }  // namespace nacre::host

@@ -58,6 +58,7 @@ Path camera_path(const RenderContext& context, int x, int y, int sample) {
                          uniform2(s.sampler, path.key, Draw::lens), time);
   path.ray = {ray.origin, ray.direction, INFINITY, ray_camera, time};
   path.vertex = ray.origin;
+  path.media = context.camera_media;
   return path;
 }
 

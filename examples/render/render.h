@@ -89,7 +89,8 @@ struct RenderStatistics {
 };
 
 /// Path traces the scene. The film is the same, bit for bit, for any number of
-/// threads. Empty when cancelled or when memory ran out (which gives an error).
+/// threads; on CPUs of another kind Embree may round a hit, and so a picture, differently. Empty
+/// when cancelled or when memory ran out (which gives an error).
 std::optional<Film> render(const RenderInput& input, const RenderSettings& settings,
                            Diagnostics& diagnostics, const RenderControl& control = {},
                            RenderStatistics* statistics = nullptr);

@@ -6,6 +6,7 @@
 
 #include "examples/render/exit_shader.h"
 #include "examples/render/mesh.h"
+#include "examples/render/volumes_around.h"
 
 namespace nacre::host {
 
@@ -33,6 +34,7 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
   if (environment != nullptr && !(environment->mean_luminance() > 0.f)) environment = nullptr;
   collect_materials(input);
   find_bounds();
+  if (any_volume) camera_media = volumes_around(*this, input.camera.position, 0.f);
   collect_lights();
   point_lights = input.lights;
   choose_chances();

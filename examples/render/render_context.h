@@ -43,6 +43,7 @@ class RenderContext {
   bool any_matte = false;
   bool any_media = false;
   bool any_volume = false;
+  Media camera_media;         ///< The volumes that the camera is inside of as the shutter opens.
   std::vector<float> bounds;  ///< By mesh: Medium::bound of a volume that varies; else 0.
   std::vector<const LightShader*> point_lights;  ///< That no ray meets.
   /// Chances that light sampling asks the environment, surfaces that emit, or what no ray meets.

@@ -63,13 +63,14 @@ float to_unit(std::uint32_t v) { return static_cast<float>(v >> 8) * 0x1p-24f; }
 
 Uniform2 uniform2(SamplerKind kind, const SampleKey& key, Draw draw) {
   const std::uint32_t purpose = (key.event << 4) | static_cast<std::uint32_t>(draw);
+  const std::uint32_t seed = key.seed + 0x9e3779b9u * key.step;  // 2^32 over the golden ratio
   if (kind == SamplerKind::independent) {
-    const Hash4 h = pcg4d({key.pixel, key.sample, purpose, key.seed});
+    const Hash4 h = pcg4d({key.pixel, key.sample, purpose, seed});
     return {to_unit(h.x), to_unit(h.y)};
   }
   // Shuffling the index decorrelates the padded pairs; the scramble of each
   // dimension keeps the stratification within a pair.
-  const Hash4 h = pcg4d({key.pixel, 0x5eed5eedu, purpose, key.seed});
+  const Hash4 h = pcg4d({key.pixel, 0x5eed5eedu, purpose, seed});
   const std::uint32_t index_reversed = owen_scramble_reversed(reverse_bits(key.sample), h.z);
   const std::uint32_t x = index_reversed;  // the first dimension is van der Corput's
   const std::uint32_t y = sobol_dimension_1(index_reversed);

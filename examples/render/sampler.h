@@ -23,7 +23,8 @@ enum class Draw : std::uint32_t {
   roulette,
   time,
   flight,
-  phase
+  phase,
+  shadow
 };
 
 struct Uniform2 {
@@ -35,6 +36,7 @@ struct SampleKey {
   std::uint32_t pixel = 0;   ///< y * width + x.
   std::uint32_t sample = 0;  ///< Index within the pixel.
   std::uint32_t event = 0;   ///< Intersections on the path so far.
+  std::uint32_t step = 0;    ///< What a shadow ray has stopped at so far.
 };
 
 /// Two numbers for one purpose.

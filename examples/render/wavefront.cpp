@@ -51,9 +51,11 @@ void Wavefront::trace(std::span<Path> paths) {
   while (!active_.empty()) {
     next_.clear();
     shadows_.clear();
+    shadow_media_.clear();
     intersect();
     if (context_.any_media) cross_media();
     if (context_.any_volume) meet_media();
+    if (!scatterings_.empty()) connect_media();
     add_environment();
     group_by_material();
     if (context_.any_volume) enter_volumes();

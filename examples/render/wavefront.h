@@ -6,6 +6,7 @@
 
 #include "examples/render/batch_buffer.h"
 #include "examples/render/medium.h"
+#include "examples/render/medium_lanes.h"
 #include "examples/render/render_context.h"
 #include "examples/render/sampler.h"
 
@@ -47,10 +48,6 @@ struct Group {
 /// to. Through a fibre it goes at once: what happens inside is its material's.
 Vec3 leave(const BatchBuffer& buffer, std::size_t lane, Vec3 direction);
 
-/// What lanes say of a medium: finite, at least 0.
-Medium medium_of(const InteriorLanes& lanes, std::size_t lane);
-Medium medium_of(const VolumeLanes& lanes, std::size_t lane);
-
 /// Opening angle for a direction drawn with this density: the cone that holds a
 /// quarter of the directions one sample stands for, at most a quarter radian.
 float scattered_spread(float pdf);
@@ -79,12 +76,29 @@ class Wavefront {
     std::uint32_t path;
     SurfacePoint point;
   };
+  /// A path that a light is chosen for that no ray meets, which one, and where the path is.
+  struct LitPoint {
+    std::uint32_t path, light;
+    InnerPoint point;
+  };
   struct ShadowRay {
     Ray ray;
     Vec3 contribution;
     Vec3 target;
     std::uint32_t path;
     bool infinite;
+  };
+  /// What a shadow ray is inside of: by its place in shadows_, where there are volumes.
+  struct ShadowMedia {
+    Media media;
+    SampleKey key;
+  };
+  /// Where a path was scattered within volumes.
+  struct Scattering {
+    std::uint32_t path;
+    Vec3 along;  ///< Where light went, seen from the camera; its place is Path::vertex.
+    float anisotropy;
+    Vec3 throughput;  ///< Before the direction was drawn.
   };
 
   // wavefront.cpp
@@ -103,30 +117,47 @@ class Wavefront {
   // wavefront_opacity.cpp
   void apply_opacity();
   std::uint32_t pass_through(const Material& material, std::span<std::uint32_t> paths);
+
+  // wavefront_shadow.cpp
+  void add_shadow(const LightSample& light, std::uint32_t path, Vec3 origin, Vec3 contribution);
   void trace_shadows();
   void trace_opaque_shadows();
-  void trace_transparent_shadows();
+  void trace_dimmed_shadows();
   SurfacePoint shadow_point(std::size_t i) const;
+  void fill_shadows(std::span<const std::uint32_t> shadows, const Material& material);
   void attenuate(const Material& material, std::span<const std::uint32_t> shadows);
+  void go_on(std::size_t shadow, std::size_t lane);
+
+  // wavefront_shadow_media.cpp
+  void dim_shadows();
+  bool may_dim(std::uint32_t shadow);
+  void dim_by_points(const Material& material, std::span<const std::uint32_t> shadows);
+  void cross_border(const Material& material, std::span<const std::uint32_t> shadows);
 
   // wavefront_medium.cpp
   void cross_media();
-  bool scatter_inside(Path& path, const Medium& medium, float distance);
+  bool scatter_inside(std::uint32_t path, const Medium& medium, float distance);
+  void connect_media();
   void find_media(const Material& material, std::size_t lanes);
+  bool goes_within(const Material& material, const Hit& hit, std::size_t lane, Vec3 wi) const;
+  bool goes_out(const Media& media, const Hit& hit, std::size_t lane, Vec3 wi) const;
   void change_medium(const Material& material, Path& path, const Hit& hit, std::size_t lane);
 
   // wavefront_volume.cpp
   bool may_meet(std::uint32_t path, const Medium& medium, float far);
   void enter_volumes();
   void enter_volume(const Material& material, std::span<const std::uint32_t> paths);
+  void take_through(Media& media, const Material& material, const Hit& hit, std::size_t lane,
+                    Vec3 direction);
   void meet_media();
   void meet_medium(const Material& material, std::span<const std::uint32_t> paths);
 
   // wavefront_light.cpp
   void sample_lights();
-  void sample_light(std::uint32_t path);
+  void choose_light(std::uint32_t path, const InnerPoint& from);
+  void ask_lights();
   void light_emission(const Material& material, std::span<const std::uint32_t> points);
-  void light_points(const LightShader& light, std::span<const std::uint32_t> paths);
+  void light_points(const LightShader& light, std::span<const std::uint32_t> lit);
 
   // wavefront_shade.cpp
   void shade();
@@ -154,11 +185,12 @@ class Wavefront {
   std::vector<LightPoint> light_points_;
   std::vector<std::uint32_t> light_order_;
   std::vector<Group> light_groups_;
-  /// Paths that a light is chosen for that no ray meets, and which.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> lit_;
+  std::vector<LitPoint> lit_;
   std::vector<std::uint32_t> lit_order_;
-  std::vector<Group> lit_groups_;  ///< By light.
+  std::vector<Group> lit_groups_;        ///< By light.
+  std::vector<Scattering> scatterings_;  ///< Of this round.
   std::vector<ShadowRay> shadows_;
+  std::vector<ShadowMedia> shadow_media_;
   std::vector<std::uint32_t> shadow_order_;
   std::vector<Group> shadow_groups_;
   std::vector<std::uint8_t> blocked_;

@@ -6,44 +6,32 @@
 
 namespace nacre::host {
 
-/// One light sample for every path that can use one. Emission is evaluated in
-/// batches of its own, sorted by the material of the light.
+/// One light sample for every path that can use one.
 void Wavefront::sample_lights() {
-  light_points_.clear();
-  lit_.clear();
   for (std::size_t m = 0; m < groups_.size(); ++m) {
     const Capabilities& can = context_.materials[m].capabilities;
     if (!can.scatters || can.only_delta) continue;
-    for (std::uint32_t k = groups_[m].begin; k < groups_[m].end; ++k) sample_light(sorted_[k]);
+    for (std::uint32_t k = groups_[m].begin; k < groups_[m].end; ++k) {
+      const std::uint32_t i = sorted_[k];
+      const Path& path = paths_[i];
+      const Hit& hit = hits_[i];
+      light_samples_[i] = {};
+      if (path.depth >= context_.settings.max_depth) continue;
+      // Not from inside of what has a surface: that is in the way.
+      if (!path.media.is_open(hit.mesh, hit.instance)) continue;
+      if (!context_.scene.meshes[hit.mesh].illuminated) continue;
+      choose_light(i, {hit.mesh, hit.instance, path.ray.time,
+                       surface_position(context_.scene, surface_point(i)), -path.ray.direction});
+    }
   }
-  group_by(light_points_.size(), light_order_, light_groups_,
-           [this](std::size_t i) { return context_.material_of(light_points_[i].point); });
-  for (std::size_t m = 0; m < light_groups_.size(); ++m) {
-    const Group g = light_groups_[m];
-    for_batches(std::span<const std::uint32_t>(light_order_.data() + g.begin, g.end - g.begin),
-                buffer_.capacity(), [&](std::span<const std::uint32_t> points) {
-                  light_emission(context_.materials[m], points);
-                });
-  }
-  group_by(lit_.size(), lit_order_, lit_groups_, [this](std::size_t i) { return lit_[i].second; });
-  for (std::size_t k = 0; k < lit_groups_.size(); ++k) {
-    const Group g = lit_groups_[k];
-    for (std::uint32_t i = g.begin; i < g.end; ++i) lit_order_[i] = lit_[lit_order_[i]].first;
-    for_batches(std::span<const std::uint32_t>(lit_order_.data() + g.begin, g.end - g.begin),
-                buffer_.capacity(), [&](std::span<const std::uint32_t> paths) {
-                  light_points(*context_.point_lights[k], paths);
-                });
-  }
+  ask_lights();
 }
 
-void Wavefront::sample_light(std::uint32_t i) {
+/// Draws what lights a path from there; ask_lights() completes it.
+void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from) {
   const Path& path = paths_[i];
   LightSample& light = light_samples_[i];
   light = {};
-  if (path.depth >= context_.settings.max_depth) return;
-  // Not through a medium: what weakens the light on its way is found by paths.
-  if (path.media.encloses(hits_[i].mesh, hits_[i].instance)) return;
-  if (!context_.scene.meshes[hits_[i].mesh].illuminated) return;
   const Uniform2 choice = draw(path, Draw::light_choice);
   const Uniform2 position = draw(path, Draw::light);
   if (choice.x < context_.environment_chance) {
@@ -54,15 +42,14 @@ void Wavefront::sample_light(std::uint32_t i) {
   if (choice.x >= 1.f - context_.point_chance) {
     const auto count = static_cast<float>(context_.point_lights.size());
     const auto last = static_cast<std::uint32_t>(context_.point_lights.size() - 1);
-    lit_.emplace_back(i, std::min(static_cast<std::uint32_t>(choice.y * count), last));
+    lit_.push_back({i, std::min(static_cast<std::uint32_t>(choice.y * count), last), from});
     return;
   }
   const AreaLights::Sample s = context_.lights.sample(choice.y, position);
-  SurfacePoint light_point{s.mesh, s.triangle, s.u, s.v, {}, false, 0.f, 0.f, 0, path.ray.time};
+  SurfacePoint light_point{s.mesh, s.triangle, s.u, s.v, {}, false, 0.f, 0.f, 0, from.time};
   const Vec3 on_light = surface_position(context_.scene, light_point);
   const Vec3 ng = surface_normal(context_.scene, light_point);
-  const Vec3 from = surface_position(context_.scene, surface_point(i));
-  const Vec3 way = on_light - from;
+  const Vec3 way = on_light - from.P;
   const float squared = dot(way, way);
   if (!(squared > 0.f) || !std::isfinite(squared)) return;
   const Vec3 wi = normalize(way);
@@ -73,6 +60,30 @@ void Wavefront::sample_light(std::uint32_t i) {
   light = {wi, {}, offset_point(on_light, cosine > 0.f ? -ng : ng), pdf, false};
   light_point.wo = -wi;
   light_points_.push_back({i, light_point});
+}
+
+/// Emission of the points that are chosen, in batches of their own, by the material of the light;
+/// and what the others send.
+void Wavefront::ask_lights() {
+  group_by(light_points_.size(), light_order_, light_groups_,
+           [this](std::size_t k) { return context_.material_of(light_points_[k].point); });
+  for (std::size_t m = 0; m < light_groups_.size(); ++m) {
+    const Group g = light_groups_[m];
+    for_batches(std::span<const std::uint32_t>(light_order_.data() + g.begin, g.end - g.begin),
+                buffer_.capacity(), [&](std::span<const std::uint32_t> points) {
+                  light_emission(context_.materials[m], points);
+                });
+  }
+  light_points_.clear();
+  group_by(lit_.size(), lit_order_, lit_groups_, [this](std::size_t k) { return lit_[k].light; });
+  for (std::size_t light = 0; light < lit_groups_.size(); ++light) {
+    const Group g = lit_groups_[light];
+    for_batches(std::span<const std::uint32_t>(lit_order_.data() + g.begin, g.end - g.begin),
+                buffer_.capacity(), [&](std::span<const std::uint32_t> lit) {
+                  light_points(*context_.point_lights[light], lit);
+                });
+  }
+  lit_.clear();
 }
 
 void Wavefront::light_emission(const Material& material, std::span<const std::uint32_t> points) {
@@ -93,20 +104,20 @@ void Wavefront::light_emission(const Material& material, std::span<const std::ui
   }
 }
 
-/// What the points where paths met something see of a light.
-void Wavefront::light_points(const LightShader& light, std::span<const std::uint32_t> paths) {
-  points_.clear();
-  for (const std::uint32_t i : paths) points_.push_back(surface_point(i));
+/// What the points where paths are see of a light.
+void Wavefront::light_points(const LightShader& light, std::span<const std::uint32_t> lit) {
+  inner_points_.clear();
+  for (const std::uint32_t k : lit) inner_points_.push_back(lit_[k].point);
   Capabilities needs;
   needs.attributes = attribute_time;
-  context_.geometry.fill(points_, needs, context_.camera, buffer_);
+  context_.geometry.fill_within(inner_points_, needs, context_.camera, buffer_);
   const LightLanes seen{buffer_.rgb, buffer_.wi, buffer_.value.pdf};
   {
     const Stopwatch watch(statistics_.shading_seconds);
     light.light(buffer_.batch, seen);
   }
   const float pdf = context_.point_chance / static_cast<float>(context_.point_lights.size());
-  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+  for (std::size_t lane = 0; lane < lit.size(); ++lane) {
     const Vec3 direction = normalize_or(load(seen.direction, lane), {});
     const Vec3 intensity = load(seen.intensity, lane);
     // A point that is the light has no direction to it.
@@ -114,7 +125,7 @@ void Wavefront::light_points(const LightShader& light, std::span<const std::uint
     const float distance = seen.distance[lane];
     const bool infinite = !(distance < largest_coordinate);
     const Vec3 target = load(buffer_.batch.P, lane) + (infinite ? 0.f : distance) * direction;
-    light_samples_[paths[lane]] = {direction, intensity, target, pdf, infinite, true};
+    light_samples_[lit_[lit[lane]].path] = {direction, intensity, target, pdf, infinite, true};
   }
 }
 

@@ -5,30 +5,11 @@
 
 namespace nacre::host {
 
-namespace {
-
-/// Nothing where it is no number; and no more than products of it can be numbers.
-float amount(float x) { return x > 0.f ? std::min(x, 1e30f) : 0.f; }
-Vec3 amount(Vec3 v) { return {amount(v.x), amount(v.y), amount(v.z)}; }
-
-}  // namespace
-
-Medium medium_of(const InteriorLanes& lanes, std::size_t lane) {
-  const float g = lanes.anisotropy[lane];
-  return {amount(load(lanes.absorption, lane)), amount(load(lanes.scattering, lane)),
-          std::isfinite(g) ? std::clamp(g, -0.999f, 0.999f) : 0.f};
-}
-
-Medium medium_of(const VolumeLanes& lanes, std::size_t lane) {
-  Medium medium = medium_of(lanes.medium, lane);
-  medium.emission = amount(load(lanes.emission, lane));
-  return medium;
-}
-
 /// Takes the paths that are inside of something to where they meet a surface, or are scattered
 /// before. Those go on from there; those in what varies are in `met_` then.
 void Wavefront::cross_media() {
   met_.clear();
+  scatterings_.clear();
   const auto is_over = [this](std::uint32_t i) {
     Path& path = paths_[i];
     if (path.media.empty()) return false;
@@ -43,14 +24,15 @@ void Wavefront::cross_media() {
       return true;
     }
     if (!(max_component(path.throughput) > 0.f)) return true;
-    if (flight.scatters && scatter_inside(path, medium, flight.distance)) next_.push_back(i);
+    if (flight.scatters && scatter_inside(i, medium, flight.distance)) next_.push_back(i);
     return flight.scatters;
   };
   active_.erase(std::remove_if(active_.begin(), active_.end(), is_over), active_.end());
 }
 
 /// False where the path ends.
-bool Wavefront::scatter_inside(Path& path, const Medium& medium, float distance) {
+bool Wavefront::scatter_inside(std::uint32_t i, const Medium& medium, float distance) {
+  Path& path = paths_[i];
   if (++path.scatterings > context_.settings.max_scatterings) {
     ++statistics_.paths_cut;
     return false;
@@ -68,11 +50,35 @@ bool Wavefront::scatter_inside(Path& path, const Medium& medium, float distance)
   path.from_camera = false;
   path.vertex = path.ray.origin + distance * path.ray.direction;
   path.pdf = to.pdf;
-  // Lights are not sampled from inside: what encloses the medium is in the way.
-  path.light_blind = true;
+  // From inside of what has a surface lights are not sampled: that is in the way.
+  path.light_blind = !connects() || !path.media.is_open();
+  if (!path.light_blind) {
+    choose_light(i, {path.media.mesh(), path.media.instance(), path.ray.time, path.vertex,
+                     -path.ray.direction});
+    scatterings_.push_back({i, path.ray.direction, medium.anisotropy, path.throughput});
+  }
   path.ray = {path.vertex, to.direction, INFINITY, ray_secondary, path.ray.time};
   ++path.key.event;
   return true;
+}
+
+/// The light that reaches what was scattered within volumes.
+void Wavefront::connect_media() {
+  ask_lights();
+  for (const Scattering& at : scatterings_) {
+    const LightSample& light = light_samples_[at.path];
+    if (!(light.pdf > 0.f)) continue;
+    const float value = phase(at.anisotropy, dot(at.along, light.wi));
+    const float weight = light.unseen ? 1.f : connection_weight(light.pdf, value);
+    const Vec3 contribution = (weight * value / light.pdf) * (at.throughput * light.radiance);
+    if (is_zero(contribution)) continue;
+    if (!is_finite(contribution)) {
+      ++statistics_.invalid_results;
+      continue;
+    }
+    add_shadow(light, at.path, paths_[at.path].vertex, contribution);
+    --shadow_media_.back().key.event;  // The path has gone on already.
+  }
 }
 
 /// What light is in behind the surface, where the samples of a batch go there.
@@ -89,6 +95,19 @@ void Wavefront::find_media(const Material& material, std::size_t lanes) {
   }
 }
 
+/// Whether light along wi is on the inner side of a surface that encloses something.
+bool Wavefront::goes_within(const Material& material, const Hit& hit, std::size_t lane,
+                            Vec3 wi) const {
+  return material.capabilities.has_interior && !context_.scene.meshes[hit.mesh].is_fibres() &&
+         dot(load(buffer_.batch.Ng, lane), wi) < 0.f;
+}
+
+/// Whether light along wi leaves what the mesh of a hit encloses.
+bool Wavefront::goes_out(const Media& media, const Hit& hit, std::size_t lane, Vec3 wi) const {
+  return media.exit(hit.mesh, hit.instance) != Media::no_exit ||
+         !(dot(load(buffer_.batch.Ng, lane), wi) < 0.f);
+}
+
 /// As the sample of a lane goes through a surface: into what it encloses, or out. Through a fibre
 /// light has gone already.
 void Wavefront::change_medium(const Material& material, Path& path, const Hit& hit,
@@ -96,9 +115,9 @@ void Wavefront::change_medium(const Material& material, Path& path, const Hit& h
   if (context_.scene.meshes[hit.mesh].is_fibres()) return;
   const Vec3 wi = load(buffer_.sample.wi, lane);
   const bool is_below = (buffer_.sample.flags[lane] & sample_subsurface) != 0;
-  const bool leaves = path.media.exit(hit.mesh, hit.instance) != Media::no_exit ||
-                      (!is_below && !(dot(load(buffer_.batch.Ng, lane), wi) < 0.f));
-  if (leaves) return path.media.leave(hit.mesh, hit.instance);
+  if (!is_below && goes_out(path.media, hit, lane, wi)) {
+    return path.media.leave(hit.mesh, hit.instance);
+  }
   if (!is_below && !material.capabilities.has_interior) return;
   const InteriorLanes& lanes = is_below ? buffer_.below.medium : buffer_.interior;
   const Medium medium = medium_of(lanes, lane);

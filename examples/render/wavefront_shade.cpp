@@ -67,7 +67,7 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
   }
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
     const LightSample& light = light_samples_[paths[lane]];
-    if (!(light.pdf > 0.f)) continue;
+    if (!(light.pdf > 0.f) || goes_within(material, hits_[paths[lane]], lane, light.wi)) continue;
     const Vec3 value = load(buffer_.value.value, lane);
     const float weight = light.unseen ? 1.f : connection_weight(light.pdf, buffer_.value.pdf[lane]);
     const Vec3 contribution =
@@ -77,13 +77,11 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
       ++statistics_.invalid_results;
       continue;
     }
-    const Vec3 origin = leave(buffer_, lane, light.wi);
-    Ray ray = {origin, light.wi, INFINITY, ray_shadow, paths_[paths[lane]].ray.time};
-    if (!light.infinite) {
-      ray.far = length(light.target - origin);
-      ray.direction = normalize_or(light.target - origin, light.wi);
+    add_shadow(light, paths[lane], leave(buffer_, lane, light.wi), contribution);
+    const Hit& hit = hits_[paths[lane]];
+    if (context_.any_volume && goes_out(paths_[paths[lane]].media, hit, lane, light.wi)) {
+      shadow_media_.back().media.leave(hit.mesh, hit.instance);
     }
-    shadows_.push_back({ray, contribution, light.target, paths[lane], light.infinite});
   }
 }
 
@@ -103,7 +101,9 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
     if (path.depth >= context_.settings.max_depth) continue;
     const Hit& hit = hits_[paths[lane]];
     path.unlit = !context_.scene.meshes[hit.mesh].illuminated;
-    const bool unconnected = path.media.encloses(hit.mesh, hit.instance);  // See sample_light().
+    // See sample_lights() and connect_lights().
+    const bool unconnected = !path.media.is_open(hit.mesh, hit.instance) ||
+                             goes_within(material, hit, lane, load(buffer_.sample.wi, lane));
     if (!scatter(path, lane, hit.distance)) continue;
     path.light_blind = path.light_blind || unconnected;
     if ((buffer_.sample.flags[lane] & sample_transmitted) != 0) {

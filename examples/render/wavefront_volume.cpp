@@ -57,7 +57,7 @@ void Wavefront::meet_medium(const Material& material, std::span<const std::uint3
     }
     if (is_zero(path.throughput)) continue;
     if (meeting.scatters) {
-      if (scatter_inside(path, there, met_at_[i])) next_.push_back(i);
+      if (scatter_inside(i, there, met_at_[i])) next_.push_back(i);
       continue;
     }
     if (++path.scatterings > context_.settings.max_scatterings) {
@@ -71,8 +71,7 @@ void Wavefront::meet_medium(const Material& material, std::span<const std::uint3
   }
 }
 
-/// Takes the paths that meet the border of a volume through it, and out of their groups. What
-/// lights it is found by paths alone: to light sampling it is opaque.
+/// Takes the paths that meet the border of a volume through it, and out of their groups.
 void Wavefront::enter_volumes() {
   for (std::size_t m = 0; m < groups_.size(); ++m) {
     Group& group = groups_[m];
@@ -96,25 +95,27 @@ void Wavefront::enter_volume(const Material& material, std::span<const std::uint
     Path& path = paths_[i];
     const Hit& hit = hits_[i];
     if (++path.passes > context_.settings.max_transparent) continue;
-    if (dot(load(buffer_.batch.Ng, lane), path.ray.direction) < 0.f) {
-      Medium medium;
-      if (material.capabilities.volume_varies) {
-        medium.varies_by = static_cast<std::uint32_t>(&material - context_.materials.data());
-        medium.bound = context_.bounds[hit.mesh];
-      } else {
-        medium = medium_of(buffer_.within, lane);
-      }
-      if (!medium.is_empty() && !path.media.enter(hit.mesh, hit.instance, medium)) {
-        ++statistics_.media_dropped;
-      }
-    } else {
-      path.media.leave(hit.mesh, hit.instance);
-    }
+    take_through(path.media, material, hit, lane, path.ray.direction);
     path.ray.origin = leave(buffer_, lane, path.ray.direction);
     path.distance += hit.distance;
-    path.light_blind = true;
     ++path.key.event;
     next_.push_back(i);
+  }
+}
+
+/// What light is inside of behind the border of a lane.
+void Wavefront::take_through(Media& media, const Material& material, const Hit& hit,
+                             std::size_t lane, Vec3 direction) {
+  if (!(dot(load(buffer_.batch.Ng, lane), direction) < 0.f)) {
+    return media.leave(hit.mesh, hit.instance);
+  }
+  const Medium medium =
+      material.capabilities.volume_varies
+          ? varying_medium(static_cast<std::uint32_t>(&material - context_.materials.data()),
+                           context_.bounds[hit.mesh])
+          : medium_of(buffer_.within, lane);
+  if (!medium.is_empty() && !media.enter(hit.mesh, hit.instance, medium)) {
+    ++statistics_.media_dropped;
   }
 }
 

@@ -251,16 +251,6 @@ void bind_shaders(const std::vector<MeshAssignment>& assignments, const Shaders&
   report_missing_attributes(shaded, scene_file, diagnostics);
 }
 
-/// Lights that paths cannot find do not get through the borders of volumes.
-void report_unlit_volumes(const host::RenderInput& input, Diagnostics& diagnostics) {
-  const bool has_volume = std::ranges::any_of(
-      input.shaders, [](const host::Shader* shader) { return shader->capabilities().is_volume; });
-  if (!has_volume || input.lights.empty()) return;
-  diagnostics.warning("unlit-volumes", {},
-                      "lights without a surface do not light volumes, nor what is behind them",
-                      "lights that are meshes, or an environment");
-}
-
 /// Moves the surfaces that are displaced.
 void displace(const RenderOptions& options, host::Scene& world, const host::RenderInput& input,
               Diagnostics& diagnostics) {
@@ -357,7 +347,6 @@ int run(RenderOptions& options) {
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
-  report_unlit_volumes(input, diagnostics);
   if (options.dice > 0.0f) displace(options, world, input, diagnostics);
   const std::vector<const BoundKernel*> kernels = kernels_of(shaders, neutral, lights);
 

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "examples/render/builtin_scene.h"
 #include "examples/render/camera.h"
 #include "examples/render/medium.h"
+#include "examples/render/punctual_light.h"
 #include "examples/render/render.h"
 #include "tests/examples/render/test_shaders.h"
 
@@ -47,6 +49,7 @@ Vec3 grey(float x) { return {x, x, x}; }
 
 struct Lit {
   Vec3 mean;
+  float deviation = 0.f;  ///< Of the mean of red.
   RenderStatistics statistics;
 };
 
@@ -65,13 +68,17 @@ Lit lit(const Scene& scene, const std::vector<const Shader*>& shaders, const Env
   EXPECT_EQ(result.statistics.invalid_results, 0u);
   EXPECT_EQ(result.statistics.paths_cut, 0u);
   for (const Vec3 rgb : film->pixels()) result.mean += (1.f / 256.f) * rgb;
+  float variance = 0.f;
+  for (int i = 0; i < 256; ++i) variance += film->variance(i % 16, i / 16).x;
+  result.deviation = std::sqrt(variance) / 256.f;
   return result;
 }
 
-Lit ball(const CloudShader& cloud, float sky, int samples, float fov = 0.01f) {
+Lit ball(const CloudShader& cloud, float sky, int samples, float fov = 0.01f,
+         Strategy strategy = Strategy::multiple_importance) {
   Scene scene;
   scene.meshes.push_back(make_sphere("ball", {}, 1.f, 96));
-  return lit(scene, {&cloud}, Environment::constant(grey(sky)), samples, fov);
+  return lit(scene, {&cloud}, Environment::constant(grey(sky)), samples, fov, strategy);
 }
 
 // Through the middle of the ball: absorption of (1 + z) / 2 comes to 1 over a way of 2.
@@ -92,9 +99,10 @@ TEST(Volume, WithoutAbsorptionNothingIsLost) {
   const CloudShader cloud([](Vec3 p) {
     return Medium{{}, grey(p.x > 0.f ? 6.f : std::sin(9.f * p.y) > 0.f ? 1.f : 0.f), 0.4f};
   });
-  const Vec3 light = ball(cloud, 1.f, 16, 0.2f).mean;
-  EXPECT_NEAR(light.x, 1.f, 1e-3f);
-  EXPECT_NEAR(light.z, 1.f, 1e-3f);
+  const Vec3 paths = ball(cloud, 1.f, 16, 0.2f, Strategy::bsdf_only).mean;
+  EXPECT_NEAR(paths.x, 1.f, 1e-3f);
+  EXPECT_NEAR(paths.z, 1.f, 1e-3f);
+  EXPECT_NEAR(ball(cloud, 1.f, 256, 0.2f).mean.x, 1.f, 5e-3f);
 }
 
 // The integral of e exp(-a t) over a way of 2, whether the volume knows that it is alike everywhere
@@ -162,7 +170,135 @@ TEST(Volume, MeetingsHaveTheMean) {
   }
 }
 
-// A floor and a lamp in smoke: what light sampling finds would not be weakened on its way.
+// All strategies find the same light in smoke and behind it, of lamps within, lamps outside and the
+// sky, and whether the smoke is alike everywhere or not.
+TEST(Volume, EveryStrategyFindsTheSameLight) {
+  Scene scene;
+  scene.meshes.push_back(make_sphere("smoke", {}, 2.f, 48));
+  scene.meshes.push_back(make_quad("floor", {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+  scene.meshes.push_back(
+      make_quad_light("within", {0.7f, -1, 1}, {0, 2, 0}, {0.5f, 0, 0.3f}, grey(5)));
+  scene.meshes.push_back(make_quad_light("outside", {-3, -1, 2}, {0, 2, 0}, {1, 0, -1}, grey(9)));
+  const LambertShader white(grey(0.8f));
+  const Environment dusk = Environment::constant(grey(0.1f));
+  const CloudShader alike(Medium{grey(0.1f), grey(0.3f), 0.3f});
+  const CloudShader unlike(
+      [](Vec3 p) { return Medium{grey(0.1f), grey(0.3f + 0.25f * std::sin(4.f * p.x)), 0.3f}; });
+  for (const CloudShader* smoke : {&alike, &unlike}) {
+    const auto seen = [&](Strategy strategy, int samples) {
+      return lit(scene, {smoke, &white, &white, &white}, dusk, samples, 0.35f, strategy);
+    };
+    const Lit paths = seen(Strategy::bsdf_only, 2048);
+    for (const Strategy strategy : {Strategy::multiple_importance, Strategy::light_only}) {
+      const Lit other = seen(strategy, 512);
+      EXPECT_LT(std::hypot(paths.deviation, other.deviation), 2e-2f * paths.mean.x);
+      EXPECT_LT(std::abs(other.mean.x - paths.mean.x),
+                3.5f * std::hypot(paths.deviation, other.deviation))
+          << paths.mean.x << ' ' << other.mean.x << ' ' << int(strategy);
+    }
+  }
+}
+
+// A sun straight above a floor with a slab of fog on it: Beer's law there and back; the fog does
+// not scatter. And so where the fog might be different everywhere.
+TEST(Volume, LightsWithoutASurfaceGetThrough) {
+  Scene scene;
+  scene.meshes.push_back(make_quad("floor", {-9, -9, -1.5f}, {18, 0, 0}, {0, 18, 0}));
+  scene.meshes.push_back(make_sphere("fog", {}, 1.f, 256));
+  const Vec3 rate{0.25f, 1.f, 0.f};
+  const CloudShader alike(Medium{rate, {}, 0.f});
+  const CloudShader unlike([&](Vec3 p) { return Medium{(1.f + p.z) * rate, {}, 0.f}; });
+  const LambertShader white(grey(0.5f));
+  const PunctualShader sun({.kind = PunctualLight::Kind::directional,
+                            .color = grey(3),
+                            .position = {},
+                            .direction = {0, 0, -1}});
+  const Environment night = Environment::constant({});
+  RenderSettings s;
+  s.width = s.height = 4;
+  s.samples = 1024;
+  for (const CloudShader* fog : {&alike, &unlike}) {
+    Diagnostics diagnostics;
+    const auto film = render({.scene = &scene,
+                              .shaders = {&white, fog},
+                              .environment = &night,
+                              .camera = look_at({0, 0, 8}, {}, 1e-3f),
+                              .lights = {&sun}},
+                             s, diagnostics);
+    ASSERT_TRUE(film);
+    Vec3 mean;
+    for (const Vec3 rgb : film->pixels()) mean += (1.f / 16.f) * rgb;
+    const double lit = 3 * 0.5 / std::numbers::pi;
+    EXPECT_NEAR(mean.x / lit, std::exp(-4 * 0.25), 1e-2);
+    EXPECT_NEAR(mean.y / lit, std::exp(-4 * 1.0), 2e-3);
+    EXPECT_NEAR(mean.z / lit, 1.0, 1e-4);
+  }
+}
+
+// What scatters so little that light is scattered once: the integral over the way through the
+// middle of the ball, with the way from the sun on the side (quadrature).
+TEST(Volume, ScattersTheLightOfASun) {
+  Scene scene;
+  scene.meshes.push_back(make_sphere("ball", {}, 1.f, 256));
+  const double absorbed = 1.0, scattered = 0.002, g = 0.6;
+  const CloudShader thin(Medium{grey(float(absorbed)), grey(float(scattered)), float(g)});
+  const PunctualShader sun({.kind = PunctualLight::Kind::directional,
+                            .color = grey(1000),
+                            .position = {},
+                            .direction = {-1, 0, 0}});
+  RenderSettings s;
+  s.width = s.height = 16;
+  s.samples = 4096;
+  Diagnostics diagnostics;
+  const Environment night = Environment::constant({});
+  const auto film = render({.scene = &scene,
+                            .shaders = {&thin},
+                            .environment = &night,
+                            .camera = look_at({0, 0, 8}, {}, 1e-3f),
+                            .lights = {&sun}},
+                           s, diagnostics);
+  ASSERT_TRUE(film);
+  double mean = 0.0;
+  for (const Vec3 rgb : film->pixels()) mean += rgb.x / 256.0;
+  const double rate = absorbed + scattered;
+  double known = 0.0;
+  const int n = 10000;
+  for (int i = 0; i < n; ++i) {
+    const double z = -1 + 2 * (i + 0.5) / n;
+    known += 2.0 / n * std::exp(-rate * (1 - z)) * std::exp(-rate * std::sqrt(1 - z * z));
+  }
+  // At right angles to the sun.
+  const double phase = (1 - g * g) / (4 * std::numbers::pi * std::pow(1 + g * g, 1.5));
+  EXPECT_NEAR(mean / (1000 * scattered * phase * known), 1.0, 2e-2);
+}
+
+// From the middle of a ball light has half the way out; what encloses that is there before and
+// after, and what is only beside the camera is not.
+TEST(Volume, CamerasMayBeWithin) {
+  Scene scene;
+  scene.meshes.push_back(make_sphere("inner", {}, 1.f, 96));
+  scene.meshes.push_back(make_sphere("outer", {0.5f, 0, 0}, 3.f, 96));
+  scene.meshes.push_back(make_sphere("beside", {0, 7, 0}, 2.f, 24));
+  const CloudShader inner(Medium{{1.f, 0.f, 0.f}, {}, 0.f});
+  const CloudShader outer([](Vec3) { return Medium{{0.f, 0.5f, 0.f}, {}, 0.f}; });
+  const CloudShader beside(Medium{grey(9.f), {}, 0.f});
+  RenderSettings s;
+  s.width = s.height = 16;
+  s.samples = 256;
+  Diagnostics diagnostics;
+  const Environment sky = Environment::constant(grey(1.f));
+  const auto film =
+      render({&scene, {&inner, &outer, &beside}, &sky, look_at({0, 0, 0}, {1, 0, 0}, 1e-3f)}, s,
+             diagnostics);
+  ASSERT_TRUE(film);
+  Vec3 mean;
+  for (const Vec3 rgb : film->pixels()) mean += (1.f / 256.f) * rgb;
+  EXPECT_NEAR(mean.x, std::exp(-1.0), 1e-3);
+  EXPECT_NEAR(mean.y, std::exp(-0.5 * 2.5), 1e-2);
+  EXPECT_EQ(mean.z, 1.f);
+}
+
+// A floor and a lamp in smoke: what light sampling finds is weakened on its way.
 TEST(Volume, LightWithinIsWeakened) {
   Scene scene;
   scene.meshes.push_back(make_sphere("smoke", {}, 4.f, 64));

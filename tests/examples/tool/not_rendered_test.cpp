@@ -92,7 +92,7 @@ TEST_F(NotRendered, SubsurfaceOfWhatIsNoSolid) {
   EXPECT_EQ(count("not-modelled"), 1u) << errors_;
 }
 
-// A volume has an inside, which a card has not; and lights without a surface do not get there.
+// A volume has an inside, which a card has not.
 TEST_F(NotRendered, VolumesOfWhatIsNoSolid) {
   const std::string smoke = R"(
     <noise3d name="n" type="vector3"><input name="pivot" type="float" value="1"/></noise3d>
@@ -107,10 +107,6 @@ TEST_F(NotRendered, VolumesOfWhatIsNoSolid) {
   EXPECT_EQ(errors_, "");
   EXPECT_EQ(render(smoke), 0);
   EXPECT_EQ(count("open-solid"), 1u) << errors_;
-  const std::string sun = R"(<directional_light name="L" type="lightshader"/>)";
-  write("a.mtlx", std::string(head) + smoke + sun + "</materialx>");
-  EXPECT_EQ(run(ball + file("a.mtlx")), 0);
-  EXPECT_EQ(count("unlit-volumes"), 1u) << errors_;
 }
 
 TEST_F(NotRendered, InputsThatTheModelItselfDoesNotRead) {
