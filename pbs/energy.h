@@ -14,8 +14,8 @@ namespace nacre {
 /// across it that are masked as much, and goes from one to the other with the narrower
 /// axis' part in the masking. All other tables are for equal roughness on both axes: there it
 /// looks up the root mean square of its two, at the angle where that masks as much as it
-/// masks itself. Furnace error of a white metal: 1 %, 2 % where it is anisotropic. Anisotropic
-/// glass takes pbs/facet_sum.h instead.
+/// masks itself. Furnace error of a white metal: 1 %, 2 % where it is anisotropic. Of anisotropic
+/// facets the mean Fresnel factor, and all that passes, come from pbs/facet_sum.h instead.
 struct FacetView {
   FacetDistribution distribution = FacetDistribution::ggx;
   Float cosine;  ///< Of the view to the normal, in [0, 1].
@@ -37,13 +37,25 @@ struct FacetReflection {
   Float albedo;  ///< Of perfectly reflecting facets, in (0, 1].
   /// Facet cosines for the darker and the brighter half of the reflected light.
   Float low, high;
+  /// Only where anisotropic (pbs/facet_sum.h):
+  Float low_share = 0.5f;   ///< Part of the light that `low` stands for.
+  Float dielectric = 0.0f;  ///< The mean of a dielectric's Fresnel factor, where light leaves it.
+  Float summed = 0.0f;      ///< How far to trust `dielectric` rather than tables, in [0, 1].
 
   /// The mean of a Fresnel factor over the reflected light: f(Float) -> Float or Color3.
   template <class F>
   auto mean(F&& f) const {
-    return (f(low) + f(high)) * decltype(f(low))(0.5f);
+    using Factor = decltype(f(low));
+    if (low_share.is_constant(0.5f)) return (f(low) + f(high)) * Factor(0.5f);
+    const Factor of_high = f(high), of_low = f(low);
+    return fma(of_low - of_high, Factor(low_share), of_high);
   }
 };
+template <class F>
+void visit(FacetReflection& reflection, F&& f) {
+  f(reflection.albedo), f(reflection.low), f(reflection.high), f(reflection.low_share);
+  f(reflection.dielectric), f(reflection.summed);
+}
 FacetReflection facet_reflection(Recorder& recorder, const FacetView& view);
 
 /// An interface between two dielectrics, eta the index beyond over before. Glass

@@ -24,26 +24,37 @@ Lattice lattice(Accuracy accuracy) {
   return accuracy == Accuracy::standard ? Lattice{233, 144} : Lattice{610, 377};
 }
 
+/// Fewer do for a mean over the reflected light: measured, 2 %, 1.3 % and 1 % of the light at
+/// worst.
+Lattice small_lattice(Accuracy accuracy) {
+  if (accuracy == Accuracy::fast) return {21, 13};
+  return accuracy == Accuracy::standard ? Lattice{34, 21} : Lattice{144, 89};
+}
+
+template <class Sum>
 struct State {
-  FacetSum sum;
+  Sum sum;
   Float2 azimuth;  ///< Cosine and sine.
   template <class F>
   friend void visit(State& state, F&& f) {
-    nacre::visit(state.sum, f), nacre::visit(state.azimuth, f);
+    visit(state.sum, f), visit(state.azimuth, f);
   }
 };
 
-}  // namespace
+/// A facet that the view sees, and what is seen of what it reflects: 0 below the surface.
+struct Facet {
+  Float3 h;
+  Float cosine;  ///< To the view, in [0, 1].
+  Float back;
+};
 
-FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t) {
-  return {nacre::lerp(a.reflected, b.reflected, t), nacre::lerp(a.passed, b.passed, t),
-          nacre::lerp(a.total, b.total, t), nacre::lerp(a.turned, b.turned, t)};
-}
-
-FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
-                         Float eta) {
+/// add(facet, unshadowed, share, sum) for each, `share` being one over their number;
+/// unshadowed(wi, possible): what is seen of light along wi.
+template <class Sum, class F>
+Sum over_facets(Recorder& recorder, Lattice lattice, Float3 wo, const Facets& facets, Sum start_sum,
+                F&& add) {
   const Float2 alpha = facets.alpha;
-  const auto [points, step] = lattice(accuracy);
+  const auto [points, step] = lattice;
   const double turn = 2.0 * std::numbers::pi * step / points;
   const Float2 on{static_cast<float>(std::cos(turn)), static_cast<float>(std::sin(turn))};
   // The facets that a view sees, as sample_visible_normal has them: where roughness is stretched
@@ -58,10 +69,10 @@ FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const
   const Float inverse_across = 1.0f / sqrt(max(across2, 1e-30f));
   const bool is_ggx = facets.distribution == FacetDistribution::ggx;
   const Float root_o = is_ggx ? length : facets.root(wo);
-  const State start{.sum = {0.0f, 0.0f, 0.0f, 0.0f},
-                    .azimuth = {select(slanted, x * inverse_across, 1.0f),
-                                select(slanted, y * inverse_across, 0.0f)}};
-  const State all = loop(recorder, Bool(true), points, start, [&](Int k, State& state) {
+  const State<Sum> start{.sum = start_sum,
+                         .azimuth = {select(slanted, x * inverse_across, 1.0f),
+                                     select(slanted, y * inverse_across, 0.0f)}};
+  const State<Sum> all = loop(recorder, Bool(true), points, start, [&](Int k, State<Sum>& state) {
     const float share = 1.0f / static_cast<float>(points);
     const Float up = fma(to_float(k), -share, 1.0f - 0.5f * share);
     const auto on_cap = [&] {
@@ -82,29 +93,120 @@ FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const
       return select(possible, smith_shadowing(wo.z, root_o, cos_i, facets.root(wi)), 0.0f);
     };
     const Float3 mirrored = reflect(wo, h);
-    const Refraction bent = refract(wo, h, cosine, eta);
-    const Float back = unshadowed(mirrored, mirrored.z > 0.0f);
-    const Float forth = unshadowed(bent.wi, bent.possible);
-    const Float fresnel = fresnel_dielectric(cosine, eta);
-    state.sum.reflected = fma(back, share, state.sum.reflected);
-    state.sum.passed = fma(forth, share, state.sum.passed);
-    state.sum.total = fma(lerp(forth, back, fresnel), share, state.sum.total);
-    const Bool turns = totally_reflected(cosine, eta);
-    state.sum.turned = fma(select(turns, back, 0.0f), share, state.sum.turned);
+    add(Facet{h, cosine, unshadowed(mirrored, mirrored.z > 0.0f)}, unshadowed, share, state.sum);
     const Float2 now = state.azimuth;
     state.azimuth = {fma(now.x, on.x, -(now.y * on.y)), fma(now.x, on.y, now.y * on.x)};
     return Bool(true);
   });
-  return {saturate(all.sum.reflected), saturate(all.sum.passed), saturate(all.sum.total),
-          saturate(all.sum.turned)};
+  return all.sum;
+}
+
+/// Of y = (1 - cosine)^4: what Fresnel factors rise by at grazing, and needs no root.
+struct Moments {
+  Float light, first, second, third;
+  template <class F>
+  friend void visit(Moments& m, F&& f) {
+    f(m.light), f(m.first), f(m.second), f(m.third);
+  }
+};
+
+Float cosine_of(Float y) { return 1.0f - sqrt(sqrt(saturate(y))); }
+
+/// How unequal the roughnesses are: 1 from a ratio of 0.95 on.
+Float stretch(Float2 alpha) {
+  const Float wide = max(alpha.x, alpha.y), narrow = min(alpha.x, alpha.y);
+  return saturate(20.0f * (wide - narrow) / wide);
+}
+
+}  // namespace
+
+FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t) {
+  return {nacre::lerp(a.reflected, b.reflected, t), nacre::lerp(a.passed, b.passed, t),
+          nacre::lerp(a.total, b.total, t), nacre::lerp(a.turned, b.turned, t)};
+}
+
+FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
+                         Float eta) {
+  const FacetSum all =
+      over_facets(recorder, lattice(accuracy), wo, facets, FacetSum{0.0f, 0.0f, 0.0f, 0.0f},
+                  [&](const Facet& facet, const auto& unshadowed, float share, FacetSum& sum) {
+                    const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
+                    const Float back = facet.back;
+                    const Float forth = unshadowed(bent.wi, bent.possible);
+                    const Float fresnel = fresnel_dielectric(facet.cosine, eta);
+                    sum.reflected = fma(back, share, sum.reflected);
+                    sum.passed = fma(forth, share, sum.passed);
+                    sum.total = fma(lerp(forth, back, fresnel), share, sum.total);
+                    const Bool turns = totally_reflected(facet.cosine, eta);
+                    sum.turned = fma(select(turns, back, 0.0f), share, sum.turned);
+                  });
+  return {saturate(all.reflected), saturate(all.passed), saturate(all.total), saturate(all.turned)};
+}
+
+FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, const Facets& facets,
+                                     const LocalView& local, const FacetFresnel& fresnel,
+                                     Bool inside) {
+  const FacetReflection table = facet_reflection(recorder, facets.table_view(local));
+  if (facets.isotropic) return table;
+  const Float share = stretch(facets.alpha);
+  const Lattice few = small_lattice(accuracy);
+  return if_any((share > 0.0f) & !facets.delta, table, [&] {
+    const Moments sum = over_facets(
+        recorder, few, local.wo, facets, Moments{0.0f, 0.0f, 0.0f, 0.0f},
+        [](const Facet& facet, const auto&, float, Moments& m) {
+          const Float y = square(square(1.0f - facet.cosine));
+          const Float first = facet.back * y, second = first * y;
+          m = {m.light + facet.back, m.first + first, m.second + second, fma(second, y, m.third)};
+        });
+    const Float inverse = 1.0f / max(sum.light, 1e-20f);
+    const Float mean = sum.first * inverse;
+    const Float variance = max(fma(sum.second, inverse, -square(mean)), 0.0f);
+    const Float cubed =
+        fma(mean, fma(-3.0f * sum.second, inverse, 2.0f * square(mean)), sum.third * inverse);
+    // The nodes are the roots of x^2 - skew x - variance about the mean: polynomials of y up to the
+    // third degree have their mean (Golub and Welsch, "Calculation of Gauss Quadrature Rules",
+    // 1969, for two nodes). The root with the digits first, the other by their product.
+    const Float skew = cubed / max(variance, 1e-12f);
+    const Float far = 0.5f * (skew + copysign(sqrt(fma(skew, skew, 4.0f * variance)), skew));
+    const Float near = select(abs(far) > 1e-12f, -variance / far, 0.0f);
+    const Float far_share = variance / max(fma(far, far, variance), 1e-24f);
+    FacetReflection result{.albedo = table.albedo,
+                           .low = lerp(table.low, cosine_of(mean + far), share),
+                           .high = lerp(table.high, cosine_of(mean + near), share),
+                           .low_share = lerp(0.5f, far_share, share),
+                           .summed = share};
+    // Where total reflection sets in no two cosines stand for all.
+    const Float eta = relative_index(fresnel.index(), inside);
+    const Bool leaving = fresnel.has_inside() ? Bool(eta < 1.0f) : Bool(false);
+    result.dielectric = if_any(leaving, Float(0.0f), [&] {
+      const Float light =
+          over_facets(recorder, few, local.wo, facets, Float(0.0f),
+                      [&](const Facet& facet, const auto&, float, Float& total) {
+                        total = fma(facet.back, fresnel_dielectric(facet.cosine, eta), total);
+                      });
+      return light * inverse;
+    });
+    return result;
+  });
+}
+
+Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
+                        const FacetFresnel& fresnel, Bool inside) {
+  const Float eta = relative_index(fresnel.index(), inside);
+  return over_facets(recorder, small_lattice(accuracy), wo, facets, Color3(0.0f),
+                     [&](const Facet& facet, const auto& unshadowed, float share, Color3& sum) {
+                       const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
+                       const Float forth = unshadowed(bent.wi, bent.possible);
+                       const Color3 more = fresnel.at(facet.cosine, inside) -
+                                           Color3(fresnel_dielectric(facet.cosine, eta));
+                       sum = fma(more, Color3((facet.back - forth) * share), sum);
+                     });
 }
 
 Float facet_sum_share(Float2 alpha, bool isotropic, Float dense) {
   // All of it from ratios of 0.95 and indices of 1.05 on, none from 1 and 1.1.
   const Float near = saturate(fma(dense, -20.0f, 22.0f));
-  if (isotropic) return near;
-  const Float wide = max(alpha.x, alpha.y), narrow = min(alpha.x, alpha.y);
-  return max(near, saturate(20.0f * (wide - narrow) / wide));
+  return isotropic ? near : max(near, stretch(alpha));
 }
 
 }  // namespace nacre

@@ -26,6 +26,18 @@ FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t);
 FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                          Float eta);
 
+/// facet_reflection(); and where roughnesses differ, what a sum over fewer facets knows of their
+/// cosines: a rule of Gauss with two nodes.
+FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, const Facets& facets,
+                                     const LocalView& local, const FacetFresnel& fresnel,
+                                     Bool inside);
+
+/// What FacetSum::total has more by channel where the Fresnel factor is another than the
+/// dielectric's: that of those facets only which let light pass. By as few facets as
+/// reflection_of_facets().
+Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
+                        const FacetFresnel& fresnel, Bool inside);
+
 /// How much of the sum to take rather than of the tables: all of it for unequal roughnesses, and
 /// for indices so near each other that the tables' axes cannot tell the angle of total reflection
 /// from grazing; 0, and a literal where that is known, where the tables are good.

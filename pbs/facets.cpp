@@ -96,7 +96,9 @@ Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
   // has the mean for dielectrics; the rest of a curve is smooth.
   const auto leaving = [&] {
     const Float eta = min(index(), 1.0f / index());
-    const Color3 mean(facet_leaving(recorder, view, eta, reflection.albedo).fresnel);
+    Float dielectric = facet_leaving(recorder, view, eta, reflection.albedo).fresnel;
+    if (view.anisotropic) dielectric = lerp(dielectric, reflection.dielectric, reflection.summed);
+    const Color3 mean(dielectric);
     if (is_dielectric()) return mean;
     const Color3 rest = reflection.mean(
         [&](Float c) { return at(c, inside) - Color3(fresnel_dielectric(c, eta)); });

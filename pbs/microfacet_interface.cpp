@@ -32,10 +32,17 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
   const Float index = fresnel_->index();
   const Float dense = max(index, 1.0f / index);
   const Float rare = min(index, 1.0f / index);
-  const FacetReflection perfect = facet_reflection(recorder, seen);
+  const FacetReflection perfect =
+      reflection_of_facets(recorder, view.accuracy, facets_, local, *fresnel_, local.below);
   const FacetInterface both = choose(
       local.below ^ (index < 1.0f),
-      [&] { return facet_leaving(recorder, seen, rare, perfect.albedo); },
+      [&] {
+        FacetInterface leaving = facet_leaving(recorder, seen, rare, perfect.albedo);
+        if (!facets_.isotropic) {
+          leaving.fresnel = lerp(leaving.fresnel, perfect.dielectric, perfect.summed);
+        }
+        return leaving;
+      },
       [&] {
         FacetInterface entering = facet_entering(recorder, seen, dense);
         entering.fresnel = perfect.mean([&](Float c) { return fresnel_dielectric(c, dense); });
@@ -51,7 +58,13 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
   Color3 total = Color3(light.total);
   if (!fresnel_->is_dielectric()) {
     const Color3 fresnel = fresnel_->mean(recorder, perfect, seen, local.below);
-    total = fma(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed), total);
+    Color3 more = product(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed));
+    more = if_any(perfect.summed > 0.0f, more, [&] {
+      const Color3 sum =
+          sum_over_fresnel(recorder, view.accuracy, local.wo, facets_, *fresnel_, local.below);
+      return fma(sum - more, Color3(perfect.summed), more);
+    });
+    total = total + more;
   }
   return Color3(1.0f) / max(total, Color3(0.05f));
 }

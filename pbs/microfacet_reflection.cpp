@@ -1,12 +1,15 @@
 #include "pbs/microfacet_reflection.h"
 
+#include "pbs/facet_sum.h"
+
 namespace nacre {
 
 MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) const {
   const LocalView local = facets_.look(view);
   const Bool inside = local.below & !view.thin_walled;
   const FacetView seen = facets_.table_view(local);
-  const FacetReflection perfect = facet_reflection(*view.recorder, seen);
+  const FacetReflection perfect =
+      reflection_of_facets(*view.recorder, view.accuracy, facets_, local, *fresnel_, inside);
   const Color3 fresnel = fresnel_->mean(*view.recorder, perfect, seen, inside);
   const Color3 factor = compensation(fresnel, perfect.albedo);
   const Color3 rough = saturate(fresnel * factor * Color3(perfect.albedo));

@@ -57,7 +57,9 @@ class Furnace {
     return sum / count;
   }
 
-  double albedo(double angle) const { return run(*albedo_, view(angle)).at("albedo.x")[0]; }
+  double albedo(double angle, double azimuth = 30.0) const {
+    return run(*albedo_, view(angle, azimuth)).at("albedo.x")[0];
+  }
 
  private:
   static std::unique_ptr<Kernel> compiled(const Recorder& recorder,
@@ -147,7 +149,7 @@ TEST(Furnace, AnisotropicWhiteMetalReturnsAllLight) {
     const Furnace furnace([&](Recorder& r) { return white_metal(r, ax, ay); });
     for (const double azimuth : {0.0, 45.0, 75.0, 90.0}) {
       for (const double angle : {0.0, 45.0, 75.0, 85.0, 89.0}) {
-        EXPECT_NEAR(furnace.light(angle, azimuth), 1.0, 2e-2)
+        EXPECT_NEAR(furnace.light(angle, azimuth, 1 << 15), 1.0, 2e-2)
             << ax << " " << ay << " angle " << angle << " azimuth " << azimuth;
       }
     }
@@ -165,6 +167,12 @@ BsdfPtr glass(Recorder& recorder, const char* mode, Float index, Float alpha) {
                          {{"ior", number(index)},
                           {"roughness", roughness(alpha, alpha)},
                           {"scatter_mode", text(mode)}});
+}
+
+BsdfPtr white_diffuse(Recorder& recorder) {
+  const auto lobe = std::make_shared<LambertLobe>("white", CosineLobe::Hemisphere::viewer,
+                                                  normal(recorder, Space::world), Color3(1.0f));
+  return std::make_shared<LobeBsdf>(lobe, 1.0f);
 }
 
 BsdfPtr layered_glass(Recorder& recorder, Float index, float alpha) {
@@ -253,6 +261,52 @@ TEST(Furnace, AnisotropicGlassIsAsExactAsAsked) {
   }
 }
 
+/// Across the axis that it is smooth along, gloss seen at grazing is as bright as a mirror, and
+/// along the other not: what passes below hangs on the azimuth. It was 1.5 times what is there.
+TEST(Furnace, AnisotropicGlossOverWhiteReturnsAllLight) {
+  constexpr int count = 1 << 13;
+  const float pairs[][2] = {{1.0f, 0.1f}, {0.5f, 0.25f}, {0.3f, 0.21f}, {0.05f, 0.6f}};
+  for (const auto& [ax, ay] : pairs) {
+    for (const float index : {1.1f, 1.5f, 2.5f}) {
+      const auto gloss = [&, x = ax, y = ay](Recorder& r) { return glass(r, "R", index, x, y); };
+      const Furnace alone(gloss);
+      const Furnace layer(
+          [&](Recorder& r) { return std::make_shared<LayerBsdf>(gloss(r), white_diffuse(r)); });
+      for (const double azimuth : {0.0, 20.0, 45.0, 80.0, 90.0}) {
+        for (const double angle : {0.0, 60.0, 75.0, 85.0, 89.0, 89.9}) {
+          EXPECT_NEAR(layer.light(angle, azimuth, count), 1.0, 2e-2)
+              << ax << " " << ay << " index " << index << " angle " << angle << " azimuth "
+              << azimuth;
+          EXPECT_NEAR(alone.albedo(angle, azimuth), alone.light(angle, azimuth, count), 2e-2)
+              << ax << " " << ay << " index " << index << " angle " << angle << " azimuth "
+              << azimuth;
+        }
+      }
+    }
+  }
+}
+
+/// What a film changes is summed over the facets too.
+TEST(Furnace, AnisotropicFilmedGlassReturnsAllLight) {
+  constexpr int count = 1 << 13;
+  const float pairs[][2] = {{1.0f, 0.1f}, {0.5f, 0.25f}, {0.05f, 0.6f}};
+  for (const auto& [ax, ay] : pairs) {
+    const Furnace joint([&, x = ax, y = ay](Recorder& r) {
+      return microfacet_bsdf(r, "dielectric_bsdf",
+                             {{"roughness", roughness(x, y)},
+                              {"thinfilm_thickness", number(450.0f)},
+                              {"thinfilm_ior", number(1.35f)},
+                              {"scatter_mode", text("RT")}});
+    });
+    for (const double azimuth : {0.0, 45.0, 90.0}) {
+      for (const double angle : {0.0, 60.0, 88.0, 95.0, 110.0, 150.0}) {
+        EXPECT_NEAR(joint.light(angle, azimuth, count), 1.0, 2e-2)
+            << ax << " " << ay << " angle " << angle << " azimuth " << azimuth;
+      }
+    }
+  }
+}
+
 /// Indices that hardly differ; nearer than 1e-3 light goes straight.
 TEST(Furnace, GlassInGlassReturnsAllLight) {
   constexpr int count = 1 << 13;
@@ -292,12 +346,6 @@ TEST(Furnace, SchlickInterfaceReturnsAllLight) {
       EXPECT_NEAR(joint.light(160.0), 1.0, 2e-2) << "RT " << alpha << " f0 " << f0;
     }
   }
-}
-
-BsdfPtr white_diffuse(Recorder& recorder) {
-  const auto lobe = std::make_shared<LambertLobe>("white", CosineLobe::Hemisphere::viewer,
-                                                  normal(recorder, Space::world), Color3(1.0f));
-  return std::make_shared<LobeBsdf>(lobe, 1.0f);
 }
 
 // What a coloured layer reflects of a channel does not reach the base in that channel.
