@@ -21,6 +21,7 @@ OUTSIDE = (0, 30, 60, 75, 85, 88, 89, 89.9)  # Degrees between viewer and normal
 INSIDE = (180, 150, 130, 120, 110, 100, 95, 91)
 AZIMUTHS = (0, 45, 90)  # To the tangent; where facets are anisotropic.
 SAMPLES = 1 << 16
+MORE_SAMPLES = 1 << 20  # Where few samples at grazing carry much: diffuse lobes.
 
 DOCUMENT = """<?xml version="1.0"?>
 <materialx version="1.39" colorspace="lin_rec709">
@@ -64,6 +65,7 @@ class Case(NamedTuple):
     name: str
     nodes: str  # {x} and {y} stand for the roughness along the tangent and across, if it has one.
     has_inside: bool = False
+    samples: int = SAMPLES
 
 
 WHITE_METAL = ("color3 ior 0, 0, 0", "color3 extinction 1, 1, 1")
@@ -73,7 +75,7 @@ FILM = ("float thinfilm_thickness 450", "float thinfilm_ior 1.35")
 PRESERVING = [
     Case("oren_nayar_diffuse_bsdf, roughness 1, compensated",
          node("oren_nayar_diffuse_bsdf", "color3 color 1, 1, 1", "float roughness 1",
-              "boolean energy_compensation true")),
+              "boolean energy_compensation true"), samples=MORE_SAMPLES),
     Case("translucent_bsdf", node("translucent_bsdf", "color3 color 1, 1, 1")),
     Case("subsurface_bsdf", node("subsurface_bsdf", "color3 color 1, 1, 1")),
     Case("conductor_bsdf, white", node("conductor_bsdf", *WHITE_METAL, ROUGH)),
@@ -101,11 +103,14 @@ PRESERVING = [
 WHITE = "color3 base_color 1, 1, 1"
 MODELS = [
     Case("burley_diffuse_bsdf, roughness 1",
-         node("burley_diffuse_bsdf", "color3 color 1, 1, 1", "float roughness 1") + SURFACE),
+         node("burley_diffuse_bsdf", "color3 color 1, 1, 1", "float roughness 1") + SURFACE,
+         samples=MORE_SAMPLES),
     Case("oren_nayar_diffuse_bsdf, roughness 1",
-         node("oren_nayar_diffuse_bsdf", "color3 color 1, 1, 1", "float roughness 1") + SURFACE),
+         node("oren_nayar_diffuse_bsdf", "color3 color 1, 1, 1", "float roughness 1") + SURFACE,
+         samples=MORE_SAMPLES),
     *(Case(f"{category}{', ' if inputs else ''}{', '.join(i.split(' ', 1)[1] for i in inputs)}",
-           node(category, white, *inputs, name="S", kind="surfaceshader"))
+           node(category, white, *inputs, name="S", kind="surfaceshader"),
+           samples=MORE_SAMPLES if category == "disney_principled" else SAMPLES)
       for category, white, *inputs in (
           ("standard_surface", WHITE, "float base 1"),
           ("standard_surface", WHITE, "float base 1", "float specular_roughness 1"),
@@ -147,12 +152,12 @@ def roberts(count: int) -> numpy.ndarray:
 class Furnace:
     """A material in a white world."""
 
-    def __init__(self, system: nacre.System, nodes: str, **options):
+    def __init__(self, system: nacre.System, nodes: str, samples: int, **options):
         text = DOCUMENT.format(nodes=nodes)
         self.shader = system.compile_material(
             nacre.Document.parse(text), "M", no_footprints=True,
             entries=[nacre.Entry.BEGIN, nacre.Entry.SAMPLE], **options)
-        self.u = roberts(SAMPLES)
+        self.u = roberts(samples)
 
     def light(self, angle: float, azimuth: float) -> float:
         """What comes back of the brightest channel."""
@@ -180,9 +185,12 @@ def preserving_rows(system: nacre.System, say) -> tuple[list, list]:
         angles = OUTSIDE + (INSIDE if case.has_inside else ())
         nodes = case.nodes + SURFACE
         alphas = ALPHAS if "{x}" in nodes else ((0, 0),)
-        ranges = {accuracy: [Furnace(system, nodes.format(x=x, y=y), accuracy=accuracy).range(
-                                 angles, (45,) if x == y else AZIMUTHS) for x, y in alphas]
-                  for accuracy in ACCURACIES}
+        ranges = {}
+        for accuracy in ACCURACIES:
+            ranges[accuracy] = []
+            for x, y in alphas:
+                furnace = Furnace(system, nodes.format(x=x, y=y), case.samples, accuracy=accuracy)
+                ranges[accuracy].append(furnace.range(angles, (45,) if x == y else AZIMUTHS))
         cells = [both(each) for each in ranges["standard"]]
         by_alpha.append([case.name, *(cells if len(cells) > 1 else cells * len(ALPHAS))])
         by_accuracy.append([case.name] + [
@@ -195,8 +203,8 @@ def model_rows(system: nacre.System, say) -> list:
     rows = []
     for case in MODELS:
         say(case.name)
-        usual = Furnace(system, case.nodes).range(OUTSIDE, (45,))
-        kept = Furnace(system, case.nodes, energy_conserving=True).range(OUTSIDE, (45,))
+        usual = Furnace(system, case.nodes, case.samples).range(OUTSIDE, (45,))
+        kept = Furnace(system, case.nodes, case.samples, energy_conserving=True).range(OUTSIDE, (45,))
         rows.append([case.name, both(usual), share(kept[1])])
     return rows
 
@@ -218,7 +226,7 @@ def main() -> None:
     page = f"""# White furnace
 
 What comes back of a uniform white world, as a share: the mean weight of {SAMPLES:,} directions that
-`sample` draws (nacre {nacre.__version__}), for viewers at {angles}° to the normal; of what has an
+`sample` draws ({MORE_SAMPLES:,} of diffuse models; nacre {nacre.__version__}), for viewers at {angles}° to the normal; of what has an
 inside also at {inside}°; of anisotropic facets at azimuths of {", ".join(map(str, AZIMUTHS))}°. The
 least and the most of all viewers. By `bench/furnace.py`.
 

@@ -83,6 +83,8 @@ class FacetFresnel {
   virtual bool has_inside() const { return false; }
   /// Whether at() is Fresnel's formula for that index and nothing else.
   virtual bool is_dielectric() const { return false; }
+  /// Whether it goes up and down with the cosine, as under a film.
+  virtual bool has_film() const { return false; }
   /// The same under that film, which is kept, in place of one that it may have.
   virtual FacetFresnelPtr with_film(const ThinFilm& film) const = 0;
 };

@@ -59,10 +59,14 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
   if (!fresnel_->is_dielectric()) {
     const Color3 fresnel = fresnel_->mean(recorder, perfect, seen, local.below);
     Color3 more = product(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed));
-    more = if_any(perfect.summed > 0.0f, more, [&] {
+    // What a film does to the mean is not what it does to the facets that let light pass.
+    const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
+    const Float rough = fresnel_->has_film() ? saturate(fma(10.0f, alpha, -1.0f)) : Float(0.0f);
+    const Float by_sum = max(perfect.summed, rough);
+    more = if_any(by_sum > 0.0f, more, [&] {
       const Color3 sum =
           sum_over_fresnel(recorder, view.accuracy, local.wo, facets_, *fresnel_, local.below);
-      return fma(sum - more, Color3(perfect.summed), more);
+      return fma(sum - more, Color3(by_sum), more);
     });
     total = total + more;
   }

@@ -368,7 +368,7 @@ TEST(Furnace, ColouredSchlickOverWhiteReturnsNoMoreThanArrives) {
 // A film moves light between reflection and transmission of each channel; the
 // tables know the bare interface (pbs/microfacet_interface.cpp).
 TEST(Furnace, FilmedGlassReturnsAllLight) {
-  for (const float alpha : {0.0f, 0.1f, 0.5f}) {
+  for (const float alpha : {0.0f, 0.1f, 0.5f, 1.0f}) {
     for (const float thickness : {20.0f, 300.0f}) {
       const auto film = [&](Recorder& r, const char* mode) {
         return microfacet_bsdf(r, "dielectric_bsdf",
