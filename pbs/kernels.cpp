@@ -5,6 +5,11 @@
 #include <set>
 #include <string>
 
+#include "pbs/color_channels.h"
+#include "pbs/enclosed.h"
+#include "pbs/term.h"
+#include "pbs/transport.h"
+#include "pbs/wanted.h"
 #include "runtime/node/geometry.h"
 #include "runtime/program/origin.h"
 #include "runtime/value/control.h"
@@ -13,40 +18,13 @@ namespace nacre {
 
 namespace {
 
-/// A lobe as the kernels use it.
-struct Term {
-  LobePtr lobe;
-  Color3 weight;
-  Float probability;  ///< With which `sample` picks it.
-  std::uint32_t origin = 0;
-};
-
 /// A pair of directions evaluated over all lobes.
 struct Total {
   Color3 f = Color3(0.0f);
   Float pdf = 0.0f;
   std::vector<Color3> by_lobe;  ///< Their parts of f.
+  Int kinds = 0;                ///< Of those that gave some of f; where lobes are wanted.
 };
-
-void add_color(std::vector<SliceOutput>& outputs, const std::string& name, Float3 v) {
-  outputs.push_back({name + ".x", v.x.ref()});
-  outputs.push_back({name + ".y", v.y.ref()});
-  outputs.push_back({name + ".z", v.z.ref()});
-}
-
-/// What there is of several, by how much is seen of each; nothing of none.
-Vdf mean_medium(const std::vector<SeenMedium>& media) {
-  if (media.empty()) return {};
-  if (media.size() == 1) return *media.front().medium;
-  VdfPtr sum;
-  Float total = 0.0f;
-  for (const SeenMedium& each : media) {
-    const Float weight = max(average(each.weight), 1e-20f);
-    sum = nacre::sum(sum, scaled(each.medium, Color3(weight)));
-    total = total + weight;
-  }
-  return *scaled(sum, Color3(1.0f / total));
-}
 
 class SurfaceRecorder {
  public:
@@ -78,14 +56,16 @@ class SurfaceRecorder {
     if (terms_.empty()) {
       kernels_.manifest.push_back("evaluate, sample, albedo: no lobe has a weight");
     } else {
+      scattering_ = request_.lobes_wanted ? wanted_terms(recorder_, terms_) : terms_;
       if (wants(entry_evaluate | entry_evaluate_at | entry_shade)) record_evaluate();
       if (wants(entry_sample | entry_shade)) record_sample();
       if (wants(entry_albedo)) add_color(kernels_.albedo, "albedo", albedo());
     }
     if (wants(entry_emission)) record_emission();
     if (wants(entry_opacity)) record_opacity();
-    if (wants(entry_interior)) record_interior();
-    if (wants(entry_subsurface)) record_subsurface();
+    if (wants(entry_interior)) kernels_.interior = interior_channels(view_, terms_, media_);
+    if (wants(entry_subsurface)) kernels_.subsurface = subsurface_channels(view_, terms_);
+    if (wants(entry_shadow)) record_shadow();
     record_point();
     return std::move(kernels_);
   }
@@ -113,7 +93,7 @@ class SurfaceRecorder {
         if (from_viewer) note(*each.lobe, "of a kind that was not requested");
         continue;
       }
-      Term term{each.lobe, max(each.weight, Color3(0.0f)), Float(0.0f), each.origin};
+      Term term{each.lobe, max(each.weight, Color3(0.0f)), Float(0.0f), each.origin, {}};
       if (request_.energy_conserving) term.weight = term.weight * share;
       const ScopedOrigin of_lobe(recorder_, each.origin);
       if (request_.lobe_mask) term.weight = masked(*each.lobe, term.weight);
@@ -162,11 +142,16 @@ class SurfaceRecorder {
       if (!may_go_on()) break;
       const ScopedOrigin origin(recorder_, term.origin);
       const LobeValue none{.f = Color3(0.0f), .pdf = 0.0f};
-      const LobeValue value =
-          if_any(term.probability > 0.0f, none, [&] { return term.lobe->evaluate(view, wi); });
+      LobeValue value = if_any(term.probability > 0.0f, none,
+                               [&] { return term.lobe->evaluate(wanting(view, term), wi); });
+      if (request_.lobes_wanted) value = wanted_part(term, view, wi, value);
+      if (request_.transport) value.f = value.f * Color3(transport_factor(*term.lobe, view, wi));
       total.f = fma(term.weight, value.f, total.f);
       if (request_.by_lobe) total.by_lobe.push_back(term.weight * value.f);
       total.pdf = fma(term.probability, value.pdf, total.pdf);
+      if (!request_.lobes_wanted) continue;
+      const Bool gives = max_component(term.weight * value.f) > 0.0f;
+      total.kinds = total.kinds | select(gives, kinds_along(term, view, wi), Int(0));
     }
     return total;
   }
@@ -175,14 +160,17 @@ class SurfaceRecorder {
   Float reverse_pdf(Float3 wi) {
     View reversed = view_;
     reversed.wo = wi;
-    return evaluate(reversed, select_lobes(reversed, false), view_.wo).pdf;
+    std::vector<Term> terms = select_lobes(reversed, false);
+    if (request_.lobes_wanted) terms = wanted_terms(recorder_, std::move(terms));
+    return evaluate(reversed, terms, view_.wo).pdf;
   }
 
   void record_evaluate() {
     const Float3 wi = channel3(recorder_, "wi");
-    const Total total = evaluate(view_, terms_, wi);
+    const Total total = evaluate(view_, scattering_, wi);
     add_color(kernels_.evaluate, "f", total.f);
     kernels_.evaluate.push_back({"pdf", total.pdf.ref()});
+    if (request_.lobes_wanted) kernels_.evaluate.push_back({"kinds", total.kinds.ref()});
     for (std::size_t i = 0; i < total.by_lobe.size(); ++i) {
       add_color(kernels_.evaluate, "f.lobe" + std::to_string(i), total.by_lobe[i]);
     }
@@ -199,16 +187,22 @@ class SurfaceRecorder {
     Color3 weight = Color3(1.0f);
     Float probability = 1.0f;
     Float below = 0.0f;
-    for (std::size_t i = 0; i < terms_.size() && may_go_on(); ++i) {
-      const Term& term = terms_[i];
+    for (std::size_t i = 0; i < scattering_.size() && may_go_on(); ++i) {
+      const Term& term = scattering_[i];
       const ScopedOrigin of_lobe(recorder_, term.origin);
-      const Float above = i + 1 == terms_.size() ? Float(2.0f) : below + term.probability;
+      const Float above = i + 1 == scattering_.size() ? Float(2.0f) : below + term.probability;
       const Bool mine = (u.z >= below) & (u.z < above) & (term.probability > 0.0f);
       // The number that chose the lobe is uniform again within its interval.
-      const Float again = terms_.size() == 1
+      const Float again = scattering_.size() == 1
                               ? u.z
                               : min(max((u.z - below) / term.probability, 0.0f), 0x1.fffffep-1f);
-      chosen = if_any(mine, chosen, [&] { return term.lobe->sample(view_, {u.x, u.y, again}); });
+      chosen = if_any(mine, chosen, [&] {
+        LobeSample sample = term.lobe->sample(wanting(view_, term), {u.x, u.y, again});
+        if (request_.lobes_wanted) {
+          sample.valid = sample.valid & is_wanted_side(term, view_, sample.wi);
+        }
+        return sample;
+      });
       lobe = select(mine, Int(static_cast<int>(i)), lobe);
       weight = select(mine, term.weight, weight);
       probability = select(mine, term.probability, probability);
@@ -220,13 +214,14 @@ class SurfaceRecorder {
   void finish_sample(const LobeSample& chosen, Int lobe, Color3 weight, Float probability) {
     // A step of Newton's: lobes give unit vectors up to the errors of frames and of fast sines.
     const Float3 wi = chosen.wi * Float3(fma(-0.5f, dot(chosen.wi, chosen.wi), 1.5f));
-    const Total total = evaluate(view_, terms_, wi);
+    const Total total = evaluate(view_, scattering_, wi);
     const Bool smooth = chosen.valid & !chosen.delta & (total.pdf > 0.0f);
     const Bool delta = chosen.valid & chosen.delta & (chosen.delta_probability > 0.0f);
     const Bool valid = smooth | delta;
     const Float inverse = 1.0f / total.pdf;
     const Color3 ratio = select(smooth, total.f * Color3(inverse), Color3(0.0f));
-    const Color3 discrete = chosen.delta_weight * weight * Color3(1.0f / probability);
+    Color3 discrete = chosen.delta_weight * weight * Color3(1.0f / probability);
+    if (request_.transport) discrete = discrete * Color3(delta_transport(lobe, wi));
     const Color3 out = select(delta, discrete, ratio);
     const Float pdf =
         select(delta, chosen.delta_probability * probability, select(smooth, total.pdf, 0.0f));
@@ -244,12 +239,31 @@ class SurfaceRecorder {
       const Float reverse = select(delta, pdf, select(smooth, reverse_pdf(wi), Float(0.0f)));
       kernels_.sample.push_back({"pdf_reverse", reverse.ref()});
     }
+    if (request_.lobes_wanted) {
+      Int kinds = 0;
+      for (std::size_t i = 0; i < scattering_.size(); ++i) {
+        const Bool mine = valid & (lobe == Int(static_cast<int>(i)));
+        kinds = select(mine, kinds_along(scattering_[i], view_, wi), kinds);
+      }
+      kernels_.sample.push_back({"kinds", kinds.ref()});
+    }
     for (std::size_t i = 0; i < total.by_lobe.size(); ++i) {
       const Bool mine = delta & (lobe == Int(static_cast<int>(i)));
       const Color3 part =
           select(smooth, total.by_lobe[i] * Color3(inverse), select(mine, discrete, Color3(0.0f)));
       add_color(kernels_.sample, "weight.lobe" + std::to_string(i), part);
     }
+  }
+
+  /// transport_factor of the lobe that a delta is of. What goes below is still on its way.
+  Float delta_transport(Int lobe, Float3 wi) const {
+    Float factor = 1.0f;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      const Lobe& each = *terms_[i].lobe;
+      if (each.goes_below() && view_.follows_subsurface) continue;
+      factor = select(lobe == Int(static_cast<int>(i)), transport_factor(each, view_, wi), factor);
+    }
+    return factor;
   }
 
   /// Whether light of that lobe, where it is a delta, goes below the surface.
@@ -275,57 +289,6 @@ class SurfaceRecorder {
   Color3 emission() const {
     const ScopedOrigin origin(recorder_, "emission");
     return radiance(surface_.edf, view_);
-  }
-
-  void record_interior() {
-    const ScopedOrigin origin(recorder_, "interior");
-    std::vector<SeenMedium> entered;  // Indices, as media that only absorb.
-    for (const Term& term : terms_) {
-      const Float* index = term.lobe->interior_index();
-      if (index == nullptr) continue;
-      auto vdf = std::make_shared<Vdf>();
-      vdf->absorption = Color3(*index);
-      entered.push_back({std::move(vdf), term.weight});
-    }
-    if (entered.empty() || surface_.thin_walled.is_constant(true)) return;
-    const Vdf index = mean_medium(entered);
-    const Vdf medium = mean_medium(media_);
-    const Bool thin = surface_.thin_walled;
-    const auto inside = [&](Color3 c) { return select(thin, Color3(0.0f), c); };
-    kernels_.interior = {{"eta", select(thin, 1.0f, index.absorption.x).ref()}};
-    if (is_zero(medium.absorption) && is_zero(medium.scattering)) return;
-    add_color(kernels_.interior, "absorption", inside(medium.absorption));
-    add_color(kernels_.interior, "scattering", inside(medium.scattering));
-    kernels_.interior.push_back({"anisotropy", medium.anisotropy.ref()});
-  }
-
-  /// Of the lobe that the host names; of the first one where light goes below, if it names another.
-  void record_subsurface() {
-    if (surface_.thin_walled.is_constant(true)) return;
-    const ScopedOrigin origin(recorder_, "subsurface");
-    const Int asked(recorder_.input("of_lobe", Scalar::i32));
-    bool any = false;
-    Vdf medium;
-    Color3 albedo;
-    Float3 normal;
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      const Lobe& lobe = *terms_[i].lobe;
-      if (!lobe.goes_below()) continue;
-      const Vdf below = lobe.medium_below();
-      const Bool mine = any ? asked == Int(static_cast<int>(i)) : Bool(true);
-      medium.absorption = select(mine, below.absorption, medium.absorption);
-      medium.scattering = select(mine, below.scattering, medium.scattering);
-      medium.anisotropy = select(mine, below.anisotropy, medium.anisotropy);
-      albedo = select(mine, lobe.albedo(view_), albedo);
-      normal = select(mine, facing(lobe.normal(view_), view_.wo), normal);
-      any = true;
-    }
-    if (!any) return;
-    add_color(kernels_.subsurface, "absorption", medium.absorption);
-    add_color(kernels_.subsurface, "scattering", medium.scattering);
-    kernels_.subsurface.push_back({"anisotropy", medium.anisotropy.ref()});
-    add_color(kernels_.subsurface, "albedo", albedo);
-    add_color(kernels_.subsurface, "normal", normal);
   }
 
   /// As denoisers like it: of what is seen, and of the shading normal where nothing is.
@@ -370,6 +333,21 @@ class SurfaceRecorder {
     add_color(kernels_.emission, "emission", emitted);
   }
 
+  void record_shadow() {
+    const ScopedOrigin origin(recorder_, "shadow");
+    Color3 straight = surface_.transmission;
+    for (const Term& term : terms_) {
+      const Color3 part = product(term.weight, term.lobe->straight(view_));
+      if (!is_zero(part)) straight = is_zero(straight) ? part : straight + part;
+    }
+    if (surface_.opacity.is_constant(1.0f) && is_zero(straight)) {
+      kernels_.manifest.push_back("shadow: always opaque");
+      return;
+    }
+    kernels_.shadow = {{"presence", surface_.opacity.ref()}};
+    add_color(kernels_.shadow, "opacity_color", Color3(1.0f) - saturate(straight));
+  }
+
   void record_opacity() {
     if (surface_.opacity.is_constant(1.0f) && is_zero(surface_.transmission)) {
       kernels_.manifest.push_back("opacity: always opaque");
@@ -388,6 +366,7 @@ class SurfaceRecorder {
   LeftOut unseen_;
   View view_;
   std::vector<Term> terms_;
+  std::vector<Term> scattering_;  ///< The same as `evaluate` and `sample` use them.
   SurfaceKernels kernels_;
 };
 

@@ -24,8 +24,10 @@ enum KernelEntry : std::uint32_t {
   entry_shade = 1 << 11,
   entry_interior = 1 << 12,
   entry_subsurface = 1 << 13,
+  entry_shadow = 1 << 14,
   /// What most renderers ask one after another.
-  entry_usual = ~std::uint32_t(entry_evaluate_at | entry_shade | entry_interior | entry_subsurface),
+  entry_usual = ~std::uint32_t(entry_evaluate_at | entry_shade | entry_interior | entry_subsurface |
+                               entry_shadow),
 };
 
 /// What a host wants of a surface's kernels; only this is recorded.
@@ -40,6 +42,12 @@ struct KernelRequest {
   /// divided by what of it exceeds 1, in each channel. As exact as their albedo.
   bool energy_conserving = false;
   bool by_lobe = false;  ///< What each lobe gives of f and weight as well.
+  /// `sample` and `evaluate` read the channel "lobes_wanted": LobeKind bits of what scatters there,
+  /// where glossy means rough and the delta kinds what is smooth. f is 0 of all others, and the
+  /// densities are of those that are wanted. They store "kinds", too.
+  bool lobes_wanted = false;
+  /// They read the channel "transport", and multiply f and weight by transport_factor.
+  bool transport = false;
   /// What `begin` (and `shade`) stores beside the state, so that nothing of the point is computed
   /// twice: "albedo", "emission", "opacity" (with transmission), "normal", "roughness"; all
   /// there, if constant. Other names are values of the graph: see GraphRequest::values.
@@ -64,12 +72,17 @@ bool is_point_result(std::string_view name);
 ///   sample    in:  u.x u.y u.z, state, geometry
 ///             out: wi.x wi.y wi.z, weight.x .y .z (f |cos| / pdf), pdf
 ///                  [, pdf_reverse], lobe (i32: which), flags (i32: SampleFlag)
+///   wanted    both: kinds (i32: LobeKind bits of what f is of, or of the lobe that was sampled)
 ///   by lobe   both: f.lobe<k>.*, weight.lobe<k>.*: what lobe k adds to f or weight
 ///   albedo    out: albedo.x .y .z     fraction of light that scatters, at wo; at most 1, also
 ///                                     where weights above 1 let more leave than arrives
 ///   emission  out: emission.x .y .z   radiance towards wo
 ///   opacity   out: opacity, transmission.x .y .z: of a ray that meets the
 ///             surface, 1 - opacity + opacity * transmission goes straight on
+///   shadow    out: presence, opacity_color.x .y .z: of light that goes straight on through the
+///             point, bent or scattered by nothing, presence * opacity_color is held back. That is
+///             1 - transmission, less what smooth thin walls and interfaces of index 1 let pass,
+///             which `sample` gives as deltas along -wo as well. Absent where all is held back
 ///   interior  out: eta [, absorption.x .y .z, scattering.x .y .z, anisotropy]: the index over that
 ///             outside, and the medium where there is one, per unit of length; of several
 ///             interfaces the mean by how much is seen of each. Absent where light cannot enter
@@ -85,7 +98,8 @@ bool is_point_result(std::string_view name);
 struct SurfaceKernels {
   /// Channels as listed above.
   /// @{
-  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity, interior, subsurface, point;
+  std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity, interior, subsurface,
+      shadow, point;
   /// @}
   /// One line for each thing that was left out, with the reason.
   std::vector<std::string> manifest;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "pbs/vdf.h"
+#include "pbs/view.h"
 
 namespace nacre {
 
@@ -18,6 +19,10 @@ enum LobeKind : std::int32_t {
   lobe_diffuse_transmission = 1 << 2,
   lobe_glossy_transmission = 1 << 3,
   lobe_all = 0xf,
+  /// Of what is wanted at a point (KernelRequest::lobes_wanted), where glossy is what is not
+  /// smooth.
+  lobe_delta_reflection = 1 << 4,
+  lobe_delta_transmission = 1 << 5,
 };
 
 /// A lobe seen along one pair of directions.
@@ -57,7 +62,8 @@ void visit(LobeSample& sample, F&& f) {
 ///
 /// The scattering functions do not scale radiance by the square of the relative
 /// index on transmission: what leaves is what entered. A renderer that carries
-/// radiance across an index change applies (eta_o / eta_i)^2 itself.
+/// radiance across an index change applies (eta_o / eta_i)^2 itself, or asks the
+/// kernels to (KernelRequest::transport).
 class Lobe {
  public:
   virtual ~Lobe() = default;
@@ -65,6 +71,12 @@ class Lobe {
   virtual std::string_view name() const = 0;
   /// One or more LobeKind bits.
   virtual std::int32_t kinds() const = 0;
+
+  /// On which sides its glossy kinds have finitely many directions: sample() says delta there.
+  virtual BySide smooth() const { return {false, false}; }
+  /// Whether it is about a direction and has no normal of a surface: its normal() is nothing that
+  /// |cos(wi)| is taken of.
+  virtual bool is_of_fibre() const { return false; }
 
   /// Records what depends on the view alone, for the lanes where `mask` holds;
   /// the lobe counts in no others. Called at top level before the functions below.
@@ -90,6 +102,10 @@ class Lobe {
   virtual LobePtr with_film(Recorder& recorder, const ThinFilm& film) const {
     return (void)recorder, (void)film, nullptr;
   }
+
+  /// Of the light along -wo what passes unbent, in one direction: what a ray may take along that
+  /// does not ask sample().
+  virtual Color3 straight(const View& view) const { return (void)view, Color3(0.0f); }
 
   // For AOVs, and not for what scatters.
   /// Unit, world space, on either side.

@@ -4,6 +4,16 @@
 
 namespace nacre {
 
+namespace {
+
+/// The probability of reflection where `both` is that with both sides wanted.
+Float reflection_probability(const View& view, Float both) {
+  const auto [reflection, transmission] = view.wanted;
+  return select(reflection, select(transmission, both, 1.0f), 0.0f);
+}
+
+}  // namespace
+
 MicrofacetInterface::MicrofacetInterface(Recorder& recorder, const Facets& facets,
                                          const FacetFresnelPtr& fresnel,
                                          MicrofacetReflection::Options options)
@@ -112,7 +122,8 @@ LobeValue MicrofacetInterface::evaluate_separate(const View& view, const Terms& 
   LobeValue back = reflection_.evaluate(view, wi);
   const LobeValue forth = transmission_.evaluate(view, wi);
   if (is_absent_where_straight()) back.f = select(straight_, Color3(0.0f), back.f);
-  const Float pdf = fma(terms.probability, back.pdf, (1.0f - terms.probability) * forth.pdf);
+  const Float probability = reflection_probability(view, terms.probability);
+  const Float pdf = fma(probability, back.pdf, (1.0f - probability) * forth.pdf);
   // A part too dark to be sampled is dark.
   return {.f = select(pdf > 0.0f, fma(terms.passing, forth.f, back.f), Color3(0.0f)), .pdf = pdf};
 }
@@ -126,7 +137,7 @@ LobeValue MicrofacetInterface::evaluate_joint(const View& view, const Terms& ter
   const Bool reflects = wi.z > 0.0f;
   const Color3 fresnel = fresnel_->at(event.cosine, local.below);
   const Color3 share = select(reflects, fresnel, Color3(1.0f) - fresnel);
-  const Float probability = grey(fresnel);
+  const Float probability = reflection_probability(view, grey(fresnel));
   const Float scale = finite(event.pdf * event.shadowing);
   const Float pdf = event.pdf * select(reflects, probability, 1.0f - probability);
   const Bool seen = event.possible & (pdf > 0.0f);
@@ -145,8 +156,9 @@ LobeSample MicrofacetInterface::sample_separate(const View& view, const Terms& t
                                                 Float3 u) const {
   const LobeSample back = reflection_.sample(view, u);
   const LobeSample forth = transmission_.sample(view, u);
-  const Bool reflects = u.z < terms.probability;
-  const Float probability = select(reflects, terms.probability, 1.0f - terms.probability);
+  const Float reflection = reflection_probability(view, terms.probability);
+  const Bool reflects = u.z < reflection;
+  const Float probability = select(reflects, reflection, 1.0f - reflection);
   LobeSample sample{.wi = select(reflects, back.wi, forth.wi),
                     .valid = select(reflects, back.valid, forth.valid) & (probability > 0.0f),
                     .delta = select(reflects, back.delta, forth.delta)};
@@ -165,13 +177,18 @@ LobeSample MicrofacetInterface::sample_joint(const View& view, Float3 u) const {
   const Float eta = relative_index(fresnel_->index(), local.below);
   const Refraction bent = refract(local.wo, h, cosine, eta);
   const Float3 mirrored = turned(reflect(local.wo, h));
-  const Bool reflects = u.z < grey(fresnel_->at(cosine, local.below));
+  const Float fresnel = grey(fresnel_->at(cosine, local.below));
+  const Bool reflects = u.z < reflection_probability(view, fresnel);
   const Float3 world = local.frame.to_world(select(reflects, mirrored, bent.wi));
   const Bool possible = select(reflects, mirrored.z > 0.0f, bent.possible);
   return {.wi = world, .valid = (local.wo.z > 0.0f) & possible & is_unit(world)};
 }
 
 Color3 MicrofacetInterface::albedo(const View&) const { return options_.tint; }
+
+Color3 MicrofacetInterface::straight(const View& view) const {
+  return product(terms(view).passing, transmission_.straight(view));
+}
 
 LobePtr microfacet_lobe(Recorder& recorder, std::string_view scatter_mode, const Facets& facets,
                         const FacetFresnelPtr& fresnel, MicrofacetReflection::Options options) {

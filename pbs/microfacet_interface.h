@@ -21,12 +21,14 @@ class MicrofacetInterface final : public Lobe {
 
   std::string_view name() const override { return options_.name; }
   std::int32_t kinds() const override { return lobe_glossy_reflection | lobe_glossy_transmission; }
+  BySide smooth() const override { return {facets_.delta, facets_.delta | straight_}; }
   LobePtr with_film(Recorder& recorder, const ThinFilm& film) const override;
   void prepare(const View& view, Bool mask) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;
   Color3 throughput(const View& view) const override { return reflection_.throughput(view); }
+  Color3 straight(const View& view) const override;
   Float3 normal(const View&) const override { return facets_.normal; }
   Float roughness(const View&) const override { return facets_.roughness(); }
   const Float* interior_index() const override { return transmission_.interior_index(); }
@@ -35,7 +37,7 @@ class MicrofacetInterface final : public Lobe {
   struct Terms {
     Color3 factor;      ///< Of both, where facets divide the light.
     Color3 passing;     ///< Not reflected.
-    Float probability;  ///< Of reflection, where lobes do.
+    Float probability;  ///< Of reflection, where lobes do and both sides are wanted.
     template <class F>
     friend void visit(Terms& terms, F&& f) {
       nacre::visit(terms.factor, f), nacre::visit(terms.passing, f);

@@ -21,6 +21,7 @@ class MicrofacetReflection final : public Lobe {
 
   std::string_view name() const override { return options_.name; }
   std::int32_t kinds() const override { return lobe_glossy_reflection; }
+  BySide smooth() const override { return {facets_.delta, false}; }
   bool is_opaque() const override { return options_.opaque; }
   LobePtr with_film(Recorder& recorder, const ThinFilm& film) const override;
   void prepare(const View& view, Bool mask) const override;

@@ -166,4 +166,8 @@ LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
 
 Color3 MicrofacetTransmission::albedo(const View&) const { return tint_; }
 
+Color3 MicrofacetTransmission::straight(const View& view) const {
+  return select(straight_ | (facets_.delta & view.thin_walled), tint_, Color3(0.0f));
+}
+
 }  // namespace nacre

@@ -52,12 +52,14 @@ class MicrofacetTransmission final : public Lobe {
 
   std::string_view name() const override { return name_; }
   std::int32_t kinds() const override { return lobe_glossy_transmission; }
+  BySide smooth() const override { return {false, facets_.delta | straight_}; }
   void prepare(const View& view, Bool mask) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;
   /// All light is taken.
   Color3 throughput(const View&) const override { return Color3(0.0f); }
+  Color3 straight(const View& view) const override;
   Float3 normal(const View&) const override { return facets_.normal; }
   Float roughness(const View&) const override { return facets_.roughness(); }
   const Float* interior_index() const override { return &index_; }

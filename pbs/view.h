@@ -33,6 +33,12 @@ struct SeenMedium {
   Color3 weight;
 };
 
+/// One thing of each side of a surface: of what comes back, and of what passes.
+struct BySide {
+  Bool reflection = true;
+  Bool transmission = true;
+};
+
 /// From where a closure is looked at, while recording.
 struct View {
   Recorder* recorder = nullptr;            ///< Where closures record; never null.
@@ -42,6 +48,9 @@ struct View {
   /// Light that enters below the surface is the host's to follow (SurfaceKernels::subsurface); else
   /// it leaves where it enters.
   bool follows_subsurface = false;
+  /// Which sides a lobe that has both shall scatter to: `sample` chooses of those. A lobe that pays
+  /// no heed to it loses samples.
+  BySide wanted = {};
   /// Where closures put down what of them the kernels leave out though it would change the
   /// picture; null: nowhere.
   LeftOut* left_out = nullptr;

@@ -11,7 +11,12 @@ namespace {
 
 static_assert(entry_begin == 1u << NACRE_BEGIN && entry_evaluate_at == 1u << NACRE_EVALUATE_AT &&
               entry_opacity == 1u << NACRE_OPACITY && entry_shade == 1u << NACRE_SHADE &&
-              entry_interior == 1u << NACRE_INTERIOR && entry_subsurface == 1u << NACRE_SUBSURFACE);
+              entry_interior == 1u << NACRE_INTERIOR &&
+              entry_subsurface == 1u << NACRE_SUBSURFACE && entry_shadow == 1u << NACRE_SHADOW);
+static_assert(int{lobe_all} == (NACRE_DIFFUSE_REFLECTION | NACRE_GLOSSY_REFLECTION |
+                                NACRE_DIFFUSE_TRANSMISSION | NACRE_GLOSSY_TRANSMISSION) &&
+              int{lobe_delta_reflection} == NACRE_DELTA_REFLECTION &&
+              int{lobe_delta_transmission} == NACRE_DELTA_TRANSMISSION);
 
 GraphOptions graph_options(const nacre_compile_options& asked, const Document& document) {
   constexpr std::array preferences{Preference::body, Preference::graph, Preference::source};
@@ -61,6 +66,8 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   options.kernels.lobe_mask = asked.lobe_mask != 0;
   options.kernels.by_lobe = asked.by_lobe != 0;
   options.kernels.min_alpha = asked.min_alpha != 0;
+  options.kernels.lobes_wanted = asked.lobes_wanted != 0;
+  options.kernels.transport = asked.transport != 0;
   options.kernels.energy_conserving = asked.energy_conserving != 0;
   if (asked.entries != 0) options.kernels.entries = asked.entries;
   options.kernels.with_begin = texts_of(asked.with_begin, asked.with_begin_count);

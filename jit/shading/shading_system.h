@@ -156,6 +156,8 @@ struct MaterialKernels {
   std::optional<BoundKernel> interior;
   /// Only if requested: where light that goes below the surface is; likewise.
   std::optional<BoundKernel> subsurface;
+  /// Only if requested: what a straight ray loses, see SurfaceKernels.
+  std::optional<BoundKernel> shadow;
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
   std::vector<LobeInfo> lobes;        ///< The channel `lobe` of sample counts in this order.

@@ -109,6 +109,7 @@ class ChiangHair final : public Lobe {
   std::string_view name() const override { return "chiang_hair_bsdf"; }
   std::int32_t kinds() const override { return lobe_glossy_reflection | lobe_glossy_transmission; }
   bool is_opaque() const override { return true; }
+  bool is_of_fibre() const override { return true; }
 
   void prepare(const View& view, Bool mask) const override {
     terms_.prepare(view, mask, [&] { return compute(view); });

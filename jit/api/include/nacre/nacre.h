@@ -126,7 +126,11 @@ typedef enum nacre_entry {
                             absorption and scattering per unit of length, anisotropy; the albedo,
                             and the normal to leave about. Asked for, NACRE_EVALUATE leaves that
                             light out and NACRE_SAMPLE sends it there. */
-  NACRE_ENTRY_COUNT = 14
+  NACRE_SHADOW = 14,     /* Of light straight on through the point, unbent, presence *
+                            opacity_color is held back. Smooth thin walls let light pass as
+                            NACRE_SAMPLE does: a host that shades shadows by this counts such
+                            light once. */
+  NACRE_ENTRY_COUNT = 15
 } nacre_entry;
 
 /* Bits of the channel `flags` of NACRE_SAMPLE. */
@@ -139,12 +143,22 @@ enum {
   NACRE_SAMPLE_SUBSURFACE = 8
 };
 
-/* Bits of nacre_compile_options::lobes. */
+/* What lobes are: the first four in nacre_compile_options::lobes and nacre_lobe_info::kinds; all in
+   the channels `lobes_wanted` and `kinds`, where glossy is what is rough, and delta what is smooth
+   and has finitely many directions. */
 enum {
   NACRE_DIFFUSE_REFLECTION = 1,
   NACRE_GLOSSY_REFLECTION = 2,
   NACRE_DIFFUSE_TRANSMISSION = 4,
-  NACRE_GLOSSY_TRANSMISSION = 8
+  NACRE_GLOSSY_TRANSMISSION = 8,
+  NACRE_DELTA_REFLECTION = 16,
+  NACRE_DELTA_TRANSMISSION = 32
+};
+
+/* What paths carry: the channel `transport`. */
+enum {
+  NACRE_RADIANCE = 0,  /* From the eye: refraction scales by the squares of the indices. */
+  NACRE_IMPORTANCE = 1 /* From lights: shading normals ask for a correction. */
 };
 
 enum { NACRE_JIT = 0, NACRE_INTERPRETER = 1, NACRE_REFERENCE = 2 };
@@ -181,7 +195,7 @@ typedef struct nacre_compile_options {
                       behind rough bounces find no sharp lobes. */
   /* Bits 1 << nacre_entry of those that are compiled, for rays that ask no more: a shadow ray needs
      NACRE_OPACITY. NACRE_BEGIN comes with what reads its state. 0: all but NACRE_EVALUATE_AT,
-     NACRE_SHADE, NACRE_INTERIOR and NACRE_SUBSURFACE. */
+     NACRE_SHADE, NACRE_INTERIOR, NACRE_SUBSURFACE and NACRE_SHADOW. */
   uint32_t entries;
   /* What NACRE_BEGIN and NACRE_SHADE also store, so that nothing of a point is computed twice:
      "albedo", "emission", "opacity" (and transmission), "normal", "roughness", or a value of the
@@ -227,6 +241,14 @@ typedef struct nacre_compile_options {
                             bits, at a fraction of the cost of a pass of many lanes. */
   int energy_conserving; /* 1: what the lobes give together is divided, in each channel, by what of
                             it exceeds the light that arrives: some models send back more. */
+  int lobes_wanted; /* 1: NACRE_SAMPLE, NACRE_EVALUATE and NACRE_SHADE read a channel lobes_wanted:
+                       bits of what shall scatter at that point. All else gives 0, and densities are
+                       of what is wanted. They also store `kinds`: of what f is, or what was
+                       sampled.
+                     */
+  int transport; /* 1: they read a channel transport. Radiance is multiplied by (eta_o / eta_i)^2 at
+                    refraction, importance by |wo.N wi.Ng| / |wo.Ng wi.N| (Veach 1997, 5.2, 5.3).
+                    0: by neither. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;

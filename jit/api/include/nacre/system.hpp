@@ -123,6 +123,8 @@ struct CompileOptions {
   const StopSource* stop = nullptr;
   bool single_points = false;
   bool energy_conserving = false;
+  bool lobes_wanted = false;  ///< A channel lobes_wanted, of sample and evaluate.
+  bool transport = false;     ///< A channel transport, of sample and evaluate.
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -320,6 +322,8 @@ class System {
     asked.stop = options.stop != nullptr ? options.stop->get() : nullptr;
     asked.single_points = options.single_points;
     asked.energy_conserving = options.energy_conserving;
+    asked.lobes_wanted = options.lobes_wanted;
+    asked.transport = options.transport;
     call(asked);
   }
 
