@@ -6,5 +6,5 @@ s|^## Embedding|# Embedding {#embedding}|
 s|\[examples/embed/main.cpp\](examples/embed/main.cpp)|`examples/embed/main.cpp`|
 s|\[examples/embed/surface.cpp\](examples/embed/surface.cpp)|@ref surface_host "examples/embed/surface.cpp"|
 # Other files of the project, by their names.
-s|\[\([a-z_/.]*\)\](\1)|`\1`|g
+s|\[\([a-zA-Z_/.]*\)\](\1)|`\1`|g
 s|\[\([^]]*\)\](\(bench/[a-z_/.]*\))|\1 (`\2`)|g

@@ -59,6 +59,8 @@ void bind_system(nb::module_& module) {
       .def_rw("reverse_pdf", &CompileOptions::reverse_pdf)
       .def_rw("lobe_mask", &CompileOptions::lobe_mask)
       .def_rw("by_lobe", &CompileOptions::by_lobe)
+      .def_rw("lobes_wanted", &CompileOptions::lobes_wanted)
+      .def_rw("transport", &CompileOptions::transport)
       .def_rw("min_alpha", &CompileOptions::min_alpha)
       .def_rw("energy_conserving", &CompileOptions::energy_conserving)
       .def_rw("entries", &CompileOptions::entries)

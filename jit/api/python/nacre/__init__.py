@@ -28,7 +28,7 @@ from ._core import Binding, Entry, Stop, data_library
 from ._core import version as __version__
 from ._document import Document
 from ._errors import Diagnostic, DiagnosticWarning, Error, Severity
-from ._options import CompileOptions, LobeKind, SampleFlag
+from ._options import CompileOptions, LobeKind, SampleFlag, Transport
 from ._parameters import Instance, Parameters, Ui
 from ._points import plane_points, surface_points
 from ._shader import Channel, Lobe, Shader, of_instance, of_place
@@ -38,6 +38,6 @@ from ._tool import bake_files, inspect, render
 __all__ = [
     "Binding", "Channel", "CompileOptions", "Diagnostic", "DiagnosticWarning", "Document", "Entry",
     "Error", "Instance", "Lobe", "LobeKind", "Parameters", "SampleFlag", "Severity", "Shader",
-    "Stop", "System", "Ui", "bake", "bake_files", "data_library", "default_system", "inspect",
-    "of_instance", "of_place", "plane_points", "render", "surface_points",
+    "Stop", "System", "Transport", "Ui", "bake", "bake_files", "data_library", "default_system",
+    "inspect", "of_instance", "of_place", "plane_points", "render", "surface_points",
 ]

@@ -17,12 +17,24 @@ class SampleFlag(enum.IntFlag):
 
 
 class LobeKind(enum.IntFlag):
-    """What a lobe is, and bits of the option `lobes`."""
+    """What a lobe is: the first four in the option `lobes`, all in channels lobes_wanted and kinds.
+
+    In these channels glossy is what is rough; what is smooth is delta.
+    """
 
     DIFFUSE_REFLECTION = 1
     GLOSSY_REFLECTION = 2
     DIFFUSE_TRANSMISSION = 4
     GLOSSY_TRANSMISSION = 8
+    DELTA_REFLECTION = 16
+    DELTA_TRANSMISSION = 32
+
+
+class Transport(enum.IntEnum):
+    """What paths carry: the channel transport."""
+
+    RADIANCE = 0  # From the eye: refraction scales by the squares of the indices.
+    IMPORTANCE = 1  # From lights: shading normals ask for a correction.
 
 
 class CompileOptions(TypedDict, total=False):
@@ -42,10 +54,14 @@ class CompileOptions(TypedDict, total=False):
     reverse_pdf: bool  # SAMPLE and EVALUATE also store pdf_reverse.
     lobe_mask: bool  # A parameter lobe_mask switches lobes off later.
     by_lobe: bool  # Also the part of each lobe: "f.lobe0", "weight.lobe0", ...
+    # SAMPLE, EVALUATE and SHADE read a channel lobes_wanted, LobeKind bits of what shall scatter at
+    # that point, and store kinds.
+    lobes_wanted: bool
+    transport: bool  # They read a channel transport, and scale f and weight for it.
     min_alpha: bool  # A parameter min_alpha raises the roughness of what is smoother.
     energy_conserving: bool  # Lobes together give no more light than arrives, whatever the model.
     # Entries that are compiled; BEGIN comes with what reads its state. None: all but EVALUATE_AT,
-    # SHADE, INTERIOR and SUBSURFACE.
+    # SHADE, INTERIOR, SUBSURFACE and SHADOW.
     entries: Iterable[_core.Entry]
     # What BEGIN and SHADE also store: "albedo", "emission", "opacity", "normal", "roughness", or
     # a value of the graph by its path: "NG_marble/noise1", "SR_marble/base_color".

@@ -108,6 +108,21 @@ def test_parts_by_lobe(system, documents):
         ("oren_nayar_diffuse_bsdf", nacre.LobeKind.DIFFUSE_REFLECTION)]
 
 
+def test_lobes_wanted_and_transport_come_with_points(system, documents):
+    shader = system.compile_material(nacre.Document.parse(documents["lambert"]), "M",
+                                     no_footprints=True, lobes_wanted=True, transport=True)
+    wanted = numpy.full(COUNT, nacre.LobeKind.DIFFUSE_REFLECTION, "int32")
+    wanted[0] = nacre.LobeKind.GLOSSY_REFLECTION
+    carried = numpy.full(COUNT, nacre.Transport.IMPORTANCE, "int32")
+    results = shader.run(POINTS | {"wi": WI, "lobes_wanted": wanted, "transport": carried},
+                         Entry.EVALUATE)
+    assert not results["f"][0].any() and results["pdf"][0] == results["kinds"][0] == 0
+    assert (results["kinds"][1:] == nacre.LobeKind.DIFFUSE_REFLECTION).all()
+    numpy.testing.assert_allclose(results["pdf"][1:], WI[1:, 2] / math.pi, rtol=1e-5)
+    with pytest.raises(nacre.Error, match="lobes_wanted"):
+        shader.run(POINTS | {"wi": WI, "transport": carried}, Entry.EVALUATE)
+
+
 def test_what_a_material_lacks_is_empty(lambert):
     assert not lambert.has(Entry.EMISSION)
     assert lambert.run(POINTS, Entry.EMISSION) == {}

@@ -51,8 +51,8 @@ def test_entries_are_those_of_the_header():
     assert f"NACRE_ENTRY_COUNT = {len(nacre.Entry)}" in header
     flags = {flag.name: str(int(flag)) for flag in nacre.SampleFlag}
     assert flags == dict(re.findall(r"NACRE_SAMPLE_(\w+) = (\d+)", header))
-    for kind in nacre.LobeKind:
-        assert f"NACRE_{kind.name} = {int(kind)}" in header
+    for constant in (*nacre.LobeKind, *nacre.Transport):
+        assert f"NACRE_{constant.name} = {int(constant)}" in header
 
 
 def test_options_are_those_of_the_interface():
