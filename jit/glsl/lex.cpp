@@ -150,12 +150,12 @@ class Lexer {
   bool line_is_empty_ = true;
 };
 
+}  // namespace
+
 SourceLocation location(const Sources& sources, Place place) {
   const Sources::File& file = sources.file(place.file);
   return {file.name, place.line + file.first_line - 1, place.column, ""};
 }
-
-}  // namespace
 
 std::uint32_t Sources::add(File file) {
   files_.push_back(std::move(file));

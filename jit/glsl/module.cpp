@@ -52,6 +52,10 @@ const Function* Module::function(std::string_view name) const {
   return found == syntax_.by_name.end() ? nullptr : found->second.back();
 }
 
+SourceLocation Module::where(const Function& function) const {
+  return location(sources_, function.place);
+}
+
 std::optional<CallResult> Module::record(const Function& function, std::vector<Value> arguments,
                                          Recorder& recorder, Diagnostics& diagnostics,
                                          const TextureLookup& texture,

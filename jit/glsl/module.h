@@ -32,6 +32,9 @@ class Module {
   /// The last function defined under that name, or null.
   const Function* function(std::string_view name) const;
 
+  /// Where one of its functions is defined.
+  SourceLocation where(const Function& function) const;
+
   /// Both as in record.h, but a fault is a diagnostic and gives nothing.
   std::optional<CallResult> record(const Function& function, std::vector<Value> arguments,
                                    Recorder& recorder, Diagnostics& diagnostics,

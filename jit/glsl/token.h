@@ -78,6 +78,9 @@ std::vector<Token> lex(const Sources& sources, std::uint32_t file);
 /// after the diagnostic was added. Never leaves this folder.
 struct Failure {};
 
+/// As diagnostics say it, without a path.
+SourceLocation location(const Sources& sources, Place place);
+
 /// Fails if `stop` is due.
 void check_stop(const Stop& stop, const Sources& sources, Diagnostics& diagnostics, Place place);
 

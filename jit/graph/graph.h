@@ -108,12 +108,15 @@ struct NodeText {
   std::string file;      ///< With `function`; relative to `document`.
   std::string text;      ///< Instead of a file: an expression, "{{in1}} + {{in2}}", or with
                          ///< `function` the text of one.
-  std::string function;  ///< Called with the inputs, then the outputs, in the nodedef's order.
+  std::string function;  ///< Called with the inputs, then the outputs, in the nodedef's order;
+                         ///< of a lobe, what the names of its functions begin with.
   std::string document;  ///< The file that names it.
   /// Allowed values of string inputs; a text gets the index of one.
   std::vector<std::pair<std::string, std::vector<std::string>>> enums;
   std::vector<TextTable> tables;  ///< Bound to the uniform samplers of the text.
   SourceLocation where;           ///< Of the `<implementation>`.
+  /// Of a lobe, what its nodedef says by `bsdf`: "R", "T" or "RT"; "": "R".
+  std::string sides;
 };
 
 /// Typed nodes and connections, and nothing else: nodedefs resolved, node graphs

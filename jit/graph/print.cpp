@@ -102,6 +102,7 @@ std::string print_nodes(const Graph& graph) {
     if (!source.function.empty()) {
       fmt::format_to(std::back_inserter(text), " {}", source.function);
     }
+    if (!source.sides.empty()) print_text(std::back_inserter(text += " bsdf="), source.sides);
     for (const TextTable& table : source.tables) print_table(std::back_inserter(text), table);
     text += '\n';
   }

@@ -119,7 +119,7 @@ class GraphRecorder {
       return check_outputs(node, outputs_[number]);
     }
     NodeCall call = make_call(node, std::move(inputs), std::move(outputs));
-    if (!options_.texts->record(*source, call, options_.stop)) return false;
+    if (!options_.texts->record(*source, call, options_.stop, options_.holds_lobes)) return false;
     outputs_[number] = call.outputs();
     return true;
   }

@@ -35,6 +35,8 @@ struct RecordOptions {
   TextureProvider* textures = nullptr;  ///< Null: no node has an image.
   /// Runs the graph's `sources`; null: nodes that need one are errors.
   TextBodies* texts = nullptr;
+  /// What a text says of a lobe is held to what lobes promise; false: for who looks at the text.
+  bool holds_lobes = true;
   /// Compute what only one side of a conditional node needs only where it is taken;
   /// false changes no result, only what it costs.
   bool lazy = true;

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "jit/record/sample_table.h"
+#include "jit/record/text_fit.h"
+#include "jit/record/text_lobe.h"
 #include "jit/record/text_ports.h"
 #include "nodes/texture2d/sampler.h"
 
@@ -63,28 +65,6 @@ glsl::TextureLookup texture_lookup(const NodeText& source, NodeCall& call) {
   };
 }
 
-/// Hands on what was found about a text: with the path of the implementation that it is of,
-/// where none is given, and not what was said before, of another node of that kind.
-void say_once(const NodeText& source, const Diagnostics& found, Diagnostics& diagnostics) {
-  for (Diagnostic one : found.all()) {
-    if (one.where.path.empty()) one.where.path = source.where.path;
-    const auto is_same = [&](const Diagnostic& other) {
-      return other.where.line == one.where.line && other.where.column == one.where.column &&
-             other.code == one.code && other.where.file == one.where.file &&
-             other.where.path == one.where.path && other.message == one.message;
-    };
-    const std::vector<Diagnostic>& said = diagnostics.all();
-    if (std::none_of(said.begin(), said.end(), is_same)) diagnostics.add(std::move(one));
-  }
-}
-
-bool misfit(const NodeText& source, Diagnostics& diagnostics, std::string message,
-            std::string expected, std::string found) {
-  diagnostics.error("source-misfit", source.where, std::move(message), std::move(expected),
-                    std::move(found));
-  return false;
-}
-
 /// Sets what an output stands for: itself, or the leaves of its structure.
 void set_output(NodeCall& call, const TextPorts::Port& output, const glsl::Value& value) {
   auto part = value.parts.begin();
@@ -102,11 +82,12 @@ bool set_only_output(const NodeText& source, NodeCall& call, const TextPorts& ou
                      std::string message, const glsl::Value& value, Diagnostics& diagnostics) {
   const TextPorts::Port& output = outputs.all().front();
   if (outputs.all().size() != 1) {
-    return misfit(source, diagnostics, std::move(message), "one output",
+    return misfit(source.where, diagnostics, std::move(message), "one output",
                   fmt::format("{} outputs", outputs.all().size()));
   }
   if (const auto difference = find_misfit(output.value.type, value.type)) {
-    return misfit(source, diagnostics, std::move(message), difference->expected, difference->found);
+    return misfit(source.where, diagnostics, std::move(message), difference->expected,
+                  difference->found);
   }
   set_output(call, output, value);
   return true;
@@ -129,35 +110,12 @@ bool record_expression(const NodeText& source, const glsl::Module& module, NodeC
                          *result, diagnostics);
 }
 
-/// The value as the parameter's type, or nothing, with a diagnostic.
-std::optional<glsl::Value> fitted(const NodeText& source, Diagnostics& diagnostics,
-                                  const glsl::Function::Parameter& parameter, std::size_t number,
-                                  const TextPorts::Port& port, bool is_input) {
-  const bool converts = is_input && glsl::converts(port.value.type, parameter.type);
-  if (converts && parameter.in) return glsl::convert(port.value, parameter.type);
-  std::optional<SourceMisfit> difference = find_misfit(port.value.type, parameter.type);
-  const bool has_direction = is_input ? parameter.in : parameter.out;
-  if (!difference && has_direction) {
-    return is_input ? glsl::Value{parameter.type, port.value.parts, {}}
-                    : glsl::zero(parameter.type);
-  }
-  if (!difference) {
-    difference = {to_string(parameter.type), to_string(parameter.type)};
-  }
-  misfit(source, diagnostics,
-         fmt::format("parameter {} of function '{}' does not fit {} '{}'", number, source.function,
-                     is_input ? "input" : "output", port.name),
-         (is_input ? "" : "out ") + difference->expected,
-         (parameter.out ? "out " : "") + difference->found);
-  return std::nullopt;
-}
-
 /// A function may also return its only output.
 bool record_function(const NodeText& source, const glsl::Module& module, NodeCall& call,
                      const glsl::RecordLimits& limits, Diagnostics& diagnostics) {
   const glsl::Function* function = module.function(source.function);
   if (function == nullptr) {
-    return misfit(source, diagnostics, "the text does not define the function",
+    return misfit(source.where, diagnostics, "the text does not define the function",
                   "'" + source.function + "'", "no such function");
   }
   const TextPorts inputs(source, call.inputs());
@@ -167,7 +125,7 @@ bool record_function(const NodeText& source, const glsl::Module& module, NodeCal
   const std::size_t wanted = count + (returns ? 0 : outputs.all().size());
   if (function->parameters.size() != wanted) {
     return misfit(
-        source, diagnostics,
+        source.where, diagnostics,
         "function '" + source.function + "' must take the node's inputs, then its outputs",
         fmt::format("{} parameters", wanted), fmt::format("{}", function->parameters.size()));
   }
@@ -175,7 +133,8 @@ bool record_function(const NodeText& source, const glsl::Module& module, NodeCal
   for (std::size_t i = 0; i < wanted; ++i) {
     const bool is_input = i < count;
     const TextPorts::Port& port = is_input ? inputs.all()[i] : outputs.all()[i - count];
-    auto argument = fitted(source, diagnostics, function->parameters[i], i + 1, port, is_input);
+    auto argument = fitted({source.function, function->parameters[i], i + 1, port, is_input},
+                           source.where, diagnostics);
     if (!argument) return false;
     arguments.push_back(std::move(*argument));
   }
@@ -193,17 +152,28 @@ bool record_function(const NodeText& source, const glsl::Module& module, NodeCal
   return true;
 }
 
+bool makes_lobe(const NodeCall& call) {
+  return !call.outputs().empty() && call.out_type() == Type::bsdf;
+}
+
 }  // namespace
 
-bool TextBodies::record(const NodeText& source, NodeCall& call, const Stop& stop) {
+bool TextBodies::record(const NodeText& source, NodeCall& call, const Stop& stop,
+                        bool holds_lobes) {
   Diagnostics found;
   const glsl::RecordLimits limits{.stop = stop};
   const std::shared_ptr<const glsl::Module> module = modules_.find(source, found, stop);
-  const bool done =
-      module != nullptr &&
-      (source.function.empty() ? record_expression(source, *module, call, limits, found)
-                               : record_function(source, *module, call, limits, found));
-  say_once(source, found, call.diagnostics());
+  bool done = false;
+  if (module == nullptr) {
+    // Was said.
+  } else if (makes_lobe(call)) {
+    done = set_text_lobe(source, module, call, {limits, holds_lobes}, found);
+  } else if (source.function.empty()) {
+    done = record_expression(source, *module, call, limits, found);
+  } else {
+    done = record_function(source, *module, call, limits, found);
+  }
+  say_once(source.where.path, found, call.diagnostics());
   return done;
 }
 
@@ -229,7 +199,7 @@ bool TextBodies::check(const NodeText& source, const NodeDef& def, Diagnostics& 
   }
   NodeCall call(recorder, def.category, def.name, std::move(inputs), std::move(outputs),
                 Accuracy::standard, nullptr, diagnostics, source.where);
-  return record(source, call, stop);
+  return record(source, call, stop) && (!makes_lobe(call) || try_text_lobe(recorder, call));
 }
 
 }  // namespace nacre

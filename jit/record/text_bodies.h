@@ -28,7 +28,10 @@ class TextBodies {
   /// Records the node and sets its outputs. False, with a diagnostic, for a
   /// text that cannot be read or does not fit the node: it says the file, line and column
   /// of the text and the path of the implementation, and is said once for all nodes.
-  bool record(const NodeText& source, NodeCall& call, const Stop& stop = {});
+  /// A BSDF becomes a lobe whose functions the text has: jit/record/text_lobe.h;
+  /// `holds_lobes` is for them.
+  bool record(const NodeText& source, NodeCall& call, const Stop& stop = {},
+              bool holds_lobes = true);
 
   /// Records the node on its own, every number unknown, to find what is wrong
   /// with the text.

@@ -94,6 +94,7 @@ RecordOptions Compilation::record_options(const FileRoots& roots) {
           .live = options_.live,
           .textures = textures_.get(),
           .texts = parts_.texts.get(),
+          .holds_lobes = options_.holds_lobes,
           .lazy = options_.lazy,
           .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
           .max_instructions = options_.compile.max_instructions,

@@ -59,6 +59,8 @@ class Compilation {
   /// The passes and machine code, all entry points side by side; nothing where the compiler
   /// refuses.
   std::vector<std::optional<BoundKernel>> compile(std::vector<Program> programs);
+  /// Nothing for a null surface; not complete where one of its lobes could not be recorded.
+  SurfaceKernels record_surface(const SurfacePtr& surface);
   /// What KernelRequest::with_begin names, each once; an error for what there is not.
   std::vector<SliceOutput> point_results(const Graph& graph, const std::vector<Recorded>& values,
                                          const SurfaceKernels& kernels,

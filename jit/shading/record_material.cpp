@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jit/record/leaves.h"
+#include "jit/record/text_lobe.h"
 #include "jit/shading/compilation.h"
 #include "pbs/shader_channels.h"
 #include "pbs/sides.h"
@@ -96,10 +97,7 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
                        "a surface shader");
     return std::nullopt;
   }
-  const SurfaceKernels surface_kernels =
-      surface == nullptr ? SurfaceKernels{}
-                         : record_kernels(recorder_, *surface, options_.compile.accuracy,
-                                          options_.kernels, [this] { return may_go_on(); });
+  const SurfaceKernels surface_kernels = record_surface(surface);
   if (!surface_kernels.complete) return std::nullopt;
   RecordedMaterial recorded;
   MaterialKernels& kernels = recorded.kernels;
@@ -163,6 +161,18 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   if (wants(entry_begin) || !begin.empty()) begin = joined(std::move(begin), point);
   add_entry(&MaterialKernels::begin, "begin", begin, Keeps::pass);
   return recorded;
+}
+
+SurfaceKernels Compilation::record_surface(const SurfacePtr& surface) {
+  SurfaceKernels kernels;
+  if (surface == nullptr) return kernels;
+  try {
+    return record_kernels(recorder_, *surface, options_.compile.accuracy, options_.kernels,
+                          [this] { return may_go_on(); });
+  } catch (const LobeFailure&) {
+    kernels.complete = false;
+    return kernels;
+  }
 }
 
 std::vector<SliceOutput> Compilation::point_results(const Graph& graph,

@@ -74,7 +74,11 @@ struct ShaderOptions {
   KernelRequest kernels;  ///< Of a material: which, and of what lobes.
   /// `is_native` and `stop` (that of `compile`) are filled in, and `colors` where it is null.
   GraphOptions graph;
-  bool lazy = true;  ///< See RecordOptions.
+  /// See RecordOptions.
+  /// @{
+  bool lazy = true;
+  bool holds_lobes = true;
+  /// @}
   /// Of footprints on images, 1 .. largest_anisotropy; see runtime/texture/sampling.h.
   int max_anisotropy = default_anisotropy;
   /// Whether images are filtered and derivatives taken by how channels change from sample to

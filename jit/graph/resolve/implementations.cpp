@@ -24,7 +24,8 @@ bool Implementations::has_body(const NodeDef& def) const {
 bool Implementations::runs_text(const NodeDef& def) const {
   if (colors_.has_source(def)) return true;
   if (definitions_.text_of(def) == nullptr || !may_be_text(def)) return false;
-  if (options_.prefer == Preference::source) return true;
+  // Those of MaterialX's generators are closures of theirs.
+  if (options_.prefer == Preference::source && !is_lobe(def)) return true;
   return !has_body(def) && graph_of(def) == nullptr;
 }
 

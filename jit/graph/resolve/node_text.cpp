@@ -6,7 +6,12 @@
 
 namespace nacre {
 
+bool is_lobe(const NodeDef& def) {
+  return def.outputs.size() == 1 && def.outputs.front().type == Type::bsdf;
+}
+
 bool may_be_text(const NodeDef& def) {
+  if (is_lobe(def)) return true;
   return std::all_of(def.outputs.begin(), def.outputs.end(),
                      [](const NodeDefOutput& output) { return is_numeric(output.type); });
 }
@@ -19,6 +24,7 @@ NodeText node_text(const NodeDef& def, const Element& implementation) {
   source.function = implementation.attribute("function");
   source.document = implementation.document().file_of(implementation);
   source.where = location(implementation);
+  if (is_lobe(def)) source.sides = def.element->attribute("bsdf");
   for (const NodeDefInput& input : def.inputs) {
     if (!is_text(input.type) || input.enums.empty()) continue;
     source.enums.emplace_back(input.name,

@@ -5,8 +5,11 @@
 
 namespace nacre {
 
-/// Whether a text may implement the nodedef: it computes numbers and nothing else,
-/// so closures and shaders are none.
+/// Whether its only output is a BSDF.
+bool is_lobe(const NodeDef& def);
+
+/// Whether a text may implement the nodedef: it computes numbers and nothing else, or it is a
+/// lobe. Other closures, and shaders, are none.
 bool may_be_text(const NodeDef& def);
 
 /// The implementation by text of a nodedef that an <implementation> element
