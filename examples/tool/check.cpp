@@ -19,7 +19,7 @@ int run(const CommonOptions& options, const LobeCheck& lobes) {
   const Opened opened = open(options, diagnostics);
   if (opened) {
     opened.system->check(*opened.document, options.shader_options(), diagnostics);
-    if (lobes.is_wanted && !diagnostics.has_errors()) {
+    if (lobes.is_wanted() && !diagnostics.has_errors()) {
       check_lobes(options, lobes, opened, diagnostics);
     }
   }
@@ -37,23 +37,35 @@ void add_check(CLI::App& app, int& status) {
   options->add_document(command);
   options->add_compile(command);
   const auto lobes = std::make_shared<LobeCheck>();
-  CLI::Option* const wanted = command.add_flag(
-      "--lobes", lobes->is_wanted,
+  command.add_flag(
+      "--lobes", lobes->materials,
       "Also try what every closure must hold on each material, at texture coordinates 0: samples "
       "follow the density, no more light leaves than arrives, all is finite");
-  command.add_option("--samples", lobes->effort.samples, "Of each view of a material")
-      ->needs(wanted)
-      ->check(CLI::Range(1000, 100'000'000))
-      ->capture_default_str();
-  command.add_option("--most-energy", lobes->effort.most_energy, "Light that may leave of 1")
-      ->needs(wanted)
-      ->check(number_within(0))
-      ->capture_default_str();
-  command.add_flag("--json", lobes->json, "What --lobes finds, for programs to read")
-      ->needs(wanted);
+  command
+      .add_option("--lobe", lobes->nodes,
+                  "The same of these nodes, or nodedefs, whose output is a BSDF: each alone, with "
+                  "its defaults, the ends of its inputs (uimin, uimax) and what lies between")
+      ->delimiter(',')
+      ->type_name("NODE[,...]");
+  const std::vector<CLI::Option*> details{
+      command.add_option("--sets", lobes->sets, "Of inputs that each --lobe is tried with")
+          ->check(CLI::Range(1, 10'000))
+          ->capture_default_str(),
+      command.add_option("--samples", lobes->effort.samples, "Of each view of a material or lobe")
+          ->check(CLI::Range(1000, 100'000'000))
+          ->capture_default_str(),
+      command.add_option("--most-energy", lobes->effort.most_energy, "Light that may leave of 1")
+          ->check(number_within(0))
+          ->capture_default_str(),
+      command.add_flag("--json", lobes->json, "What is found of lobes, for programs to read")};
   command.footer("Exit status: 0 clean, 1 problems, 2 usage.");
-  command.callback(
-      [=, &status] { status = guarded(options->file, [&] { return run(*options, *lobes); }); });
+  command.callback([=, &status] {
+    for (const CLI::Option* detail : details) {
+      if (detail->count() == 0 || lobes->is_wanted()) continue;
+      throw CLI::RequiresError(detail->get_name(), "--lobes or --lobe");
+    }
+    status = guarded(options->file, [&] { return run(*options, *lobes); });
+  });
 }
 
 }  // namespace nacre::tool

@@ -16,7 +16,8 @@ LobeFindings try_lobes(nacre_shader* shader, const LobeEffort& effort) {
   LobeFindings findings;
   for (const nacre::LobeView& view : report.views) {
     findings.views.push_back({std::acos(std::fmin(view.wo.z, 1.0f)) * 57.29577951308232,
-                              view.energy, view.albedo, view.valid, view.reciprocity});
+                              view.energy, view.albedo, view.valid, view.chi_square,
+                              view.reciprocity});
   }
   for (const nacre::LobeFault& fault : report.faults) {
     findings.faults.push_back({fault.law, fault.text, fault.found, fault.expected});

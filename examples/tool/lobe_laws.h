@@ -15,8 +15,17 @@ struct LobeView {
   double degrees = 0;
   std::array<double, 3> light{}, albedo{};
   double valid = 0;
+  double chi_square = 1;  ///< Probability of samples at least as far from the density.
   double reciprocity = 1;
 };
+
+/// The laws: of single numbers, and of sums of them, which are tried where the former hold.
+/// @{
+inline constexpr const char* laws_of_numbers[] = {"finite", "lost",    "unit",   "flags",
+                                                  "sides",  "density", "weight", "support"};
+inline constexpr const char* laws_of_sums[] = {"normalised", "samples", "light", "energy",
+                                               "albedo"};
+/// @}
 
 /// A law that does not hold.
 struct LobeFault {

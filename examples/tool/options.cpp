@@ -178,6 +178,15 @@ ShaderOptions CommonOptions::shader_options() const {
   return options;
 }
 
+ReadOptions CommonOptions::read_options() const {
+  ReadOptions read;
+  read.limits = read_limits;
+  read.stop = stop();
+  for (const std::string& path : search_paths) read.search_paths.emplace_back(path);
+  read.includes_anywhere = allow_outside;
+  return read;
+}
+
 namespace {
 
 /// Nothing, with a diagnostic, where the environment is asked and names no file.
@@ -221,12 +230,7 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   }
   opened.system = ShadingSystem::create(system, diagnostics);
   if (opened.system == nullptr) return opened;
-  ReadOptions read;
-  read.limits = options.read_limits;
-  read.stop = stop();
-  for (const std::string& path : options.search_paths) read.search_paths.emplace_back(path);
-  read.includes_anywhere = options.allow_outside;
-  opened.document = read_document(options.file, read, diagnostics);
+  opened.document = read_document(options.file, options.read_options(), diagnostics);
   return opened;
 }
 

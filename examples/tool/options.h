@@ -54,6 +54,7 @@ struct CommonOptions {
   Accuracy parsed_accuracy() const;
   Backend parsed_backend() const;
   ShaderOptions shader_options() const;
+  ReadOptions read_options() const;
   /// What makes code for one who measures it: apart, as kernels are, unless asked otherwise.
   std::unique_ptr<Compiler> compiler() const;
 

@@ -1,6 +1,6 @@
 // Bytes as the text that implements a node of a document: an expression with inputs, a file
-// of functions, or an expression where the node has none, by the first byte. Checked, compiled
-// and run like any document.
+// of functions, or an expression where the node has none, by the first byte; a file that defines
+// h_evaluate is a lobe's too. Checked, compiled and run like any document.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -29,6 +29,22 @@ constexpr const char* before = R"(<materialx version="1.39">
     <g name="y" type="float"/>
     <output name="o1" type="float" nodename="x"/><output name="o2" type="float" nodename="y"/>
   </nodegraph>
+)";
+
+/// A lobe, alone and below another.
+constexpr const char* lobe = R"(
+  <nodedef name="ND_h" node="h" bsdf="RT">
+    <input name="weight" type="float" value="1"/><input name="c" type="color3" value="0.5, 0.7, 1"/>
+    <input name="n" type="integer" value="3"/><input name="normal" type="vector3" defaultgeomprop="Nworld"/>
+    <input name="tangent" type="vector3" defaultgeomprop="Tworld"/><output name="out" type="BSDF"/></nodedef>
+  <implementation name="IM_h" nodedef="ND_h" target="genglsl" file="{}" function="h"/>
+  <geomcolor name="tint" type="color3"/><dielectric_bsdf name="top" type="BSDF"/>
+  <h name="b" type="BSDF"><input name="c" type="color3" nodename="tint"/></h>
+  <layer name="l" type="BSDF"><input name="top" type="BSDF" nodename="top"/>
+    <input name="base" type="BSDF" nodename="b"/></layer>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="l"/></surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
+  </surfacematerial>
 )";
 
 void run(const std::string& text, const std::string& name) {
@@ -67,6 +83,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       document += std::string("<implementation name=\"IM_") + node + "\" nodedef=\"ND_" + node +
                   "\" target=\"genglsl\" file=\"" + path.filename().string() + "\" function=\"" +
                   node + "\"/>\n";
+    }
+    if (text.find("h_evaluate") != std::string::npos) {
+      std::string nodes = lobe;
+      document += nodes.replace(nodes.find("{}"), 2, path.filename().string());
     }
   }
   run(document + "</materialx>\n", (path.parent_path() / "input.mtlx").string());
