@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "examples/render/bounds.h"
 #include "examples/render/motion.h"
 #include "examples/render/punctual_light.h"
 #include "examples/render/vec.h"
@@ -95,17 +96,6 @@ struct Scene {
   std::optional<Camera> camera;  ///< Of the file; absent: see fit_camera().
   /// Takes the camera to where it is while the shutter is open.
   Motion camera_motion;
-};
-
-struct Bounds {
-  Vec3 low = {INFINITY, INFINITY, INFINITY};
-  Vec3 high = {-INFINITY, -INFINITY, -INFINITY};
-
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  bool empty() const { return !(low.x <= high.x); }
 };
 
 /// World bounds of all vertices that a triangle uses, lights left out; of instances those of their
