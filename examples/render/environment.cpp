@@ -143,7 +143,7 @@ Environment::Sample Environment::sample(Uniform2 u) const {
   return {wi, radiance(wi), texel_pdf(x, y)};
 }
 
-Environment Environment::studio() {
+Environment Environment::studio(float scale, float rotation) {
   constexpr int width = 512, height = 256;
   struct Box {
     float u, v, half_u, half_v;
@@ -167,10 +167,10 @@ Environment Environment::studio() {
       for (const Box& b : boxes) {
         rgb += (edge(u - b.u, b.half_u) * edge(v - b.v, b.half_v)) * b.radiance;
       }
-      texels.push_back(rgb);
+      texels.push_back(scale * rgb);
     }
   }
-  return {width, height, std::move(texels)};
+  return {width, height, std::move(texels), rotation};
 }
 
 }  // namespace nacre::host

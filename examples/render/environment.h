@@ -27,8 +27,8 @@ class Environment {
   Environment(int width, int height, std::vector<Vec3> texels, float rotation = 0.f);
 
   static Environment constant(Vec3 radiance) { return {1, 1, {radiance}}; }
-  /// A photographer's dome: a dim grey gradient with two soft boxes and a strip.
-  static Environment studio();
+  /// A photographer's dome: a dim grey gradient with two soft boxes and a strip; times `scale`.
+  static Environment studio(float scale = 1.f, float rotation = 0.f);
   /// An image of any format that textures have, taken as linear Rec. 709 radiance times
   /// `scale`; one channel is grey. What counts as 0 is warned about. Nothing, with an error,
   /// for what cannot be read or is outside the limits.

@@ -40,9 +40,11 @@ constexpr float radians = 0.01745329252f;
 
 std::optional<host::Environment> environment(const RenderOptions& options,
                                              Diagnostics& diagnostics) {
-  if (options.environment.empty()) return host::Environment::studio();
-  return host::Environment::load(options.environment, options.environment_scale,
-                                 options.environment_rotation * radians,
+  const float rotation = options.environment_rotation * radians;
+  if (options.environment.empty()) {
+    return host::Environment::studio(options.environment_scale, rotation);
+  }
+  return host::Environment::load(options.environment, options.environment_scale, rotation,
                                  options.common.texture_limits.limits, diagnostics);
 }
 

@@ -47,6 +47,19 @@ TEST(Environment, DensityIntegratesToOne) {
   }
 }
 
+TEST(Environment, StudioIsScaledAndTurned) {
+  const Environment studio = Environment::studio();
+  const Environment turned = Environment::studio(2.f, 0.5f);
+  for (int i = 0; i < 100; ++i) {
+    const double z = 0.01 * i + 0.005, azimuth = 0.37 * i;
+    const Vec3 was = studio.radiance(direction(z, azimuth));
+    const Vec3 is = turned.radiance(direction(z, azimuth + 0.5));
+    EXPECT_NEAR(is.x, 2.f * was.x, 1e-3f * (1.f + was.x));
+    EXPECT_NEAR(is.z, 2.f * was.z, 1e-3f * (1.f + was.z));
+  }
+  EXPECT_EQ(Environment::studio(0.f).mean_luminance(), 0.f);
+}
+
 TEST(Environment, SamplesFollowTheDensity) {
   const int width = 16, height = 8, n = 200000;
   const Environment e = spotty(width, height, 0.f);
