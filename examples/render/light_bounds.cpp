@@ -103,8 +103,15 @@ DirectionCone united(const DirectionCone& a, const DirectionCone& b) {
 LightBounds united(const LightBounds& a, const LightBounds& b) {
   if (a.is_dark()) return b;
   if (b.is_dark()) return a;
-  LightBounds both = {a.box, a.intensity + b.intensity, united(a.cone, b.cone),
-                      std::min(a.cos_e, b.cos_e), std::max(a.reach, b.reach)};
+  // Of what shines both ways either axis will do.
+  DirectionCone other = b.cone;
+  if ((a.both_ways || b.both_ways) && dot(a.cone.axis, other.axis) < 0.f) other.axis = -other.axis;
+  LightBounds both = {.box = a.box,
+                      .intensity = a.intensity + b.intensity,
+                      .cone = united(a.cone, other),
+                      .cos_e = std::min(a.cos_e, b.cos_e),
+                      .both_ways = a.both_ways || b.both_ways,
+                      .reach = std::max(a.reach, b.reach)};
   both.box.add(b.box.low);
   both.box.add(b.box.high);
   return both;
@@ -114,8 +121,9 @@ double orientation_measure(const LightBounds& bounds) {
   const Angle cone = opening(bounds.cone);
   const double o = radians(cone);
   const double w = std::min(o + std::acos(std::clamp(double{bounds.cos_e}, -1.0, 1.0)), pi);
-  return 2 * pi * (1 - cone.cosine) +
-         pi / 2 * (2 * (w - o) * cone.sine - std::cos(o - 2 * w) + cone.cosine);
+  const double one_way = 2 * pi * (1 - cone.cosine) +
+                         pi / 2 * (2 * (w - o) * cone.sine - std::cos(o - 2 * w) + cone.cosine);
+  return bounds.both_ways ? std::min(2 * one_way, 4 * pi) : one_way;
 }
 
 double importance(const LightBounds& bounds, const LitPlace& at) {
@@ -142,9 +150,10 @@ double importance(const LightBounds& bounds, const LitPlace& at) {
                            std::sqrt(radius / squared)};
   double emitted = 1.0;
   if (!bounds.cone.is_all()) {
-    const Angle off_axis = difference_or_0(
-        difference_or_0(angle_between(bounds.cone.axis, -to_light), opening(bounds.cone)),
-        uncertain);
+    Angle from_axis = angle_between(bounds.cone.axis, -to_light);
+    if (bounds.both_ways) from_axis.cosine = std::abs(from_axis.cosine);
+    const Angle off_axis =
+        difference_or_0(difference_or_0(from_axis, opening(bounds.cone)), uncertain);
     constexpr double tolerance = 1e-4;
     if (off_axis.cosine < double{bounds.cos_e} - tolerance) return 0.0;
     constexpr double least = 0.01;

@@ -38,6 +38,7 @@ struct LightBounds {
   DirectionCone cone = DirectionCone::all();
   /// Cosine of theta_e: nothing leaves at more than this angle from an axis.
   float cos_e = -1.f;
+  bool both_ways = false;  ///< The same leaves about the opposite axes.
   /// Nothing arrives that far from it; infinite: no such bound.
   float reach = INFINITY;
 
@@ -47,7 +48,7 @@ struct LightBounds {
 LightBounds united(const LightBounds& a, const LightBounds& b);
 
 /// The integral over the directions that light leaves in of the cosine to the nearest axis, in
-/// steradians (equation 1 there).
+/// steradians (equation 1 there); twice that for both ways, at most 4 pi.
 double orientation_measure(const LightBounds& bounds);
 
 /// How much light may arrive, at most, and about: intensity over the squared distance of the box,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "examples/render/light_bounds.h"
 #include "examples/render/shader.h"
 
 namespace nacre::host {
@@ -18,6 +21,9 @@ class LightShader {
   virtual ~LightShader() = default;
   /// Of the batch it reads P, the time and the frame.
   virtual void light(const ShadingBatch& batch, LightLanes out) const = 0;
+  /// Where it is and shines at all times, if it is somewhere and that is known. Beyond what they
+  /// allow nothing arrives; within, intensity by the square of the distance is the best guess.
+  virtual std::optional<LightBounds> bounds() const { return {}; }
 };
 
 }  // namespace nacre::host

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "examples/render/batch_buffer.h"
+#include "examples/render/scene_limits.h"
 
 namespace nacre::host {
 
@@ -42,6 +43,20 @@ void PunctualShader::light(const ShadingBatch& batch, LightLanes out) const {
     store(out.direction, i, scale > 0.f ? unit : Vec3{});
     out.distance[i] = distance;
   }
+}
+
+std::optional<LightBounds> PunctualShader::bounds() const {
+  if (light_.kind == PunctualLight::Kind::directional) return {};
+  LightBounds b;
+  if (!is_within_reach(light_.position)) return b;  // Dark, for nothing of it arrives.
+  b.box.add(light_.position);
+  b.intensity = double{luminance(light_.color)};
+  if (light_.range > 0.f) b.reach = light_.range;
+  if (light_.kind == PunctualLight::Kind::spot) {
+    b.cone = DirectionCone::about(light_.direction, 1.f);
+    b.cos_e = light_.outer_cos;
+  }
+  return b;
 }
 
 }  // namespace nacre::host

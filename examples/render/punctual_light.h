@@ -24,6 +24,7 @@ class PunctualShader final : public LightShader {
  public:
   explicit PunctualShader(const PunctualLight& light) : light_(light) {}
   void light(const ShadingBatch& batch, LightLanes out) const override;
+  std::optional<LightBounds> bounds() const override;
 
  private:
   PunctualLight light_;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "examples/render/area_light.h"
 #include "examples/render/exit_shader.h"
 #include "examples/render/mesh.h"
 #include "examples/render/volumes_around.h"
@@ -35,19 +36,8 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
   collect_materials(input);
   find_bounds();
   if (any_volume) camera_media = volumes_around(*this, input.camera.position, 0.f);
-  collect_lights();
   point_lights = input.lights;
-  choose_chances();
-}
-
-/// Alike for each kind that there is.
-void RenderContext::choose_chances() {
-  const int kinds =
-      (environment != nullptr ? 1 : 0) + (lights.empty() ? 0 : 1) + (point_lights.empty() ? 0 : 1);
-  const float each = kinds == 0 ? 0.f : 1.f / static_cast<float>(kinds);
-  environment_chance = environment != nullptr ? each : 0.f;
-  area_chance = lights.empty() ? 0.f : each;
-  point_chance = point_lights.empty() ? 0.f : each;
+  lights = SceneLights(*this);
 }
 
 void RenderContext::collect_materials(const RenderInput& input) {
@@ -127,71 +117,6 @@ void RenderContext::find_bounds() {
       if (points.size() == settings.batch_size) ask();
     }
     if (!points.empty()) ask();
-  }
-}
-
-void RenderContext::collect_lights() {
-  BatchBuffer buffer(settings.batch_size, 0, primvars);
-  buffer.batch.time = settings.time;
-  buffer.batch.frame = settings.frame;
-  for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
-    const bool emits = materials[front_materials[mesh]].capabilities.emits ||
-                       materials[back_materials[mesh]].capabilities.emits;
-    // What nothing sees is no light either (Geometry Extensions, "Visibility Elements").
-    if (!emits || scene.meshes[mesh].visible_to == 0) continue;
-    // What moves is found by paths alone: how large its triangles are is a matter of the time.
-    if (!scene.meshes[mesh].instances.empty()) continue;
-    // And of fibres: their pieces are no triangles.
-    if (scene.meshes[mesh].is_fibres()) continue;
-    lights.add(scene, mesh, triangle_luminance(mesh, buffer));
-  }
-  lights.finish();
-}
-
-/// The larger of the mean luminances that leave the two sides of each triangle
-/// perpendicularly, from its centroid and three points halfway to the corners.
-std::vector<float> RenderContext::triangle_luminance(std::uint32_t mesh,
-                                                     BatchBuffer& buffer) const {
-  std::vector<float> result(scene.meshes[mesh].triangles.size(), 0.f);
-  for (const bool back : {false, true}) brighten(result, mesh, back, buffer);
-  // Where the probes saw nothing a texture may still glow: keep some chance there.
-  const float brightest = *std::max_element(result.begin(), result.end());
-  for (float& l : result) l = std::max(l, 0.02f * brightest);
-  return result;
-}
-
-/// Raises the luminance of each triangle to that of its front or back.
-void RenderContext::brighten(std::vector<float>& luminances, std::uint32_t mesh, bool back,
-                             BatchBuffer& buffer) const {
-  constexpr float probes[4][2] = {{1.f / 3.f, 1.f / 3.f},
-                                  {1.f / 6.f, 1.f / 6.f},
-                                  {2.f / 3.f, 1.f / 6.f},
-                                  {1.f / 6.f, 2.f / 3.f}};
-  const Mesh& m = scene.meshes[mesh];
-  const Material& material = materials[(back ? back_materials : front_materials)[mesh]];
-  if (!material.capabilities.emits) return;
-  std::vector<SurfacePoint> points;
-  for (std::size_t first = 0; first < m.triangles.size();) {
-    const std::size_t last =
-        std::min(m.triangles.size(), first + std::max(1u, settings.batch_size / 4));
-    points.clear();
-    for (std::size_t t = first; t < last; ++t) {
-      const auto triangle = static_cast<std::uint32_t>(t);
-      const Vec3 n = surface_normal(scene, {.mesh = mesh, .triangle = triangle});
-      for (const auto& [u, v] : probes) {
-        points.push_back({mesh, triangle, u, v, back ? -n : n, false, 0.f, 0.f});
-      }
-    }
-    geometry.fill(points, material.capabilities, camera, buffer);
-    material.shader->emission(buffer.batch, buffer.rgb);
-    for (std::size_t t = first; t < last; ++t) {
-      float sum = 0.f;
-      for (std::size_t i = 4 * (t - first); i < 4 * (t - first) + 4; ++i) {
-        sum += 0.25f * std::max(0.f, luminance(load(buffer.rgb, i)));
-      }
-      luminances[t] = std::max(luminances[t], sum);
-    }
-    first = last;
   }
 }
 

@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
-#include "examples/render/area_light.h"
 #include "examples/render/bvh.h"
 #include "examples/render/camera.h"
 #include "examples/render/medium.h"
 #include "examples/render/render.h"
+#include "examples/render/scene_lights.h"
 #include "examples/render/surface.h"
 
 namespace nacre::host {
@@ -35,7 +35,6 @@ class RenderContext {
   PixelCamera camera;
   SurfaceGeometry geometry;
   Bvh bvh;
-  AreaLights lights;
   std::vector<Material> materials;
   /// By mesh, of either side: indices of `materials`.
   std::vector<std::uint32_t> front_materials, back_materials;
@@ -46,8 +45,7 @@ class RenderContext {
   Media camera_media;         ///< The volumes that the camera is inside of as the shutter opens.
   std::vector<float> bounds;  ///< By mesh: Medium::bound of a volume that varies; else 0.
   std::vector<const LightShader*> point_lights;  ///< That no ray meets.
-  /// Chances that light sampling asks the environment, surfaces that emit, or what no ray meets.
-  float environment_chance = 0.f, area_chance = 0.f, point_chance = 0.f;
+  SceneLights lights;
   std::size_t state_bytes = 0;  ///< Of the neediest shader at the batch size.
   std::size_t primvars = 0;     ///< Of the neediest shader.
 
@@ -62,11 +60,6 @@ class RenderContext {
   void collect_materials(const RenderInput& input);
   std::uint32_t add_material(const Shader& shader);
   void find_bounds();
-  void collect_lights();
-  void choose_chances();
-  std::vector<float> triangle_luminance(std::uint32_t mesh, BatchBuffer& buffer) const;
-  void brighten(std::vector<float>& luminance, std::uint32_t mesh, bool back,
-                BatchBuffer& buffer) const;
 
   std::map<const Shader*, std::uint32_t> known_;
   std::vector<std::unique_ptr<const Shader>> own_shaders_;  ///< Emitters and exits.

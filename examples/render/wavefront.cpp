@@ -91,7 +91,8 @@ void Wavefront::add_environment() {
     Path& path = paths_[i];
     if (!hits_[i].missed() || path.unlit) continue;
     const Vec3 direction = path.ray.direction;
-    const float light_pdf = context_.environment_chance * context_.environment->pdf(direction);
+    const float light_pdf =
+        context_.lights.environment_chance() * context_.environment->pdf(direction);
     path.radiance +=
         hit_weight(path, light_pdf) * (path.throughput * context_.environment->radiance(direction));
   }
@@ -155,15 +156,8 @@ Uniform2 Wavefront::draw(const Path& path, Draw what) const {
   return uniform2(context_.settings.sampler, path.key, what);
 }
 
-/// Density per area with which light sampling finds points of this triangle.
-float Wavefront::light_chance(std::uint32_t mesh, std::uint32_t triangle) const {
-  return context_.area_chance * context_.lights.area_pdf(mesh, triangle);
-}
-
 bool Wavefront::connects() const {
-  return context_.settings.strategy != Strategy::bsdf_only &&
-         (context_.environment != nullptr || !context_.lights.empty() ||
-          !context_.point_lights.empty());
+  return context_.settings.strategy != Strategy::bsdf_only && !context_.lights.empty();
 }
 
 /// Weight of light found by the path's own direction.

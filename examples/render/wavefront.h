@@ -26,6 +26,7 @@ struct Path {
 
   /// How the direction of `ray` was drawn, for multiple importance sampling.
   Vec3 vertex;              ///< Where.
+  Vec3 normal;              ///< There, as LitPlace has it.
   float pdf = 0.f;          ///< Per solid angle.
   bool light_blind = true;  ///< By camera or Dirac lobe: light sampling cannot find it.
   bool unlit = false;       ///< From a mesh that lights do not illuminate.
@@ -79,6 +80,7 @@ class Wavefront {
   /// A path that a light is chosen for that no ray meets, which one, and where the path is.
   struct LitPoint {
     std::uint32_t path, light;
+    float probability;  ///< Of that choice.
     InnerPoint point;
   };
   struct ShadowRay {
@@ -109,7 +111,6 @@ class Wavefront {
   SurfacePoint surface_point(std::uint32_t path) const;
   void fill(std::span<const std::uint32_t> paths, const Material& material);
   Uniform2 draw(const Path& path, Draw what) const;
-  float light_chance(std::uint32_t mesh, std::uint32_t triangle) const;
   float hit_weight(const Path& path, float light_pdf) const;
   float connection_weight(float light_pdf, float material_pdf) const;
   bool connects() const;
@@ -154,7 +155,8 @@ class Wavefront {
 
   // wavefront_light.cpp
   void sample_lights();
-  void choose_light(std::uint32_t path, const InnerPoint& from);
+  Vec3 lit_normal(std::uint32_t path) const;
+  void choose_light(std::uint32_t path, const InnerPoint& from, Vec3 normal);
   void ask_lights();
   void light_emission(const Material& material, std::span<const std::uint32_t> points);
   void light_points(const LightShader& light, std::span<const std::uint32_t> lit);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "examples/render/area_light.h"
 #include "examples/render/offset.h"
 #include "examples/render/scene_limits.h"
 #include "examples/render/wavefront.h"
@@ -20,33 +21,42 @@ void Wavefront::sample_lights() {
       // Not from inside of what has a surface: that is in the way.
       if (!path.media.is_open(hit.mesh, hit.instance)) continue;
       if (!context_.scene.meshes[hit.mesh].illuminated) continue;
-      choose_light(i, {hit.mesh, hit.instance, path.ray.time,
-                       surface_position(context_.scene, surface_point(i)), -path.ray.direction});
+      choose_light(i,
+                   {hit.mesh, hit.instance, path.ray.time,
+                    surface_position(context_.scene, surface_point(i)), -path.ray.direction},
+                   lit_normal(i));
     }
   }
   ask_lights();
 }
 
+/// Of the surface that a path is at.
+Vec3 Wavefront::lit_normal(std::uint32_t i) const {
+  if (context_.scene.meshes[hits_[i].mesh].is_fibres()) return {};
+  return surface_normal(context_.scene, surface_point(i));
+}
+
 /// Draws what lights a path from there; ask_lights() completes it.
-void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from) {
+void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from, Vec3 normal) {
   const Path& path = paths_[i];
   LightSample& light = light_samples_[i];
   light = {};
-  const Uniform2 choice = draw(path, Draw::light_choice);
+  const SceneLights::Choice choice =
+      context_.lights.choose({from.P, normal}, draw(path, Draw::light_choice));
   const Uniform2 position = draw(path, Draw::light);
-  if (choice.x < context_.environment_chance) {
+  if (choice.kind == SceneLights::Kind::none) return;
+  if (choice.kind == SceneLights::Kind::environment) {
     const Environment::Sample s = context_.environment->sample(position);
-    light = {s.wi, s.radiance, {}, context_.environment_chance * s.pdf, true};
+    light = {s.wi, s.radiance, {}, choice.probability * s.pdf, true};
     return;
   }
-  if (choice.x >= 1.f - context_.point_chance) {
-    const auto count = static_cast<float>(context_.point_lights.size());
-    const auto last = static_cast<std::uint32_t>(context_.point_lights.size() - 1);
-    lit_.push_back({i, std::min(static_cast<std::uint32_t>(choice.y * count), last), from});
+  if (choice.kind == SceneLights::Kind::unmet) {
+    lit_.push_back({i, choice.light, choice.probability, from});
     return;
   }
-  const AreaLights::Sample s = context_.lights.sample(choice.y, position);
-  SurfacePoint light_point{s.mesh, s.triangle, s.u, s.v, {}, false, 0.f, 0.f, 0, from.time};
+  const Vec2 at = sample_triangle(position);
+  SurfacePoint light_point{choice.mesh, choice.triangle, at.x, at.y, {}, false, 0.f, 0.f,
+                           0,           from.time};
   const Vec3 on_light = surface_position(context_.scene, light_point);
   const Vec3 ng = surface_normal(context_.scene, light_point);
   const Vec3 way = on_light - from.P;
@@ -54,10 +64,11 @@ void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from) {
   if (!(squared > 0.f) || !std::isfinite(squared)) return;
   const Vec3 wi = normalize(way);
   const float cosine = dot(ng, wi);
-  const float area_pdf = context_.area_chance * s.area_pdf;
-  const float pdf = area_pdf * squared / std::abs(cosine);
+  const bool back = cosine > 0.f;
+  if (!(back ? choice.back : choice.front)) return;  // Found by paths, if it shines at all.
+  const float pdf = choice.probability / choice.area * squared / std::abs(cosine);
   if (!std::isfinite(pdf)) return;  // edge on
-  light = {wi, {}, offset_point(on_light, cosine > 0.f ? -ng : ng), pdf, false};
+  light = {wi, {}, offset_point(on_light, back ? -ng : ng), pdf, false};
   light_point.wo = -wi;
   light_points_.push_back({i, light_point});
 }
@@ -116,7 +127,6 @@ void Wavefront::light_points(const LightShader& light, std::span<const std::uint
     const Stopwatch watch(statistics_.shading_seconds);
     light.light(buffer_.batch, seen);
   }
-  const float pdf = context_.point_chance / static_cast<float>(context_.point_lights.size());
   for (std::size_t lane = 0; lane < lit.size(); ++lane) {
     const Vec3 direction = normalize_or(load(seen.direction, lane), {});
     const Vec3 intensity = load(seen.intensity, lane);
@@ -125,7 +135,8 @@ void Wavefront::light_points(const LightShader& light, std::span<const std::uint
     const float distance = seen.distance[lane];
     const bool infinite = !(distance < largest_coordinate);
     const Vec3 target = load(buffer_.batch.P, lane) + (infinite ? 0.f : distance) * direction;
-    light_samples_[lit_[lit[lane]].path] = {direction, intensity, target, pdf, infinite, true};
+    const LitPoint& at = lit_[lit[lane]];
+    light_samples_[at.path] = {direction, intensity, target, at.probability, infinite, true};
   }
 }
 

@@ -49,12 +49,15 @@ bool Wavefront::scatter_inside(std::uint32_t i, const Medium& medium, float dist
   path.distance = 0.f;
   path.from_camera = false;
   path.vertex = path.ray.origin + distance * path.ray.direction;
+  path.normal = {};
   path.pdf = to.pdf;
   // From inside of what has a surface lights are not sampled: that is in the way.
   path.light_blind = !connects() || !path.media.is_open();
   if (!path.light_blind) {
-    choose_light(i, {path.media.mesh(), path.media.instance(), path.ray.time, path.vertex,
-                     -path.ray.direction});
+    choose_light(
+        i,
+        {path.media.mesh(), path.media.instance(), path.ray.time, path.vertex, -path.ray.direction},
+        {});
     scatterings_.push_back({i, path.ray.direction, medium.anisotropy, path.throughput});
   }
   path.ray = {path.vertex, to.direction, INFINITY, ray_secondary, path.ray.time};

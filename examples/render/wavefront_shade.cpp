@@ -51,7 +51,12 @@ void Wavefront::add_emission(const Material& material, std::span<const std::uint
     const Hit& hit = hits_[paths[lane]];
     const Vec3 way = load(buffer_.batch.P, lane) - path.vertex;
     const float cosine = std::abs(dot(load(buffer_.batch.Ng, lane), path.ray.direction));
-    const float light_pdf = light_chance(hit.mesh, hit.triangle) * dot(way, way) / cosine;
+    const bool back = dot(load(buffer_.batch.Ng, lane), path.ray.direction) > 0.f;
+    const float area_pdf =
+        path.light_blind
+            ? 0.f
+            : context_.lights.area_pdf({path.vertex, path.normal}, hit.mesh, hit.triangle, back);
+    const float light_pdf = area_pdf * dot(way, way) / cosine;
     path.radiance += hit_weight(path, light_pdf) * (path.throughput * emitted);
   }
 }
@@ -105,6 +110,7 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
     const bool unconnected = !path.media.is_open(hit.mesh, hit.instance) ||
                              goes_within(material, hit, lane, load(buffer_.sample.wi, lane));
     if (!scatter(path, lane, hit.distance)) continue;
+    path.normal = lit_normal(paths[lane]);
     path.light_blind = path.light_blind || unconnected;
     if ((buffer_.sample.flags[lane] & sample_transmitted) != 0) {
       change_medium(material, path, hit, lane);

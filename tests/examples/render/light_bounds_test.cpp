@@ -78,6 +78,10 @@ TEST(LightBounds, ImportanceOfAPointIsWhatArrives) {
   EXPECT_EQ(importance(spot.bounds(), {{0, 0, 0}}), 0.0);
   spot.cos_e = 0.5f;
   EXPECT_NEAR(importance(spot.bounds(), {{0, 0, 0}}), 0.6 * 7 / 25, 1e-6);
+  spot.axis = {0, 1, 0};
+  EXPECT_EQ(importance(spot.bounds(), {{0, 0, 0}}), 0.0);
+  spot.both_ways = true;
+  EXPECT_NEAR(importance(spot.bounds(), {{0, 0, 0}}), 0.6 * 7 / 25, 1e-6);
   spot.reach = 4.99f;
   EXPECT_EQ(importance(spot.bounds(), {{0, 0, 0}}), 0.0);
   spot.reach = 5.f;

@@ -33,12 +33,13 @@ class RandomLights {
   std::mt19937 random_;
 };
 
-/// A corner of a triangle that emits on one side, a spot, or a point.
+/// A triangle that emits on one side or on both, a spot, or a point.
 struct TestLight {
   Vec3 corners[3];
   Vec3 axis;
   float cos_o = -1.f, cos_e = -1.f;
   float intensity = 1.f, reach = INFINITY;
+  bool both_ways = false;
 
   bool is_triangle() const { return cos_e == 0.f; }
 
@@ -49,6 +50,7 @@ struct TestLight {
     b.cone = DirectionCone::about(axis, cos_o);
     b.cos_e = cos_e;
     b.reach = reach;
+    b.both_ways = both_ways;
     return b;
   }
 
@@ -57,7 +59,8 @@ struct TestLight {
     const Vec3 way = place - corner;
     const double squared = double{dot(way, way)};
     if (squared > double{reach} * double{reach}) return 0.0;
-    const double cosine = double{dot(axis, way)} / std::sqrt(squared);
+    double cosine = double{dot(axis, way)} / std::sqrt(squared);
+    if (both_ways) cosine = std::abs(cosine);
     if (cos_o > -1.f && cosine <= double{cos_e}) return 0.0;
     return double{intensity} / squared * (is_triangle() ? cosine : 1.0);
   }
@@ -76,6 +79,7 @@ inline TestLight random_light(RandomLights& random, float size) {
         normalize(cross(light.corners[1] - light.corners[0], light.corners[2] - light.corners[0]));
     light.cos_o = 1.f;
     light.cos_e = 0.f;
+    light.both_ways = random.number(0.f, 1.f) < 0.4f;
   } else if (kind < 2.f) {
     light.cos_o = 1.f;
     light.cos_e = std::cos(random.number(0.05f, 1.5f));
