@@ -30,10 +30,7 @@ Angle angle_between(Vec3 a, Vec3 b) {
   const double x = double{a.y} * double{b.z} - double{a.z} * double{b.y};
   const double y = double{a.z} * double{b.x} - double{a.x} * double{b.z};
   const double z = double{a.x} * double{b.y} - double{a.y} * double{b.x};
-  const double sine = std::sqrt(x * x + y * y + z * z);
-  const double cosine = dot_exact(a, b);
-  const double scale = 1.0 / std::hypot(sine, cosine);
-  return {cosine * scale, sine * scale};
+  return {dot_exact(a, b), std::sqrt(x * x + y * y + z * z)};
 }
 
 double radians(Angle a) { return std::atan2(a.sine, a.cosine); }
