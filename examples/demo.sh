@@ -47,6 +47,9 @@ echo "== displacement"
 echo "== lights"
 "$nacre" render "$here/lights/room.mtlx" --scene "$here/lights/room.obj" --spp "$spp" --size "$size" \
   --out "$out/rendered/lights.png"
+"$python" "$here/lights/strings/strings.py" "$out/strings.obj"
+"$nacre" render "$here/lights/strings/strings.mtlx" --scene "$out/strings.obj" --environment-scale 0 \
+  --exposure 2 --spp "$spp" --size "$size" --out "$out/rendered/strings.png"
 
 # Thirty thousand of them.
 echo "== hair"
