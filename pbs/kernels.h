@@ -84,8 +84,9 @@ bool is_point_result(std::string_view name);
 ///             1 - transmission, less what smooth thin walls and interfaces of index 1 let pass,
 ///             which `sample` gives as deltas along -wo as well. Absent where all is held back
 ///   interior  out: eta [, absorption.x .y .z, scattering.x .y .z, anisotropy]: the index over that
-///             outside, and the medium where there is one, per unit of length; of several
-///             interfaces the mean by how much is seen of each. Absent where light cannot enter
+///             outside, which is vacuum's without the channel "exterior_index", and the medium
+///             where there is one, per unit of length; of several interfaces the mean by how much
+///             is seen of each. Absent where light cannot enter
 ///   subsurface  in: of_lobe (i32): what `sample` says with sample_subsurface
 ///             out: absorption.x .y .z, scattering.x .y .z, anisotropy: what light is in below the
 ///                  surface, per unit of length; albedo.x .y .z: the share that leaves again;

@@ -13,6 +13,7 @@
 #include "jit/record/pattern.h"
 #include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
+#include "pbs/exterior.h"
 #include "pbs/shader_channels.h"
 #include "runtime/program/drop_footprints.h"
 #include "runtime/report_stop.h"
@@ -138,6 +139,10 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
       return fits_any(std::string(slot), options_.varying) ||
              fits_any(std::string(slot.substr(0, slot.rfind('.'))), options_.varying);
     });
+  }
+  // By its name and no pattern: who varies all parameters need not know what is outside.
+  if (std::ranges::find(options_.varying, exterior_index_channel) != options_.varying.end()) {
+    offer_exterior_index(recorder_);
   }
   // Recorded first, it is a slot that facets read; see pbs/facets.cpp.
   if (options_.kernels.min_alpha) recorder_.parameter("min_alpha", Scalar::f32, 0);

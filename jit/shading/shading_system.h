@@ -69,7 +69,8 @@ struct ShaderOptions {
   /// document leaves at their default: `*` stands for any text, `?` for one letter.
   std::vector<std::string> live;
   /// Patterns of slots (parameters that are live by then, "time", "object_to_world") that
-  /// every point brings along: input channels of the same name, in place of slots.
+  /// every point brings along: input channels of the same name, in place of slots. The name
+  /// "exterior_index", and no pattern, makes dielectrics read that channel (pbs/exterior.h).
   std::vector<std::string> varying;
   KernelRequest kernels;  ///< Of a material: which, and of what lobes.
   /// `is_native` and `stop` (that of `compile`) are filled in, and `colors` where it is null.

@@ -1,4 +1,5 @@
 #include "pbs/bsdf.h"
+#include "pbs/exterior.h"
 #include "pbs/microfacet_interface.h"
 
 namespace nacre {
@@ -8,15 +9,20 @@ namespace {
 /// Index of the inside over the outside, real; seen from inside it inverts.
 class DielectricFresnel final : public FacetFresnel {
  public:
-  DielectricFresnel(Recorder& recorder, Float index, const ThinFilm& film)
-      : index_(keep(recorder, index)), film_(film) {}
+  /// `inside` and `outside`: relative to vacuum.
+  DielectricFresnel(Recorder& recorder, Float inside, Float outside, const ThinFilm& film)
+      : index_(keep(recorder, over(inside, outside))),
+        outside_(keep(recorder, outside)),
+        film_(film) {}
 
   Color3 at(Float cosine, Bool inside) const override {
     const Float eta = relative_index(index_, inside);
     const Color3 bare(fresnel_dielectric(cosine, eta));
     if (!film_.exists()) return bare;
-    const Float before = select(inside, index_, 1.0f);
-    const Float behind = select(inside, 1.0f, index_);
+    // A film's own index is relative to vacuum.
+    const Float within = outside_.is_constant(1.0f) ? index_ : index_ * outside_;
+    const Float before = select(inside, within, outside_);
+    const Float behind = select(inside, outside_, within);
     const Color3 film = film_.reflectance(cosine, before, Color3(behind), Color3(0.0f), bare);
     return select(totally_reflected(cosine, eta), Color3(1.0f), film);
   }
@@ -32,7 +38,12 @@ class DielectricFresnel final : public FacetFresnel {
   }
 
  private:
+  static Float over(Float inside, Float outside) {
+    return outside.is_constant(1.0f) ? inside : clamp(inside / outside, 0.02f, 50.0f);
+  }
+
   Float index_;
+  Float outside_;  ///< Relative to vacuum.
   ThinFilm film_;
 };
 
@@ -43,7 +54,8 @@ void record_closure_dielectric_bsdf(NodeCall& call) {
   const Float index = clamp(call.number("ior"), 0.02f, 50.0f);
   const Color3 tint = prepare_tint(recorder, call.vector3("tint"));
   const ThinFilm film = prepare_film(call);
-  const auto fresnel = std::make_shared<DielectricFresnel>(recorder, index, film);
+  const auto fresnel =
+      std::make_shared<DielectricFresnel>(recorder, index, exterior_index(recorder), film);
   const MicrofacetReflection::Options options{
       .name = "dielectric_bsdf", .tint = tint, .retroreflective = call.boolean("retroreflective")};
   const std::string& mode = call.text("scatter_mode");

@@ -183,7 +183,9 @@ typedef struct nacre_compile_options {
   const char* const* live;
   size_t live_count;
   /* Which of those, and of frame, time, object_to_world and world_to_object, come with each
-     point, as channels of the slot's name. */
+     point, as channels of the slot's name. "exterior_index", by its name and no pattern, is a
+     channel of the index of refraction outside the surface, for dielectrics within others: their
+     index is divided by it. Without it there is vacuum, 1, outside. */
   const char* const* varying;
   size_t varying_count;
   int lobes;       /* Those that are modelled. 0: all. */

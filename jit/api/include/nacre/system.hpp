@@ -90,8 +90,9 @@ struct CompileOptions {
   int engine = NACRE_JIT;
   int accuracy = NACRE_STANDARD;
   int lanes = 0;
-  std::vector<std::string> live;     ///< Patterns of what may change: "SR_gold/*".
-  std::vector<std::string> varying;  ///< Patterns of those that come with each point.
+  std::vector<std::string> live;  ///< Patterns of what may change: "SR_gold/*".
+  /// Patterns of those that come with each point; and "exterior_index", by its name.
+  std::vector<std::string> varying;
   int lobes = 0;
   bool reverse_pdf = false;
   bool lobe_mask = false;

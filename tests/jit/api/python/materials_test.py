@@ -123,6 +123,24 @@ def test_lobes_wanted_and_transport_come_with_points(system, documents):
         shader.run(POINTS | {"wi": WI, "transport": carried}, Entry.EVALUATE)
 
 
+def test_the_index_outside_comes_with_points(system):
+    glass = nacre.Document.parse("""<materialx version="1.39">
+      <dielectric_bsdf name="b" type="BSDF">
+        <input name="scatter_mode" type="string" value="RT"/>
+        <input name="roughness" type="vector2" value="0, 0"/>
+        <input name="ior" type="float" value="1.5"/></dielectric_bsdf>
+      <surface name="S" type="surfaceshader">
+        <input name="bsdf" type="BSDF" nodename="b"/></surface>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+      </materialx>""")
+    shader = system.compile_material(glass, "M", no_footprints=True, varying=["exterior_index"])
+    outside = numpy.linspace(1, 1.5, COUNT, dtype="float32")
+    u = numpy.full((COUNT, 3), 0.99, "float32")
+    bent = shader.run(POINTS | {"u": u, "exterior_index": outside}, Entry.SAMPLE)["wi"]
+    numpy.testing.assert_allclose(bent[:, 0] * 1.5, -WO[:, 0] * outside, atol=1e-6)  # Snell.
+
+
 def test_what_a_material_lacks_is_empty(lambert):
     assert not lambert.has(Entry.EMISSION)
     assert lambert.run(POINTS, Entry.EMISSION) == {}
