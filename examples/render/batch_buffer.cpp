@@ -1,5 +1,6 @@
 #include "examples/render/batch_buffer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <new>
@@ -49,6 +50,11 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
   sample.pdf = memory_.floats(capacity);
   value.pdf = memory_.floats(capacity);
   interior.anisotropy = memory_.floats(capacity);
+  interior.index = memory_.floats(capacity);
+  b.exterior_index = memory_.floats(capacity);
+  vacuum = memory_.floats(capacity);
+  const std::size_t lanes = LaneMemory::lane_bytes(capacity) / sizeof(float);
+  for (float* index : {b.exterior_index, vacuum}) std::fill_n(index, lanes, 1.f);
   below.medium.anisotropy = memory_.floats(capacity);
   within.medium.anisotropy = memory_.floats(capacity);
   const std::size_t id_bytes = LaneMemory::lane_bytes(capacity);

@@ -75,6 +75,7 @@ class BatchBuffer {
   Lanes3 u;        ///< Random numbers for sample().
   Lanes3 wi;       ///< Directions for evaluate().
   Lanes3 rgb;      ///< emission() or opacity().
+  float* vacuum;   ///< The index of vacuum, for all points.
   SampleLanes sample;
   EvaluateLanes value;
   InteriorLanes interior;

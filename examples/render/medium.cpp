@@ -6,34 +6,6 @@
 
 namespace nacre::host {
 
-bool Media::enter(std::uint32_t mesh, std::uint32_t instance, const Medium& medium,
-                  std::uint32_t exit) {
-  if (count_ == inside_.size()) return false;
-  inside_[count_++] = {mesh, instance, medium, exit};
-  return true;
-}
-
-std::uint32_t Media::exit(std::uint32_t mesh, std::uint32_t instance) const {
-  if (count_ == 0) return no_exit;
-  const Inside& last = inside_[count_ - 1];
-  return last.mesh == mesh && last.instance == instance ? last.exit : no_exit;
-}
-
-bool Media::is_open(std::uint32_t mesh, std::uint32_t instance) const {
-  return std::all_of(inside_.begin(), inside_.begin() + count_, [&](const Inside& each) {
-    return each.medium.is_open || (each.mesh == mesh && each.instance == instance);
-  });
-}
-
-void Media::leave(std::uint32_t mesh, std::uint32_t instance) {
-  for (std::uint32_t i = count_; i-- > 0;) {
-    if (inside_[i].mesh != mesh || inside_[i].instance != instance) continue;
-    std::copy(inside_.begin() + i + 1, inside_.begin() + count_, inside_.begin() + i);
-    --count_;
-    return;
-  }
-}
-
 namespace {
 
 /// exp(-rate distance), with 0 times infinity 0.

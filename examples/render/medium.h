@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "examples/render/sampler.h"
@@ -38,40 +37,6 @@ inline Medium varying_medium(std::uint32_t material, float bound) {
   medium.bound = bound;
   return medium;
 }
-
-/// What a path is inside of. What was entered last is what there is; what encloses it comes back
-/// when it is left.
-class Media {
- public:
-  static constexpr std::uint32_t no_exit = ~0u;
-
-  bool empty() const { return count_ == 0; }
-  /// Not empty() before.
-  const Medium& current() const { return inside_[count_ - 1].medium; }
-
-  /// False, and nothing is done, where more is nested than anybody nests. `exit`: the material
-  /// that light meets on the inside of that mesh, if another than on the outside.
-  bool enter(std::uint32_t mesh, std::uint32_t instance, const Medium& medium,
-             std::uint32_t exit = no_exit);
-  /// `exit` of what the path is inside of, if that is this mesh; else no_exit.
-  std::uint32_t exit(std::uint32_t mesh, std::uint32_t instance) const;
-  /// Whether light goes straight out of all that the path is inside of, that mesh apart.
-  bool is_open(std::uint32_t mesh = ~0u, std::uint32_t instance = 0) const;
-  /// Which mesh and instance current() is of.
-  std::uint32_t mesh() const { return inside_[count_ - 1].mesh; }
-  std::uint32_t instance() const { return inside_[count_ - 1].instance; }
-  /// Nothing is done where the path is not inside of that.
-  void leave(std::uint32_t mesh, std::uint32_t instance);
-
- private:
-  struct Inside {
-    std::uint32_t mesh, instance;
-    Medium medium;
-    std::uint32_t exit;
-  };
-  std::array<Inside, 4> inside_ = {};
-  std::uint32_t count_ = 0;
-};
 
 /// What happens to light on its way to the next surface.
 struct Flight {

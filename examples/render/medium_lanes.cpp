@@ -28,4 +28,9 @@ Medium medium_of(const VolumeLanes& lanes, std::size_t lane) {
   return medium;
 }
 
+Dielectric dielectric_of(const InteriorLanes& lanes, std::size_t lane, int priority) {
+  const float index = lanes.index[lane];
+  return {std::isfinite(index) && index > 0.f ? index : 1.f, priority};
+}
+
 }  // namespace nacre::host

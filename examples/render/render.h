@@ -64,6 +64,9 @@ struct RenderInput {
   std::vector<const Shader*> back_shaders = {};
   Motion camera_motion = {};                    ///< As Scene has it.
   std::vector<const LightShader*> lights = {};  ///< That no ray meets.
+  /// By mesh: closed, light enters it, and its shaders have an interior() and read
+  /// ShadingBatch::exterior_index. Where these overlap Mesh::priority decides. Empty: none.
+  std::vector<bool> solids = {};
 };
 
 struct RenderControl {

@@ -32,10 +32,13 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
                {wanted.time, wanted.frame, wanted.shutter_open, wanted.shutter_close, wanted.fps}),
       bvh(scene, diagnostics) {
   assert(input.shaders.size() == scene.meshes.size());
+  solids_ = input.solids;
+  any_nested = !solids_.empty();
+  assert(!any_nested || solids_.size() == scene.meshes.size());
   if (environment != nullptr && !(environment->mean_luminance() > 0.f)) environment = nullptr;
   collect_materials(input);
   find_bounds();
-  if (any_volume) camera_media = volumes_around(*this, input.camera.position, 0.f);
+  if (any_volume || any_nested) camera_media = volumes_around(*this, input.camera.position, 0.f);
   point_lights = input.lights;
   lights = SceneLights(*this);
 }

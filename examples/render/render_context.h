@@ -8,7 +8,7 @@
 
 #include "examples/render/bvh.h"
 #include "examples/render/camera.h"
-#include "examples/render/medium.h"
+#include "examples/render/media.h"
 #include "examples/render/render.h"
 #include "examples/render/scene_lights.h"
 #include "examples/render/surface.h"
@@ -42,12 +42,17 @@ class RenderContext {
   bool any_matte = false;
   bool any_media = false;
   bool any_volume = false;
-  Media camera_media;         ///< The volumes that the camera is inside of as the shutter opens.
+  bool any_nested = false;  ///< RenderInput::solids has some.
+  /// The volumes and solids that the camera is inside of as the shutter opens.
+  Media camera_media;
   std::vector<float> bounds;  ///< By mesh: Medium::bound of a volume that varies; else 0.
   std::vector<const LightShader*> point_lights;  ///< That no ray meets.
   SceneLights lights;
   std::size_t state_bytes = 0;  ///< Of the neediest shader at the batch size.
   std::size_t primvars = 0;     ///< Of the neediest shader.
+
+  /// Whether a mesh is one of RenderInput::solids.
+  bool is_solid(std::uint32_t mesh) const { return any_nested && solids_[mesh]; }
 
   /// The material of the side that `wo` is on.
   std::uint32_t material_of(const SurfacePoint& point) const {
@@ -61,6 +66,7 @@ class RenderContext {
   std::uint32_t add_material(const Shader& shader);
   void find_bounds();
 
+  std::vector<bool> solids_;
   std::map<const Shader*, std::uint32_t> known_;
   std::vector<std::unique_ptr<const Shader>> own_shaders_;  ///< Emitters and exits.
 };

@@ -54,6 +54,8 @@ struct Mesh {
   bool matte = false;
   /// False: light straight from lights and the environment does not scatter from it.
   bool illuminated = true;
+  /// Where solids overlap the one of the highest is there: see Media.
+  int priority = 0;
 
   std::vector<Triangle> triangles;  ///< Counter-clockwise seen from the front.
   /// Of fibres, at each vertex: half their thickness. Triangle i is then the piece from v[0] to

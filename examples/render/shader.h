@@ -87,6 +87,7 @@ struct ShadingBatch {
   float time = 0.f;   ///< Seconds; of all points while the shutter is closed.
   float frame = 1.f;  ///< MaterialX `frame`, likewise.
   float *times = nullptr, *frames = nullptr;  ///< The same at the time of each point.
+  float* exterior_index = nullptr;            ///< Of refraction, of what is around; 1 is vacuum.
 };
 
 enum ScatterFlag : std::uint32_t {
@@ -116,6 +117,7 @@ struct EvaluateLanes {
 struct InteriorLanes {
   Lanes3 absorption, scattering;
   float* anisotropy = nullptr;
+  float* index = nullptr;  ///< Of interior(): of refraction, over that outside. Else null.
 };
 
 /// What a volume is of at a point.

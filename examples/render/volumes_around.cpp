@@ -11,6 +11,22 @@ namespace nacre::host {
 
 namespace {
 
+/// Whether light at a point of that mesh goes into something of its own.
+bool is_filled(const RenderContext& context, std::uint32_t mesh) {
+  const std::uint32_t front = context.front_materials[mesh];
+  return context.materials[front].capabilities.is_volume || context.is_solid(mesh);
+}
+
+/// Where the border of what is around was met.
+void enter_solid(const RenderContext& context, const SurfacePoint& border, BatchBuffer& buffer,
+                 Media& media) {
+  const Material& material = context.materials[context.front_materials[border.mesh]];
+  context.geometry.fill({&border, 1}, material.capabilities, context.camera, buffer);
+  material.shader->interior(buffer.batch, buffer.interior);
+  media.enter(border.mesh, border.instance, medium_of(buffer.interior, 0),
+              dielectric_of(buffer.interior, 0, context.scene.meshes[border.mesh].priority));
+}
+
 /// What a volume is of at its border; more is known only of one that is alike everywhere.
 Medium medium_behind(const RenderContext& context, const SurfacePoint& border,
                      BatchBuffer& buffer) {
@@ -49,7 +65,7 @@ Media volumes_around(const RenderContext& context, Vec3 P, float time) {
     const Vec3 ng = surface_normal(context.scene, point);
     const bool leaves = dot(ng, ray.direction) > 0.f;
     ray.origin = offset_point(surface_position(context.scene, point), leaves ? ng : -ng);
-    if (!context.materials[context.front_materials[hit.mesh]].capabilities.is_volume) continue;
+    if (!is_filled(context, hit.mesh)) continue;
     if (!leaves) {
       entered.push_back(point);
     } else if (const auto at = std::ranges::find_if(entered, same(point)); at != entered.end()) {
@@ -63,6 +79,10 @@ Media volumes_around(const RenderContext& context, Vec3 P, float time) {
   buffer.batch.frame = context.settings.frame;
   Media media;
   for (auto border = around.rbegin(); border != around.rend(); ++border) {
+    if (context.is_solid(border->mesh)) {
+      enter_solid(context, *border, buffer, media);
+      continue;
+    }
     const Medium medium = medium_behind(context, *border, buffer);
     if (!medium.is_empty()) media.enter(border->mesh, border->instance, medium);
   }

@@ -58,6 +58,7 @@ void Wavefront::trace(std::span<Path> paths) {
     if (!scatterings_.empty()) connect_media();
     add_environment();
     group_by_material();
+    if (context_.any_nested) pass_hidden();
     if (context_.any_volume) enter_volumes();
     if (context_.any_opacity) apply_opacity();
     if (context_.any_matte) hold_out();
@@ -150,6 +151,7 @@ void Wavefront::fill(std::span<const std::uint32_t> paths, const Material& mater
   points_.clear();
   for (const std::uint32_t i : paths) points_.push_back(surface_point(i));
   context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);
+  if (context_.any_nested) fill_exterior(paths);
 }
 
 Uniform2 Wavefront::draw(const Path& path, Draw what) const {

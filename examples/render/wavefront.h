@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "examples/render/batch_buffer.h"
-#include "examples/render/medium.h"
+#include "examples/render/media.h"
 #include "examples/render/medium_lanes.h"
 #include "examples/render/render_context.h"
 #include "examples/render/sampler.h"
@@ -143,6 +143,14 @@ class Wavefront {
   bool goes_within(const Material& material, const Hit& hit, std::size_t lane, Vec3 wi) const;
   bool goes_out(const Media& media, const Hit& hit, std::size_t lane, Vec3 wi) const;
   void change_medium(const Material& material, Path& path, const Hit& hit, std::size_t lane);
+
+  // wavefront_nested.cpp
+  bool is_hidden(std::uint32_t path) const;
+  void pass_hidden();
+  void pass_hidden(const Material& material, std::span<const std::uint32_t> paths);
+  void fill_exterior(std::span<const std::uint32_t> paths);
+  void ask_interior(const Material& material);
+  void enter_solid(Media& media, const Hit& hit, std::size_t lane);
 
   // wavefront_volume.cpp
   bool may_meet(std::uint32_t path, const Medium& medium, float far);

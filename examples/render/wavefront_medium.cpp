@@ -91,7 +91,7 @@ void Wavefront::find_media(const Material& material, std::size_t lanes) {
                        [&](std::uint32_t flags) { return (flags & flag) != 0; });
   };
   if (material.capabilities.has_interior && any(sample_transmitted)) {
-    material.shader->interior(buffer_.batch, buffer_.interior);
+    ask_interior(material);
   }
   if (material.capabilities.has_subsurface && any(sample_subsurface)) {
     material.shader->subsurface(buffer_.batch, buffer_.sample.lobe, buffer_.below);
@@ -122,6 +122,7 @@ void Wavefront::change_medium(const Material& material, Path& path, const Hit& h
     return path.media.leave(hit.mesh, hit.instance);
   }
   if (!is_below && !material.capabilities.has_interior) return;
+  if (!is_below && context_.is_solid(hit.mesh)) return enter_solid(path.media, hit, lane);
   const InteriorLanes& lanes = is_below ? buffer_.below.medium : buffer_.interior;
   const Medium medium = medium_of(lanes, lane);
   if (medium.is_empty()) return;

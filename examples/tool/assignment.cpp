@@ -23,6 +23,8 @@ std::string path_of_object(const Mesh& mesh) {
 /// This renderer's name, for properties that are meant for one.
 constexpr std::string_view target = "nacre";
 
+constexpr std::string_view priority_property = "dielectric_priority";
+
 bool lacks_surface(const Document& document, const FoundMaterial& material) {
   if (!material.surfaceshader.empty() || !material.backsurfaceshader.empty()) return false;
   return is_material_category(document.root().child(material.name)->category());
@@ -45,6 +47,7 @@ class Assigner {
     for (const Mesh& mesh : scene.meshes) ++pieces_[path_of_object(mesh)];
     read_assigns();
     read_look();
+    check_priorities();
     if (!options.material.empty()) check_known(options.material);
   }
 
@@ -83,6 +86,7 @@ class Assigner {
       result.illuminated = is_visible(mesh, "illumination");
       result.two_sided = property_of(mesh, "twosided", true);
       result.matte = property_of(mesh, "matte", false);
+      result.priority = priority_of(mesh);
     }
     const std::string named = named_material(mesh);
     const Assignment* assigned = named.empty() && look_ ? from_look(mesh) : nullptr;
@@ -190,7 +194,7 @@ class Assigner {
 
   /// What the look says of a mesh under its own names counts for more than what it says
   /// of something above it.
-  bool property_of(const Mesh& mesh, std::string_view property, bool otherwise) const {
+  const PropertyAssignment* property_of(const Mesh& mesh, std::string_view property) const {
     const PropertyAssignment* said = rules_.property_of(*look_, path_of(mesh), property, target);
     for (const std::string& name : names_of(mesh)) {
       const PropertyAssignment* found = rules_.property_of(*look_, name, property, target);
@@ -198,8 +202,32 @@ class Assigner {
       said = found;
       break;
     }
+    return said;
+  }
+
+  bool property_of(const Mesh& mesh, std::string_view property, bool otherwise) const {
+    const PropertyAssignment* said = property_of(mesh, property);
     return said != nullptr && said->value.type == Type::boolean ? said->value.ints[0] != 0
                                                                 : otherwise;
+  }
+
+  int priority_of(const Mesh& mesh) const {
+    const PropertyAssignment* said = property_of(mesh, priority_property);
+    return said != nullptr && said->value.type == Type::integer ? said->value.ints[0] : 0;
+  }
+
+  /// Of the look, whether anything has them or not.
+  void check_priorities() {
+    if (!look_) return;
+    for (const PropertyAssignment& said : look_->properties) {
+      const bool is_other = !said.target.empty() && said.target != target;
+      if (said.property != priority_property || is_other) continue;
+      if (said.value.type == Type::integer) continue;
+      diagnostics_.error(
+          "bad-priority", said.where,
+          "look '" + look_->name + "': a " + std::string(priority_property) + " is no integer",
+          "type integer and a whole number", said.text);
+    }
   }
 
   std::uint32_t visible_to(const Mesh& mesh) const {

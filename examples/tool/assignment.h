@@ -37,6 +37,8 @@ struct MeshAssignment {
   bool two_sided = true;
   bool matte = false;
   bool illuminated = true;
+  /// The property "dielectric_priority": which of solids that overlap is there; host::Mesh.
+  int priority = 0;
 
   /// The same for assignments that the same kernels serve.
   std::string key() const;
@@ -51,7 +53,8 @@ struct MeshAssignment {
 /// the built-in scene's ground and base. The look is the one named, the default of a
 /// look group of that name, or the first group's default, or the first look. An --assign
 /// that names nothing is an error; an assignment of the look that is on nothing, and a mesh
-/// for which only the first of several materials is left, are warnings.
+/// for which only the first of several materials is left, are warnings. A priority that is no
+/// integer is the error "bad-priority".
 std::vector<MeshAssignment> assign_materials(const Document& document, const host::Scene& scene,
                                              const AssignmentOptions& options,
                                              Diagnostics& diagnostics);

@@ -63,6 +63,7 @@ Source standard_channel(std::string_view group, int i, std::uint32_t& attributes
     const auto lanes = group == "duv0dx" ? &ShadingBatch::dUVdx : &ShadingBatch::dUVdy;
     return [lanes, i](const ShadingBatch& b) { return component(b.*lanes, i); };
   }
+  if (group == "exterior_index") return [](const ShadingBatch& b) { return b.exterior_index; };
   if (group == "time" || group == "frame") {  // Of each point: see varying_slots().
     attributes |= host::attribute_time;
     const auto lane = group == "time" ? &ShadingBatch::times : &ShadingBatch::frames;
@@ -110,7 +111,8 @@ bool has_medium(const MaterialKernels& kernels) {
   });
 }
 
-KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop)
+KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop,
+                           bool is_nested)
     : kernels_(std::move(kernels)), stop_(stop) {
   capabilities_.scatters = kernels_->sample.has_value() && kernels_->evaluate.has_value();
   // Of a lightmaterial what its mesh emits.
@@ -118,7 +120,7 @@ KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop&
       kernels_->has_surface || !kernels_->light ? kernels_->emission : kernels_->light;
   capabilities_.emits = emitted.has_value();
   capabilities_.has_opacity = kernels_->opacity.has_value();
-  capabilities_.has_interior = has_medium(*kernels_);
+  capabilities_.has_interior = is_nested ? lets_in() : has_medium(*kernels_);
   bind(kernels_->begin, begin_, {});
   bind(kernels_->sample, sample_, {"u.x", "u.y", "u.z"});
   bind(kernels_->evaluate, evaluate_, {"wi.x", "wi.y", "wi.z"});
@@ -286,11 +288,14 @@ void KernelShader::opacity(const ShadingBatch& batch, Lanes3 rgb) const {
 }
 
 void KernelShader::interior(const ShadingBatch& batch, host::InteriorLanes out) const {
-  std::vector<float> index(batch.count);  // What bends light knows it.
-  const std::array<void*, 8> outputs{index.data(),     out.absorption.x, out.absorption.y,
-                                     out.absorption.z, out.scattering.x, out.scattering.y,
-                                     out.scattering.z, out.anisotropy};
-  run(interior_, batch, nullptr, {}, outputs);
+  const std::array<void*, 8> all{out.index,        out.absorption.x, out.absorption.y,
+                                 out.absorption.z, out.scattering.x, out.scattering.y,
+                                 out.scattering.z, out.anisotropy};
+  // What is clear has an index only.
+  const std::size_t count = interior_.kernel->program().outputs.size();
+  for (std::size_t i = count; i < all.size(); ++i)
+    std::fill_n(static_cast<float*>(all[i]), batch.count, 0.0f);
+  run(interior_, batch, nullptr, {}, {all.data(), count});
 }
 
 void KernelShader::volume(const ShadingBatch& batch, host::VolumeLanes out) const {

@@ -49,8 +49,9 @@ bool has_medium(const MaterialKernels& kernels);
 /// host's lanes to the kernels' channels by name, once.
 class KernelShader final : public host::Shader {
  public:
-  /// `stop` is asked for when a kernel fails, and ends kernels; it lives as long.
-  KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop);
+  /// `stop` is asked for when a kernel fails, and ends kernels; it lives as long. `is_nested`:
+  /// interior() is wanted of what is clear, too.
+  KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop, bool is_nested = false);
 
   /// Those that a render calls.
   std::vector<const BoundKernel*> kernels() const;
@@ -58,6 +59,8 @@ class KernelShader final : public host::Shader {
   bool has_failed() const { return failed_; }
 
   host::Capabilities capabilities() const override { return capabilities_; }
+  /// Whether light enters: whether there could be an interior().
+  bool lets_in() const { return kernels_->interior.has_value(); }
   /// Whether any kernel reads the first uv set.
   bool reads_uv() const { return reads_uv_; }
   std::size_t state_bytes(std::uint32_t capacity) const override;

@@ -15,7 +15,9 @@
 #include "examples/render/displace.h"
 #include "examples/render/image_io.h"
 #include "examples/render/load_scene.h"
+#include "examples/render/media.h"
 #include "examples/render/mesh.h"
+#include "examples/render/nested_solids.h"
 #include "examples/tool/assignment.h"
 #include "examples/tool/kernel_light.h"
 #include "examples/tool/kernel_shader.h"
@@ -92,9 +94,10 @@ bool are_solids(const std::vector<const host::Mesh*>& meshes) {
   return std::ranges::all_of(meshes, [](const host::Mesh* mesh) { return host::is_closed(*mesh); });
 }
 
+/// Those that are not there yet. `is_nested`: they ask what is around.
 bool compile_shaders(const RenderOptions& options, const Opened& opened, const host::Scene& world,
-                     const std::vector<MeshAssignment>& assignments, RenderStop& stop,
-                     Shaders& shaders, Diagnostics& diagnostics) {
+                     const std::vector<MeshAssignment>& assignments, bool is_nested,
+                     RenderStop& stop, Shaders& shaders, Diagnostics& diagnostics) {
   std::map<std::string, std::vector<const host::Mesh*>> meshes;
   for (std::size_t i = 0; i < assignments.size(); ++i) {
     meshes[assignments[i].key()].push_back(&world.meshes[i]);
@@ -110,6 +113,7 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     if (options.walks) shader.kernels.entries |= entry_subsurface;
     shader.kernels.energy_conserving = options.energy_conserving;
     shader.varying = varying_slots(meshes.at(assignment.key()), host::is_open(options.settings));
+    if (is_nested) shader.varying.emplace_back("exterior_index");
     const auto compile = [&](Diagnostics& to) {
       return opened.system->compile_material(*opened.document, assignment.material, shader, to);
     };
@@ -147,14 +151,34 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     if (has_medium(*kernels) || is_volume)
       not_rendered.look_at_solids(material, meshes.at(assignment.key()));
     const bool has_back = kernels->has_back;
-    place.front = std::make_unique<KernelShader>(std::move(kernels), stop);
+    place.front = std::make_unique<KernelShader>(std::move(kernels), stop, is_nested);
     if (!has_back) continue;
     shader.side = Side::back;
     kernels = compile(diagnostics);
     if (kernels == nullptr) return false;
-    place.back = std::make_unique<KernelShader>(std::move(kernels), stop);
+    place.back = std::make_unique<KernelShader>(std::move(kernels), stop, is_nested);
   }
   return true;
+}
+
+/// Compiles once more what may be in something else that bends light, where there is such.
+bool nest_shaders(const RenderOptions& options, const Opened& opened, const host::Scene& world,
+                  const std::vector<MeshAssignment>& assignments, RenderStop& stop,
+                  Shaders& shaders, std::vector<bool>& solids, Diagnostics& diagnostics) {
+  const auto lets_in = [&](std::uint32_t mesh) {
+    const MeshAssignment& each = assignments[mesh];
+    return !each.material.empty() && shaders.at(each.key()).front->lets_in();
+  };
+  const host::NestedSolids nested = host::find_nested_solids(world, lets_in);
+  solids = nested.solid;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (nested.solid[i] || nested.within[i]) shaders.erase(assignments[i].key());
+  }
+  Diagnostics said;  // Already.
+  const bool done = compile_shaders(options, opened, world, assignments, true, stop, shaders, said);
+  for (const Diagnostic& each : done ? std::span<const Diagnostic>() : said.all())
+    diagnostics.add(each);
+  return done;
 }
 
 bool is_of_material(const Opened& opened, const Element& light) {
@@ -242,6 +266,7 @@ void bind_shaders(const std::vector<MeshAssignment>& assignments, const Shaders&
     mesh.two_sided = each.two_sided;
     mesh.matte = each.matte;
     mesh.illuminated = each.illuminated;
+    mesh.priority = each.priority;
     const TwoShaders* both = each.material.empty() ? nullptr : &shaders.at(each.key());
     input.shaders.push_back(both == nullptr ? &neutral : both->front.get());
     input.back_shaders.push_back(both == nullptr ? nullptr : both->back.get());
@@ -300,7 +325,8 @@ void report_media(const host::RenderStatistics& statistics, Diagnostics& diagnos
   }
   if (statistics.media_dropped != 0) {
     diagnostics.warning("media-dropped", {}, "some media lie in too many others and were left out",
-                        "4 within one another", fmt::format("{} times", statistics.media_dropped));
+                        fmt::format("{} within one another", host::Media::capacity),
+                        fmt::format("{} times", statistics.media_dropped));
   }
 }
 
@@ -337,7 +363,9 @@ int run(RenderOptions& options) {
   RenderStop stop;
   Shaders shaders;
   if (diagnostics.has_errors() ||
-      !compile_shaders(options, opened, world, assignments, stop, shaders, diagnostics)) {
+      !compile_shaders(options, opened, world, assignments, false, stop, shaders, diagnostics) ||
+      !nest_shaders(options, opened, world, assignments, stop, shaders, input.solids,
+                    diagnostics)) {
     return report(diagnostics);
   }
   std::vector<std::unique_ptr<KernelLight>> lights;

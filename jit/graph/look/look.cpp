@@ -38,6 +38,8 @@ PropertyAssignment property_of(const Element& element, const Element& property,
   assignment.property = property.attribute(name);
   assignment.target = property.attribute("target");
   assignment.value = value_of(property);
+  assignment.text = fmt::format("{} '{}'", property.attribute("type"), property.attribute("value"));
+  assignment.where = location(property);
   return assignment;
 }
 

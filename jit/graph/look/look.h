@@ -48,6 +48,8 @@ struct PropertyAssignment : GeometryTarget {
   std::string property;  ///< "twosided", "matte", ...
   std::string target;    ///< "" for all renderers.
   Value value;           ///< Type none if it does not fit its type.
+  std::string text;      ///< Type and value as the document has them: "integer '2'".
+  SourceLocation where;  ///< Of the property.
 };
 
 /// Each list has inherited ones first, and then the order of the document: where

@@ -94,21 +94,6 @@ TEST(Flight, WithoutScatteringIsBeersLaw) {
   EXPECT_EQ(endless.weight.y, 1.f);
 }
 
-TEST(Media, WhatEnclosesComesBack) {
-  Media media;
-  const Medium a{{1, 1, 1}, {}, 0.f}, b{{2, 2, 2}, {}, 0.f};
-  EXPECT_TRUE(media.enter(1, 0, a));
-  EXPECT_TRUE(media.enter(2, 0, b));
-  EXPECT_EQ(media.current().absorption.x, 2.f);
-  media.leave(3, 0);  // Never entered.
-  media.leave(1, 0);  // Overlapping: b is still around.
-  EXPECT_EQ(media.current().absorption.x, 2.f);
-  media.leave(2, 0);
-  EXPECT_TRUE(media.empty());
-  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_TRUE(media.enter(i, 0, a));
-  EXPECT_FALSE(media.enter(9, 0, a));
-}
-
 // By where vertices are: a sphere's seam has two for one place. And not by their number of edges.
 TEST(Solid, HasNoBorder) {
   Mesh ball = make_sphere("ball", {}, 1.f, 12);

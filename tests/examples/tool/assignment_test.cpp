@@ -72,6 +72,42 @@ TEST_F(AssignMaterials, LooksHideMeshesAndGiveTokens) {
   EXPECT_NE(assign("/car/body", "").key(), assign("/bus", "").key());
 }
 
+// The nearest says it; who is not meant, or has none, has 0.
+TEST_F(AssignMaterials, PrioritiesOfDielectrics) {
+  const auto priorities = [&](std::string_view properties) {
+    const std::string document = R"(<materialx version="1.39">
+      <surfacematerial name="M" type="material"/><propertyset name="high">
+        <property name="dielectric_priority" type="integer" value="7"/></propertyset>
+      <look name="only"><materialassign name="a" material="M" geom="/"/>)" +
+                                 std::string(properties) + "</look></materialx>";
+    const auto read = read_document_text(document, "test.mtlx", {}, diagnostics_);
+    host::Scene scene;
+    for (const char* path : {"/a", "/a/b", "/c"}) scene.meshes.emplace_back().path = path;
+    std::vector<int> found;
+    for (const auto& each : assign_materials(*read, scene, {}, diagnostics_)) {
+      found.push_back(each.priority);
+    }
+    return found;
+  };
+  const std::string of = R"( property="dielectric_priority" type="integer" value=)";
+  EXPECT_EQ(priorities(""), (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(priorities("<propertyassign name=\"p\"" + of + R"("3" geom="/a"/>)" +
+                       "<propertyassign name=\"q\"" + of + R"("-4" geom="/a/b"/>)"),
+            (std::vector<int>{3, -4, 0}));
+  EXPECT_EQ(priorities(R"(<propertysetassign name="p" propertyset="high" geom="/c"/>)"),
+            (std::vector<int>{0, 0, 7}));
+  EXPECT_EQ(priorities("<propertyassign name=\"p\" target=\"another\"" + of + R"("3" geom="/"/>)"),
+            (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(diagnostics_.error_count(), 0u) << diagnostics_.to_string();
+  priorities(R"(<propertyassign name="p" property="dielectric_priority" type="float" value="2"
+                geom="/none"/>)");
+  ASSERT_EQ(diagnostics_.error_count(), 1u) << diagnostics_.to_string();
+  const auto& said = diagnostics_.all().back();
+  EXPECT_EQ(said.code, "bad-priority");
+  EXPECT_EQ(said.where.file, "test.mtlx");
+  EXPECT_EQ(said.where.line, 4);
+}
+
 /// Geometry Extensions, "Geometry Representation": /path/mesh/partition.
 TEST_F(AssignMaterials, PiecesOfAnObjectHaveNamesOfTheirOwn) {
   const auto document = read_document_text(R"(<materialx version="1.39">
