@@ -51,6 +51,12 @@ echo "== lights"
 "$nacre" render "$here/lights/strings/strings.mtlx" --scene "$out/strings.obj" --environment-scale 0 \
   --exposure 2 --spp "$spp" --size "$size" --out "$out/rendered/strings.png"
 
+# Paths are long: in and out of glass, drink and ice.
+echo "== nested"
+"$python" "$here/nested/scene.py" "$out/drink.obj"
+"$nacre" render "$here/nested/drink.mtlx" --scene "$out/drink.obj" --ground --spp "$spp" --size "$size" \
+  --max-depth 32 --out "$out/rendered/drink.png"
+
 # Thirty thousand of them.
 echo "== hair"
 "$python" "$here/fibres/ball.py" "$out/ball.hair"
