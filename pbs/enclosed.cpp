@@ -45,8 +45,8 @@ std::vector<SliceOutput> interior_channels(const View& view, const std::vector<T
   const auto inside = [&](Color3 c) { return select(thin, Color3(0.0f), c); };
   std::vector<SliceOutput> channels{{"eta", select(thin, 1.0f, index.absorption.x).ref()}};
   if (is_zero(medium.absorption) && is_zero(medium.scattering)) return channels;
-  add_color(channels, "absorption", inside(medium.absorption));
-  add_color(channels, "scattering", inside(medium.scattering));
+  add_color(channels, "absorption", inside(finite_coefficients(medium.absorption)));
+  add_color(channels, "scattering", inside(finite_coefficients(medium.scattering)));
   channels.push_back({"anisotropy", medium.anisotropy.ref()});
   return channels;
 }

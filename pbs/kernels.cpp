@@ -156,6 +156,17 @@ class SurfaceRecorder {
     return total;
   }
 
+  /// Light only where there is a density: what a lobe gives next to nothing of may have none left
+  /// once it is multiplied by the lobe's probability.
+  Total lit(Total total) const {
+    if (scattering_.size() < 2) return total;
+    const Bool is_there = total.pdf > 0.0f;
+    total.f = select(is_there, total.f, Color3(0.0f));
+    for (Color3& part : total.by_lobe) part = select(is_there, part, Color3(0.0f));
+    if (request_.lobes_wanted) total.kinds = select(is_there, total.kinds, Int(0));
+    return total;
+  }
+
   /// The density of wo given wi: everything again, seen from wi.
   Float reverse_pdf(Float3 wi) {
     View reversed = view_;
@@ -167,7 +178,7 @@ class SurfaceRecorder {
 
   void record_evaluate() {
     const Float3 wi = channel3(recorder_, "wi");
-    const Total total = evaluate(view_, scattering_, wi);
+    const Total total = lit(evaluate(view_, scattering_, wi));
     add_color(kernels_.evaluate, "f", total.f);
     kernels_.evaluate.push_back({"pdf", total.pdf.ref()});
     if (request_.lobes_wanted) kernels_.evaluate.push_back({"kinds", total.kinds.ref()});
@@ -216,15 +227,15 @@ class SurfaceRecorder {
     const Float3 wi = chosen.wi * Float3(fma(-0.5f, dot(chosen.wi, chosen.wi), 1.5f));
     const Total total = evaluate(view_, scattering_, wi);
     const Bool smooth = chosen.valid & !chosen.delta & (total.pdf > 0.0f);
-    const Bool delta = chosen.valid & chosen.delta & (chosen.delta_probability > 0.0f);
+    const Float chance = chosen.delta_probability * probability;
+    const Bool delta = chosen.valid & chosen.delta & (chance > 0.0f);
     const Bool valid = smooth | delta;
     const Float inverse = 1.0f / total.pdf;
     const Color3 ratio = select(smooth, total.f * Color3(inverse), Color3(0.0f));
     Color3 discrete = chosen.delta_weight * weight * Color3(1.0f / probability);
     if (request_.transport) discrete = discrete * Color3(delta_transport(lobe, wi));
     const Color3 out = select(delta, discrete, ratio);
-    const Float pdf =
-        select(delta, chosen.delta_probability * probability, select(smooth, total.pdf, 0.0f));
+    const Float pdf = select(delta, chance, select(smooth, total.pdf, 0.0f));
     const Float3 ng = geometric_normal(recorder_);
     const Bool crosses = (dot(ng, wi) < 0.0f) ^ (dot(ng, view_.wo) < 0.0f);
     const Int flags = select(valid, Int(sample_valid), Int(0)) |
@@ -308,7 +319,8 @@ class SurfaceRecorder {
     for (const Term& term : terms_) {
       sum = fma(term.probability, term.lobe->roughness(view_), sum);
     }
-    return sum;
+    // Probabilities are 1 together up to rounding.
+    return terms_.size() > 1 ? min(sum, 1.0f) : sum;
   }
 
   void record_point() {

@@ -21,8 +21,8 @@ void add(Channels& channels, const std::string& name, Float3 v) {
 
 void add(Channels& channels, const VdfPtr& vdf) {
   const Vdf& medium = vdf == nullptr ? Vdf() : *vdf;
-  add(channels, "absorption", medium.absorption);
-  add(channels, "scattering", medium.scattering);
+  add(channels, "absorption", finite_coefficients(medium.absorption));
+  add(channels, "scattering", finite_coefficients(medium.scattering));
   channels.push_back({"anisotropy", medium.anisotropy.ref()});
 }
 

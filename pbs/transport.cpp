@@ -21,7 +21,8 @@ Float of_importance(const View& view, Float3 ns, Float3 wi) {
   const Float above = abs(dot(view.wo, ns)) * abs(dot(wi, ng));
   const Float below = abs(dot(view.wo, ng)) * abs(dot(wi, ns));
   // One and the same where the normals are: no rounding.
-  return select(above == below, 1.0f, above / max(below, 1e-6f));
+  // Bounded for a wi of any bits, which has no light that NaN could be made of.
+  return select(above == below, 1.0f, min(max(above / max(below, 1e-6f), 0.0f), 1e6f));
 }
 
 }  // namespace

@@ -21,6 +21,10 @@ using VdfPtr = std::shared_ptr<const Vdf>;  ///< Null: no medium.
 /// Null where the closure is none.
 VdfPtr as_vdf(const ClosurePtr& closure);
 
+/// Coefficients of whatever numbers they were computed of: below zero, and NaN, is zero, and what
+/// is beyond the largest float is that.
+Color3 finite_coefficients(Color3 coefficients);
+
 /// Both media in one place: coefficients add up. Scattering by the two is taken for one
 /// with the same mean cosine, the mean of theirs by what each scatters, all components
 /// together; a mixture of two lobes has no anisotropy of its own. Null counts as empty.

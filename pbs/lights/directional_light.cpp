@@ -4,11 +4,11 @@
 namespace nacre {
 
 /// directional_light: the same everywhere; `direction` is where the light goes, and taken
-/// as it is given. MaterialX 1.39.5 data library, lights/.
+/// as it is given, but finite as light is. MaterialX 1.39.5 data library, lights/.
 void record_closure_directional_light(NodeCall& call) {
   auto light = std::make_shared<Light>();
   light->intensity = call.vector3("color") * Color3(call.number("intensity"));
-  light->direction = -call.vector3("direction");
+  light->direction = finite_light(-call.vector3("direction"));
   call.set(std::move(light));
 }
 

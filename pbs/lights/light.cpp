@@ -1,7 +1,5 @@
 #include "pbs/light.h"
 
-#include <limits>
-
 #include "pbs/edf.h"
 #include "runtime/node/geometry.h"
 #include "runtime/node/node_call.h"
@@ -16,7 +14,9 @@ Light point_source(Recorder& recorder, Float3 position, Color3 power, Float deca
   const Float3 way = position - nacre::position(recorder, Space::world);
   // Over its largest component, so that no square overflows or vanishes.
   const Float largest = max_component({abs(way.x), abs(way.y), abs(way.z)});
-  const Bool apart = (largest > 0.0f) & (largest <= std::numeric_limits<float>::max());
+  const Float sum = way.x + way.y + way.z;
+  // A NaN is in the sum alone. Nothing is multiplied by the reciprocal of more than that.
+  const Bool apart = (largest > 0.0f) & (largest < 0x1p126f) & (sum == sum);
   const Float3 scaled = way / Float3(select(apart, largest, 1.0f));
   const Float length = sqrt(dot(scaled, scaled));
   const Float distance = largest * length;

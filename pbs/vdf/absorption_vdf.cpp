@@ -4,10 +4,10 @@
 namespace nacre {
 
 /// absorption_vdf: absorption alone. MaterialX PBS 1.39, "absorption_vdf".
-/// Coefficients below zero, and NaN, count as zero.
+/// Coefficients as finite_coefficients has them.
 void record_closure_absorption_vdf(NodeCall& call) {
   auto vdf = std::make_shared<Vdf>();
-  vdf->absorption = max(call.vector3("absorption"), Color3(0.0f));
+  vdf->absorption = finite_coefficients(call.vector3("absorption"));
   call.set(std::move(vdf));
 }
 

@@ -1,5 +1,7 @@
 #include "pbs/vdf.h"
 
+#include <limits>
+
 namespace nacre {
 
 namespace {
@@ -9,6 +11,11 @@ Float total(Color3 c) { return c.x + c.y + c.z; }
 }  // namespace
 
 VdfPtr as_vdf(const ClosurePtr& closure) { return std::dynamic_pointer_cast<const Vdf>(closure); }
+
+Color3 finite_coefficients(Color3 coefficients) {
+  const Color3 positive = max(coefficients, Color3(0.0f));
+  return min(positive, Color3(std::numeric_limits<float>::max()));
+}
 
 VdfPtr sum(const VdfPtr& a, const VdfPtr& b) {
   if (a == nullptr) return b;
