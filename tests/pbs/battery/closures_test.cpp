@@ -1,0 +1,77 @@
+// T-FUZ: every closure and shader of the libraries with hostile inputs.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/pbs/battery/closure_laws.h"
+#include "tests/pbs/battery/closure_points.h"
+
+namespace nacre {
+namespace {
+
+/// Of one form and way; `test_closures_whole` has more.
+std::size_t count_of_points(const ClosureCase& row) { return row.large ? 20'000 : 100'000; }
+constexpr std::size_t points_at_once = 4096;
+
+bool is_closure_or_shader(Type type) {
+  return is_closure(type) || (type >= Type::surfaceshader && type <= Type::lightshader);
+}
+
+using Names = std::set<std::string, std::less<>>;
+
+Names without(const Names& all, const Names& taken) {
+  Names rest;
+  std::ranges::set_difference(all, taken, std::inserter(rest, rest.end()));
+  return rest;
+}
+
+TEST(ClosureCases, HaveEveryClosureOfTheLibraries) {
+  Names declared, rows;
+  for (const NodeDef* def : closure_system().library().definitions().all()) {
+    if (is_closure_or_shader(def->outputs.front().type)) declared.emplace(def->name);
+  }
+  for (const ClosureCase& row : closure_cases()) {
+    EXPECT_TRUE(rows.emplace(row.nodedef).second) << row.nodedef << " twice";
+  }
+  EXPECT_EQ(without(declared, rows), Names()) << "have no row";
+  EXPECT_EQ(without(rows, declared), Names()) << "are not declared";
+}
+
+class Closures : public testing::TestWithParam<std::tuple<ClosureCase, ClosureWay>> {};
+
+TEST_P(Closures, AreSaneForAnyBits) {
+  const auto& [row, way] = GetParam();
+  for (const std::vector<Setting>& form : row.forms) {
+    const ClosureKernels kernels = compile_closure(row, form, way);
+    ASSERT_TRUE(kernels.material || kernels.values) << kernels.diagnostics.to_string();
+    std::size_t left = count_of_points(row) / row.forms.size();
+    for (std::uint64_t seed = 0; left > 0; ++seed) {
+      const std::size_t count = std::min(left, points_at_once);
+      const Arrays points = hostile_points(kernels.inputs, seed, count);
+      const std::vector<ClosureFault> faults = try_laws(kernels, points, count);
+      for (const ClosureFault& fault : faults) {
+        ADD_FAILURE() << row.nodedef << " " << to_string(form) << " " << to_string(way) << ": "
+                      << fault.law << ", at " << fault.count << " of " << count
+                      << " points, first at point " << fault.first << " of seed " << seed << ": "
+                      << fault.found << "\n"
+                      << describe_point(points, fault.first);
+      }
+      if (!faults.empty()) break;
+      left -= count;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Closures,
+    testing::Combine(testing::ValuesIn(closure_cases().begin(), closure_cases().end()),
+                     testing::Values(ClosureWay{.accuracy = Accuracy::standard},
+                                     ClosureWay{.accuracy = Accuracy::fast, .asks_all = true})),
+    [](const auto& instance) {
+      return short_name(std::get<0>(instance.param)) + "_" + to_string(std::get<1>(instance.param));
+    });
+
+}  // namespace
+}  // namespace nacre
