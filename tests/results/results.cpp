@@ -2,7 +2,7 @@
 //
 //   results LIBRARIES DOCUMENTS EXPECTED [RANDOM_PROGRAMS]
 //
-// Runs random Programs, outputs of documents and a surface by the interpreter and by compiled code
+// Runs random Programs, outputs of documents and surfaces by the interpreter and by compiled code
 // of every width. Exit status 0 if every digest is the one that EXPECTED holds.
 #include <bit>
 #include <cstdio>
@@ -40,6 +40,14 @@ struct Subject {
 constexpr Subject subjects[]{{"examples/documents/marble.mtlx", "NG_marble/base_color"},
                              {"examples/documents/cobbles.mtlx", "bumped"},
                              {"bench/documents/chain.mtlx", "NG_chain/out"}};
+
+struct Material {
+  const char* file;
+  const char* name;
+};
+constexpr Material materials[]{{"bench/documents/standard_surface.mtlx", "standard_surface"},
+                               {"tests/results/anisotropic.mtlx", "glass"},
+                               {"tests/results/anisotropic.mtlx", "metal"}};
 
 using Outputs = std::vector<std::vector<std::uint32_t>>;
 
@@ -157,15 +165,16 @@ int main(int argc, char** argv) {
     if (made == nullptr) return fail();
     chains.push_back({made->kernel.program()});
   }
-  const auto surface =
-      read_document(source + "/bench/documents/standard_surface.mtlx", {}, diagnostics);
-  if (surface == nullptr) return fail();
   options.parameters = ParameterMode::live;
-  const auto made = system->compile_material(*surface, "standard_surface", options, diagnostics);
-  if (made == nullptr) return fail();
-  Chain& chain = chains.emplace_back();
-  for (const auto* kernel : {&made->begin, &made->sample, &made->evaluate, &made->albedo}) {
-    chain.push_back((*kernel)->program());
+  for (const Material& material : materials) {
+    const auto document = read_document(source + '/' + material.file, {}, diagnostics);
+    if (document == nullptr) return fail();
+    const auto made = system->compile_material(*document, material.name, options, diagnostics);
+    if (made == nullptr) return fail();
+    Chain& chain = chains.emplace_back();
+    for (const auto* kernel : {&made->begin, &made->sample, &made->evaluate, &made->albedo}) {
+      chain.push_back((*kernel)->program());
+    }
   }
 
   const auto session = JitSession::create({}, diagnostics);
