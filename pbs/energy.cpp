@@ -3,6 +3,7 @@
 #include "pbs/tables/axes.h"
 #include "pbs/tables/facet_tables.h"
 #include "pbs/tables/look_up.h"
+#include "runtime/value/control.h"
 
 namespace nacre {
 
@@ -36,12 +37,13 @@ namespace {
 /// The albedo of one roughness, and what the narrower axis adds: nothing where both are equal, so
 /// that a surface is the same whether that is known or not.
 Float stretched_albedo(Recorder& recorder, const FacetView& view) {
-  const Float angle = table_axes::angle(view.wide_masked, view.wide);
+  const FacetTables& tables = facet_tables(view.distribution);
   const Float roughness = table_axes::roughness(view.wide);
-  const std::vector<Float> equal =
-      look_up(recorder, facet_tables(view.distribution).reflection, angle, roughness);
-  const std::vector<Float> more = look_up(recorder, facet_tables(view.distribution).stretched,
-                                          angle, roughness, sqrt(view.ratio));
+  const std::vector<Float> equal = look_up(
+      recorder, tables.reflection, table_axes::angle(view.wide_masked, view.wide), roughness);
+  const std::vector<Float> more =
+      look_up(recorder, tables.stretched, table_axes::stretched_angle(view.wide_masked, view.wide),
+              roughness, sqrt(view.ratio));
   // Measured: the change begins at once and levels off.
   return equal[0] + lerp(more[0], more[1], view.across * (2.0f - view.across));
 }
@@ -52,7 +54,11 @@ FacetReflection facet_reflection(Recorder& recorder, const FacetView& view) {
   const std::vector<Float> found =
       look_up(recorder, facet_tables(view.distribution).reflection,
               table_axes::angle(view.masked, view.alpha), table_axes::roughness(view.alpha));
-  const Float albedo = view.anisotropic ? stretched_albedo(recorder, view) : found[0];
+  Float albedo = found[0];
+  if (view.anisotropic) {
+    // Materials whose roughness varies are mostly equal on both axes.
+    albedo = if_any(view.ratio < 1.0f, albedo, [&] { return stretched_albedo(recorder, view); });
+  }
   return {clamp(albedo, 0.05f, 1.0f), saturate(found[1] + view.cosine),
           saturate(found[2] + view.cosine)};
 }
@@ -67,7 +73,8 @@ FacetInterface facet_leaving(Recorder& recorder, const FacetView& view, Float et
   const std::vector<Float> found = look_up(recorder, facet_tables(view.distribution).leaving, angle,
                                            table_axes::roughness(alpha), table_axes::index(eta));
   const Float mirror = table_axes::mirror_share(alpha) * fresnel_dielectric(cosine, eta);
-  return {saturate(found[0] + mirror), saturate(found[1]), saturate(found[2] * perfect)};
+  return {saturate(found[0] + mirror), saturate(found[1]), saturate(found[2] * perfect),
+          saturate(found[3] * perfect)};
 }
 
 FacetInterface facet_entering(Recorder& recorder, const FacetView& view, Float eta) {
@@ -75,7 +82,7 @@ FacetInterface facet_entering(Recorder& recorder, const FacetView& view, Float e
       look_up(recorder, facet_tables(view.distribution).entering,
               table_axes::entering_angle(view.masked, view.alpha),
               table_axes::roughness(view.alpha), table_axes::index(eta));
-  return {0.0f, saturate(found[0]), saturate(found[1])};
+  return {0.0f, saturate(found[0]), saturate(found[1]), 0.0f};
 }
 
 Float compensation(Float fresnel, Float albedo) {

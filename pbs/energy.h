@@ -66,10 +66,11 @@ struct FacetInterface {
   Float fresnel;       ///< Mean Fresnel factor of the reflected light.
   Float transmission;  ///< Albedo of transmission without a Fresnel factor.
   Float total;         ///< Albedo of reflection and transmission, both with it.
+  Float turned;        ///< Albedo of the facets that reflect all light.
 };
 template <class F>
 void visit(FacetInterface& interface, F&& f) {
-  f(interface.fresnel), f(interface.transmission), f(interface.total);
+  f(interface.fresnel), f(interface.transmission), f(interface.total), f(interface.turned);
 }
 /// eta < 1: total reflection from some angle on. `perfect` is facet_reflection's albedo.
 FacetInterface facet_leaving(Recorder& recorder, const FacetView& view, Float eta, Float perfect);

@@ -6,9 +6,10 @@ namespace nacre {
 
 namespace {
 
-/// Where less than this part of the light passes, facets that reflect all come in;
-/// times 1 - alpha, because some light always passes the roughest surfaces.
+/// Where less than this part of the light passes, facets that reflect all come in; times
+/// 1 - alpha, because some light always passes the roughest surfaces, but at grazing little.
 constexpr float little = 0.2f;
+constexpr float least = 0.05f;
 
 Facets scaled(const Facets& facets, Float scale) {
   Facets thin = facets;
@@ -73,9 +74,7 @@ MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view
       [&] {
         const Float perfect = facet_reflection(recorder, seen).albedo;
         const FacetInterface all = facet_leaving(recorder, seen, rare, perfect);
-        // What comes back of all light hardly depends on the Fresnel factor.
-        return FacetSum{perfect, all.transmission, all.total,
-                        max(all.total - all.transmission, 0.0f)};
+        return FacetSum{perfect, all.transmission, all.total, all.turned};
       },
       [&] {
         const FacetInterface all = facet_entering(recorder, seen, dense);
@@ -89,7 +88,7 @@ MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view
   });
   const Float part = light.passed / max(light.total, 0.05f);
   const Float narrow = facets_.isotropic ? seen.alpha : min(facets_.alpha.x, facets_.alpha.y);
-  const Float x = saturate(part / max(little * (1.0f - narrow), 1e-3f));
+  const Float x = saturate(part / max(little * (1.0f - narrow), least));
   const Float turned = select(leaving, fma(square(x), fma(2.0f, x, -3.0f), 1.0f), 0.0f);
   return {1.0f / max(fma(turned, light.turned, light.passed), 0.02f), turned};
 }

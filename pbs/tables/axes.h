@@ -31,9 +31,16 @@ T roughness(T alpha) {
   return sqrt(alpha);
 }
 
-/// Angle, on the side of reflection: what masking does depends on cosine / alpha.
+/// Angle, on the side of reflection: what masking does depends on cosine / alpha, and the rougher
+/// the surface the more of it happens close to grazing.
 template <class T>
 T angle(T cosine, T alpha) {
+  return steep(cosine, alpha / (T(1.0) + T(3.0) * alpha));
+}
+
+/// The same for what unequal roughness adds, which is smooth.
+template <class T>
+T stretched_angle(T cosine, T alpha) {
   return steep(cosine, alpha);
 }
 
@@ -65,7 +72,8 @@ T beyond_critical(T cosine, T alpha, T critical) {
   const T scale = alpha / critical;
   const T width = scale * sqrt(most(T(1.0) - critical * critical, T(0.0)));
   const T s = least(cosine / critical, T(1.0));
-  return T(0.3) * (steep(s, scale) + T(1.0) - steep(T(1.0) - s, width));
+  const T grazing = scale / (T(1.0) + T(3.0) * scale);
+  return T(0.3) * (steep(s, grazing) + T(1.0) - steep(T(1.0) - s, width));
 }
 template <class T>
 T within_critical(T cosine, T alpha, T critical) {

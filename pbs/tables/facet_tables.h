@@ -21,7 +21,7 @@ struct FacetTable {
 struct FacetTables {
   /// For perfectly reflecting facets: the albedo E, and the facet cosines that
   /// stand for the darker and the brighter half of the reflected light, each less
-  /// the cosine of the view. The mean over a half of (1 - cosine)^5.5 is exact.
+  /// the cosine of the view. The mean over a half of (1 - cosine)^5.4 is exact.
   FacetTable reflection;
 
   /// How much more the albedo E is where roughness is not equal on both axes than with the wider
@@ -36,7 +36,8 @@ struct FacetTables {
 
   /// Relative index below 1. The mean Fresnel factor of what is reflected, less
   /// mirror_share of that of the view; the albedo of transmission
-  /// without a Fresnel factor; and that of both with it, divided by E.
+  /// without a Fresnel factor; that of both with it, divided by E; and the part of E of facets
+  /// that reflect all light.
   FacetTable leaving;
 };
 const FacetTables& facet_tables(FacetDistribution distribution);

@@ -173,7 +173,7 @@ double fresnel(double cosine, double eta) {
 
 /// Of the mean that a stand-in for many facet cosines keeps: Schlick's 5 and a
 /// little more, for the steeper curves of low indices.
-constexpr double moment_exponent = 5.5;
+constexpr double moment_exponent = 5.4;
 
 std::vector<double> reflection(const Facets& facets, double cosine, double alpha, double) {
   const Scene scene(facets, cosine, alpha);
@@ -201,7 +201,7 @@ std::vector<double> reflection(const Facets& facets, double cosine, double alpha
 }
 
 struct Interface {
-  double perfect = 0.0, reflected = 0.0, passing = 0.0, transmitted = 0.0;
+  double perfect = 0.0, reflected = 0.0, passing = 0.0, transmitted = 0.0, turned = 0.0;
 };
 
 Interface interface(const Facets& facets, double cosine, double alpha, double eta) {
@@ -210,11 +210,12 @@ Interface interface(const Facets& facets, double cosine, double alpha, double et
   scene.each_normal([&](Vec h, double c) {
     const double part = 1.0 / (steps * steps);
     const double f = fresnel(c, eta);
+    const double squared = eta * eta - 1.0 + c * c;
     if (const double out = 2.0 * c * h.z - scene.cosine; out > 0.0) {
       sum.perfect += part * scene.shadowing(out);
       sum.reflected += part * scene.shadowing(out) * f;
+      if (squared <= 0.0) sum.turned += part * scene.shadowing(out);
     }
-    const double squared = eta * eta - 1.0 + c * c;
     if (squared <= 0.0) return;
     const double down = (scene.cosine - (c - std::sqrt(squared)) * h.z) / eta;
     if (down <= 0.0) return;
@@ -233,7 +234,7 @@ std::vector<double> leaving(const Facets& facets, double cosine, double alpha, d
   const Interface sum = interface(facets, cosine, alpha, 1.0 / eta);
   const double mirror = nacre::table_axes::mirror_share(alpha) * fresnel(cosine, 1.0 / eta);
   return {sum.reflected / sum.perfect - mirror, sum.passing,
-          (sum.reflected + sum.transmitted) / sum.perfect};
+          (sum.reflected + sum.transmitted) / sum.perfect, sum.turned / sum.perfect};
 }
 
 double angle_below_one(double cosine, double alpha, double eta) {
@@ -251,6 +252,8 @@ double entering_angle(double cosine, double alpha, double) {
   return nacre::table_axes::entering_angle(cosine, alpha);
 }
 
+using nacre::table_axes::stretched_angle;
+
 using Integral = std::vector<double> (*)(const Facets&, double, double, double);
 using Axis = double (*)(double, double, double);
 
@@ -263,7 +266,7 @@ void write_stretched(const Facets& facets, const char* name, int angles, int rou
       const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-6);
       for (int i = 0; i < angles; ++i) {
         const double cosine = invert(double(i) / (angles - 1), 0.0, 1.0,
-                                     [&](double c) { return angle(c, alpha, 1.0); });
+                                     [&](double c) { return stretched_angle(c, alpha); });
         for (const double value :
              stretched(facets, cosine, alpha, std::pow(double(k) / (ratios - 1), 2))) {
           std::printf("%#.5gf,", value);
@@ -307,7 +310,7 @@ int main(int count, char** arguments) {
   const Facets& facets = name == "ggx" ? static_cast<const Facets&>(ggx) : beckmann;
   std::printf("// Written by pbs/tables/make_tables.cpp.\n");
   write(facets, "reflection_values", 24, 20, 1, angle, reflection);
-  write(facets, "entering_values", 32, 10, 8, entering_angle, entering);
-  write(facets, "leaving_values", 16, 16, 24, angle_below_one, leaving);
+  write(facets, "entering_values", 40, 10, 8, entering_angle, entering);
+  write(facets, "leaving_values", 20, 16, 24, angle_below_one, leaving);
   write_stretched(facets, "stretched_values", 24, 16, 10);
 }

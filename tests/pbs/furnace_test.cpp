@@ -214,6 +214,22 @@ TEST(Furnace, GlassReturnsAllLightToTheInside) {
   }
 }
 
+/// It was .978 (index 1.1, from inside) and .989 (R over T).
+TEST(Furnace, RoughGlassReturnsAllLightAtGrazing) {
+  for (const float alpha : {0.5f, 0.8f, 1.0f}) {
+    for (const float index : {1.1f, 1.5f, 2.5f}) {
+      const Furnace joint([&](Recorder& r) { return glass(r, "RT", index, alpha); });
+      const Furnace layer([&](Recorder& r) { return layered_glass(r, index, alpha); });
+      for (const double angle : {80.0, 88.0, 89.9, 91.0, 100.0}) {
+        EXPECT_NEAR(joint.light(angle), 1.0, 1e-2)
+            << "RT " << alpha << " index " << index << " angle " << angle;
+        EXPECT_NEAR(layer.light(angle), 1.0, 1e-2)
+            << "R over T " << alpha << " index " << index << " angle " << angle;
+      }
+    }
+  }
+}
+
 /// The tables of equal roughnesses gave 1.5 and .03 here.
 TEST(Furnace, AnisotropicGlassReturnsAllLight) {
   constexpr int count = 1 << 13;
