@@ -86,6 +86,15 @@ void bind_binding(nb::module_& module) {
           },
           nb::arg("entry"),
           "Points of the shortest array that the entry takes; None where all are constants.")
+      .def_prop_ro(
+          "length",
+          [](const BoundArrays& self) -> std::optional<std::uint64_t> {
+            const std::uint64_t length = self.length();
+            if (length == Placement::endless) return std::nullopt;
+            return length;
+          },
+          "Points of the shortest of all arrays, read by an entry or not; None where all are "
+          "constants.")
       .def("run", run, nb::arg("entry"), nb::arg("count") = nb::none(), nb::kw_only(),
            nb::arg("points") = nb::none(), nb::arg("instances") = nb::none(),
            nb::arg("instance").none() = nb::none(), nb::arg("point") = 0,

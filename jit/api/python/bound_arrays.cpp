@@ -109,6 +109,14 @@ std::uint64_t BoundArrays::count(nacre_entry entry) const {
   return least;
 }
 
+std::uint64_t BoundArrays::length() const {
+  std::uint64_t least = Placement::endless;
+  for (const Placement& array : placements_) {
+    if (array.element == NACRE_OF_POINT) least = std::min(least, array.length);
+  }
+  return least;
+}
+
 std::uint64_t BoundArrays::needed(const Use& use, const Request& request, std::uint64_t past_points,
                                   std::uint64_t past_instances) const {
   const int element = placements_[use.array].element;

@@ -56,6 +56,9 @@ class BoundArrays {
   /// Elements of the shortest array that the entry has for its points; Placement::endless where
   /// all are constants.
   std::uint64_t count(nacre_entry entry) const;
+  /// Elements of the shortest array of all that belong to points, whether an entry reads it or not:
+  /// what is constant has to be stored as often as there are points.
+  std::uint64_t length() const;
   /// Throws Error where an array is too short. Does not need the GIL.
   void check(nacre_entry entry, const Request& request) const;
   /// False where it was stopped. Lets other threads of Python run; throws what a signal's handler

@@ -165,4 +165,8 @@ def _length(binding: Binding, entry: Entry, count: int | None, points: Any,
         length = len(instances)
     if length is None and points is not None:
         length = int(numpy.max(points, initial=-1)) + 1
+    if length is None and entry != Entry.EVALUATE_AT:
+        length = binding.length
+    if length is None:
+        binding.run(entry)  # Refuses: nothing says how many points there are.
     return length or 0

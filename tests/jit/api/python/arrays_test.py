@@ -198,6 +198,18 @@ def test_arrays_that_are_too_short_are_refused(twice):
         binding.run(nacre.Entry.OUTPUTS, -1)
 
 
+def test_what_reads_no_point_is_stored_for_each(system):
+    """Silently there were none."""
+    constant = system.compile_outputs(nacre.Document.parse(
+        """<materialx version="1.39"><constant name="three" type="float">
+           <input name="value" type="float" value="3"/></constant>
+           <output name="out" type="float" nodename="three"/></materialx>"""), ["out"])
+    assert constant.run({"uv0": UV})["out"].tolist() == [3.0] * COUNT
+    assert constant.run({}, count=2)["out"].tolist() == [3.0] * 2
+    with refused("no-count", "count"):
+        constant.run({"uv0": (0, 0)})
+
+
 def test_no_points_are_no_work(twice):
     assert twice.run({"uv0": numpy.zeros((0, 2), "float32")})["out"].shape == (0, 2)
     assert twice.bind({"uv0": UV}).run(nacre.Entry.OUTPUTS, 0)
