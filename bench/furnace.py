@@ -85,9 +85,10 @@ PRESERVING = [
     *(Case(f"dielectric_bsdf RT, ior {index}", dielectric(index, "RT"), True)
       for index in (1.1, 1.5, 2.5)),
     Case("dielectric_bsdf RT, ior 1.5, film", dielectric(1.5, "RT", *FILM), True),
+    *(Case(f"dielectric_bsdf T, ior {index}", dielectric(index, "T"), True) for index in (1.5, 2.5)),
     Case("dielectric_bsdf R over T, ior 1.5",
          "\n".join([dielectric(1.5, "R", name="top"), dielectric(1.5, "T", name="below"),
-                    node("layer", "BSDF top @top", "BSDF base @below")])),
+                    node("layer", "BSDF top @top", "BSDF base @below")]), True),
     Case("generalized_schlick_bsdf RT", node("generalized_schlick_bsdf", *SCHLICK, ROUGH), True),
     Case("dielectric_bsdf R over white", over_white(dielectric(1.5, "R", name="top"))),
     Case("dielectric_bsdf R with a film over white",
