@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <vector>
 
 #include "examples/render/medium_lanes.h"
 #include "examples/render/wavefront.h"
@@ -21,13 +21,20 @@ bool Wavefront::is_hidden(std::uint32_t i) const {
 void Wavefront::pass_hidden() {
   for (std::size_t m = 0; m < groups_.size(); ++m) {
     Group& group = groups_[m];
-    const auto begin = sorted_.begin() + group.begin, end = sorted_.begin() + group.end;
-    const auto hidden =
-        std::stable_partition(begin, end, [this](std::uint32_t i) { return !is_hidden(i); });
+    std::uint32_t end = group.begin;
+    std::vector<std::uint32_t> hidden;
+    for (std::uint32_t k = group.begin; k < group.end; ++k) {
+      const std::uint32_t i = sorted_[k];
+      if (is_hidden(i)) {
+        hidden.push_back(i);
+      } else {
+        sorted_[end++] = i;
+      }
+    }
+    group.end = end;
     for_batches(
-        std::span<const std::uint32_t>(hidden, end), buffer_.capacity(),
+        std::span<const std::uint32_t>(hidden), buffer_.capacity(),
         [&](std::span<const std::uint32_t> paths) { pass_hidden(context_.materials[m], paths); });
-    group.end = static_cast<std::uint32_t>(hidden - sorted_.begin());
   }
 }
 
