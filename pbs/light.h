@@ -22,7 +22,7 @@ using LightPtr = std::shared_ptr<const Light>;
 LightPtr as_light(const ClosurePtr& closure);
 
 /// A light at `position` as the point P sees it: color * intensity / (d + 1)^decay_rate at
-/// the distance d, finite at the light itself. Where P is the light, or 2^126 and more from it, its
+/// the distance d, finite at the light itself. Where P is the light, or infinitely far from it, its
 /// direction is 0.
 Light point_source(Recorder& recorder, Float3 position, Color3 power, Float decay_rate);
 

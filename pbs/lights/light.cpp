@@ -1,5 +1,7 @@
 #include "pbs/light.h"
 
+#include <limits>
+
 #include "pbs/edf.h"
 #include "runtime/node/geometry.h"
 #include "runtime/node/node_call.h"
@@ -15,9 +17,12 @@ Light point_source(Recorder& recorder, Float3 position, Color3 power, Float deca
   // Over its largest component, so that no square overflows or vanishes.
   const Float largest = max_component({abs(way.x), abs(way.y), abs(way.z)});
   const Float sum = way.x + way.y + way.z;
-  // A NaN is in the sum alone. Nothing is multiplied by the reciprocal of more than that.
-  const Bool apart = (largest > 0.0f) & (largest < 0x1p126f) & (sum == sum);
-  const Float3 scaled = way / Float3(select(apart, largest, 1.0f));
+  // A NaN is in the sum alone.
+  const Bool apart =
+      (largest > 0.0f) & (largest <= std::numeric_limits<float>::max()) & (sum == sum);
+  // The reciprocal of more than 2^126 is too small for a normal number.
+  const Float near = select(largest > 0x1p100f, 0x1p-100f, 1.0f);
+  const Float3 scaled = (way * Float3(near)) / Float3(select(apart, largest * near, 1.0f));
   const Float length = sqrt(dot(scaled, scaled));
   const Float distance = largest * length;
   const Float3 unit = scaled * Float3(1.0f / length);
@@ -26,7 +31,7 @@ Light point_source(Recorder& recorder, Float3 position, Color3 power, Float deca
   light.intensity = power / Float3(falloff);
   light.direction = {select(apart, unit.x, 0.0f), select(apart, unit.y, 0.0f),
                      select(apart, unit.z, 0.0f)};
-  light.distance = select(apart, distance, 0.0f);
+  light.distance = select(apart, min(distance, std::numeric_limits<float>::max()), 0.0f);
   return light;
 }
 
