@@ -21,7 +21,7 @@ Light point_source(Recorder& recorder, Float3 position, Color3 power, Float deca
   const Bool apart =
       (largest > 0.0f) & (largest <= std::numeric_limits<float>::max()) & (sum == sum);
   // The reciprocal of more than 2^126 is too small for a normal number.
-  const Float near = select(largest > 0x1p100f, 0x1p-100f, 1.0f);
+  const Float near = select(largest > 0x1p100f, Float(0x1p-100f), Float(1.0f));
   const Float3 scaled = (way * Float3(near)) / Float3(select(apart, largest * near, 1.0f));
   const Float length = sqrt(dot(scaled, scaled));
   const Float distance = largest * length;

@@ -145,6 +145,7 @@ std::string to_string(const ClosureWay& way) {
 ClosureKernels compile_closure(const ClosureCase& row, const std::vector<Setting>& form,
                                const ClosureWay& way) {
   ClosureKernels made;
+  made.way = way;
   ClosureGraph graph(row);
   const std::optional<Graph> built = graph.build(form, made.diagnostics);
   if (!built) return made;

@@ -38,6 +38,7 @@ std::string to_string(const ClosureWay& way);
 /// What one form of a row is compiled to, every number of its inputs a channel. Closures within it
 /// are simple ones whose inputs are channels too.
 struct ClosureKernels {
+  ClosureWay way;
   std::vector<ClosureInput> inputs;
   std::unique_ptr<MaterialKernels> material;  ///< Of a BSDF, EDF or surface shader.
   std::unique_ptr<OutputKernel> values;       ///< Of a medium, volume, displacement or light.

@@ -160,9 +160,10 @@ class Trial {
     const std::int32_t flags = s.whole("flags", i);
     if ((flags & sample_valid) == 0 || (flags & sample_delta) != 0) return;
     const double pdf = s.number("pdf", i), again = e.number("pdf", i);
-    expect(agree(pdf, again, 1e-4, smallest), "evaluate has the sample's pdf", i,
-           [&] { return fmt::format("sample {}, evaluate {}", pdf, again); });
-    expect(pdf == again, "to the bit", i,
+    // For `fast` LLVM may order sums as it likes, in two kernels differently.
+    const bool is_fast = kernels_.way.accuracy == Accuracy::fast;
+    expect(is_fast ? agree(pdf, again, 1e-4, smallest) : pdf == again,
+           "evaluate has the sample's pdf", i,
            [&] { return fmt::format("sample {}, evaluate {}", pdf, again); });
     for (const char* k : {"x", "y", "z"}) {
       const double weight = s.number(std::string("weight.") + k, i);

@@ -19,7 +19,8 @@ struct ClosureFault {
 ///
 ///   evaluate  f, pdf and pdf_reverse finite and not negative; light only where pdf > 0
 ///   sample    the same of weight; wi unit to 1e-5 where valid, else weight and pdf are 0; where
-///             not delta, `evaluate` of wi has that pdf, and weight pdf is f
+///             not delta, `evaluate` of wi has that pdf, to the bit but for `fast`, and weight
+///             times pdf is f
 ///   albedo, opacity, presence, opacity_color, roughness  in [0, 1]
 ///   emission, transmission  finite and not negative
 ///   interior, subsurface, media  coefficients finite and not negative, eta positive, anisotropy
