@@ -5,6 +5,7 @@
 // Runs random Programs, outputs of documents and surfaces by the interpreter and by compiled code
 // of every width. Exit status 0 if every digest is the one that EXPECTED holds.
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -59,14 +60,34 @@ void append(std::string& bytes, const Outputs& outputs) {
 
 /// Numbers between -2 and 2 that hang on the name of a channel, not on its place in a list:
 /// that is as the compiler of this program evaluates operands.
-std::vector<std::uint32_t> values_of(const Channel& channel) {
+std::vector<float> numbers_of(const std::string& channel) {
   std::uint64_t seed = 20240611;
-  for (const char c : channel.name) seed = 31 * seed + static_cast<unsigned char>(c);
+  for (const char c : channel) seed = 31 * seed + static_cast<unsigned char>(c);
   Random random(seed);
-  std::vector<std::uint32_t> values(points);
-  for (std::uint32_t& value : values) {
-    value = std::bit_cast<std::uint32_t>(static_cast<float>(random.below(4096)) / 1024.0f - 2.0f);
+  std::vector<float> numbers(points);
+  for (float& x : numbers) x = static_cast<float>(random.below(4096)) / 1024.0f - 2.0f;
+  return numbers;
+}
+
+/// The same, but directions are unit and random numbers for sampling within [0, 1).
+std::vector<std::uint32_t> values_of(const Channel& channel) {
+  std::vector<float> numbers = numbers_of(channel.name);
+  const std::string group = channel.name.substr(0, channel.name.find('.'));
+  if (group == "u") {
+    for (float& x : numbers) x = 0.25f * (x + 2.0f);
   }
+  if (group == "wo" || group == "wi" || group == "N" || group == "Ng" || group == "T") {
+    std::vector<double> squares(points, 0.0);
+    for (const char* component : {".x", ".y", ".z"}) {
+      const std::vector<float> other = numbers_of(group + component);
+      for (std::size_t i = 0; i < points; ++i) squares[i] += double{other[i]} * double{other[i]};
+    }
+    for (std::size_t i = 0; i < points; ++i) {
+      numbers[i] = static_cast<float>(double{numbers[i]} / std::sqrt(squares[i]));
+    }
+  }
+  std::vector<std::uint32_t> values;
+  for (const float x : numbers) values.push_back(std::bit_cast<std::uint32_t>(x));
   return values;
 }
 
