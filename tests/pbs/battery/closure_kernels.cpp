@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "jit/graph/build/builder.h"
+#include "pbs/exterior.h"
 #include "tests/support/standard_library.h"
 
 namespace nacre {
@@ -156,6 +157,7 @@ ClosureKernels compile_closure(const ClosureCase& row, const std::vector<Setting
   options.compile.max_seconds = 600;
   for (const ClosureInput& input : made.inputs) options.live.push_back(input.name);
   options.varying = {"*"};
+  if (way.asks_all) options.varying.emplace_back(exterior_index_channel);
   options.footprints = false;
   options.kernels = request_of(way);
   if (graph.is_surface()) {

@@ -29,7 +29,8 @@ struct ClosureWay {
   Accuracy accuracy = Accuracy::standard;
   Backend backend = Backend::jit;
   /// With all that a host may ask for: lobes wanted at points, transport, min_alpha, lobe_mask, no
-  /// more light than arrives, light followed below the surface, what each lobe gives.
+  /// more light than arrives, light followed below the surface, what each lobe gives, the index
+  /// around.
   bool asks_all = false;
 };
 /// "standard", "fast_asking_all".

@@ -52,6 +52,7 @@ class Drawing {
 
   void add_slots() {
     add_numbers("min_alpha", Meaning::alpha);
+    add_numbers("exterior_index", Meaning::index);
     for (const char* name : {"lobe_mask", "lobes_wanted"}) {
       for (std::uint32_t& x : array(name)) {
         x = random_.chance(0.5) ? ~0u : static_cast<std::uint32_t>(random_.word() >> 32);
