@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "tests/pbs/battery/closure_laws.h"
-#include "tests/pbs/battery/closure_points.h"
+#include "tests/pbs/battery/closure_trial.h"
 
 namespace nacre {
 namespace {
@@ -16,7 +15,6 @@ std::size_t count_of_points(const ClosureCase& row, const ClosureWay& way) {
   const std::size_t count = row.large ? 20'000 : 100'000;
   return way.asks_all ? count / 4 : count;
 }
-constexpr std::size_t points_at_once = 4096;
 
 bool is_closure_or_shader(Type type) {
   return is_closure(type) || (type >= Type::surfaceshader && type <= Type::lightshader);
@@ -46,25 +44,7 @@ class Closures : public testing::TestWithParam<std::tuple<ClosureCase, ClosureWa
 
 TEST_P(Closures, AreSaneForAnyBits) {
   const auto& [row, way] = GetParam();
-  for (const std::vector<Setting>& form : row.forms) {
-    const ClosureKernels kernels = compile_closure(row, form, way);
-    ASSERT_TRUE(kernels.material || kernels.values) << kernels.diagnostics.to_string();
-    std::size_t left = count_of_points(row, way) / row.forms.size();
-    for (std::uint64_t seed = 0; left > 0; ++seed) {
-      const std::size_t count = std::min(left, points_at_once);
-      const Arrays points = hostile_points(kernels.inputs, seed, count);
-      const std::vector<ClosureFault> faults = try_laws(kernels, points, count);
-      for (const ClosureFault& fault : faults) {
-        ADD_FAILURE() << row.nodedef << " " << to_string(form) << " " << to_string(way) << ": "
-                      << fault.law << ", at " << fault.count << " of " << count
-                      << " points, first at point " << fault.first << " of seed " << seed << ": "
-                      << fault.found << "\n"
-                      << describe_point(points, fault.first);
-      }
-      if (!faults.empty()) break;
-      left -= count;
-    }
-  }
+  try_closure(row, way, count_of_points(row, way), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(
