@@ -44,6 +44,34 @@ echo "== displacement"
 "$nacre" render "$here/displacement/pebbles.mtlx" --spp "$spp" --size "$size" \
   --out "$out/rendered/pebbles.png"
 
+# A closed room: light of a window and of a lamp with a measured profile, a floor of cobbles.
+echo "== room"
+"$python" "$here/room/scene.py" "$out/room.gltf"
+"$nacre" render "$here/room/room.mtlx" --scene "$out/room.gltf" --environment-scale 0 --dice 2 \
+  --max-depth 8 --spp "$spp" --size "$size" --out "$out/rendered/room.png"
+
+echo "== brushed"
+"$python" "$here/brushed/scene.py" "$out/disc.gltf"
+"$nacre" render "$here/brushed/disc.mtlx" --scene "$out/disc.gltf" --ground --environment-scale 0.25 \
+  --spp "$spp" --size "$size" --out "$out/rendered/disc.png"
+
+# Shares of light, as they are.
+echo "== films"
+"$python" "$here/films/scene.py" "$out/films.gltf"
+"$nacre" render "$here/films/films.mtlx" --scene "$out/films.gltf" --environment-scale 0 --white 0 \
+  --spp 16 --size "$size" --out "$out/rendered/films.png"
+
+# Light followed below surfaces, as skin above is too, and beside it the diffuse limit.
+echo "== subsurface"
+"$python" "$here/subsurface/candle.py" "$out/candle.gltf"
+for kind in walk diffuse; do
+  "$nacre" render "$here/subsurface/candle.mtlx" --scene "$out/candle.gltf" --ground \
+    --environment-scale 0.1 --subsurface "$kind" --spp "$spp" --size "$size" \
+    --out "$out/rendered/candle_$kind.png"
+done
+"$nacre" render "$here/documents/skin.mtlx" --subsurface diffuse --spp "$spp" --size "$size" \
+  --out "$out/rendered/skin_diffuse.png"
+
 echo "== lights"
 "$nacre" render "$here/lights/room.mtlx" --scene "$here/lights/room.obj" --spp "$spp" --size "$size" \
   --out "$out/rendered/lights.png"
@@ -63,7 +91,7 @@ echo "== hair"
 "$nacre" render "$here/fibres/hair.mtlx" --scene "$out/ball.hair" --ground --spp "$spp" --size "$size" \
   --max-depth 24 --out "$out/rendered/hair.png"
 
-"$python" "$here/contact_sheet.py" "$out/rendered.png" "$out"/rendered/*.png
+"$python" "$here/contact_sheet.py" "$out/rendered.png" "$out"/rendered/*.png --columns 5 --size 208
 for picture in "$out"/baked/*/*.png; do
   cp "$picture" "$out/baked/$(basename "$(dirname "$picture")").$(basename "$picture" .png | sed 's/^[^.]*\.//').png"
 done

@@ -8,96 +8,19 @@ own axis, and "standing" stands. The posts are one mesh with EXT_mesh_gpu_instan
 materials: "chequer", "post", "floor".
 """
 
-import base64
-import json
 import math
-import struct
+import pathlib
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
-class Scene:
-    def __init__(self):
-        self.data = b""
-        self.gltf = {
-            "asset": {"version": "2.0", "generator": "examples/motion/scene.py"},
-            "extensionsUsed": ["EXT_mesh_gpu_instancing"],
-            "scene": 0,
-            "scenes": [{"nodes": []}],
-            "nodes": [],
-            "meshes": [],
-            "materials": [{"name": name} for name in ("chequer", "post", "floor")],
-            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.62, "znear": 0.1}}],
-            "animations": [{"channels": [], "samplers": []}],
-            "accessors": [],
-            "bufferViews": [],
-        }
-
-    def accessor(self, rows, kind, component=5126):
-        """The index of an accessor of these rows, of floats or (5125) 32-bit indices."""
-        flat = [x for row in rows for x in row]
-        data = struct.pack(f"<{len(flat)}{'f' if component == 5126 else 'I'}", *flat)
-        self.gltf["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data)})
-        self.data += data
-        entry = {"bufferView": len(self.gltf["bufferViews"]) - 1, "componentType": component}
-        entry |= {"count": len(rows), "type": kind}
-        if kind in ("SCALAR", "VEC3") and component == 5126:
-            entry["min"] = [min(column) for column in zip(*rows)]
-            entry["max"] = [max(column) for column in zip(*rows)]
-        self.gltf["accessors"].append(entry)
-        return len(self.gltf["accessors"]) - 1
-
-    def mesh(self, positions, normals, triangles, material):
-        attributes = {"POSITION": self.accessor(positions, "VEC3"), "NORMAL": self.accessor(normals, "VEC3")}
-        corners = self.accessor([[i] for t in triangles for i in t], "SCALAR", 5125)
-        primitive = {"attributes": attributes, "indices": corners, "material": material}
-        self.gltf["meshes"].append({"primitives": [primitive]})
-        return len(self.gltf["meshes"]) - 1
-
-    def node(self, **properties):
-        self.gltf["nodes"].append(properties)
-        self.gltf["scenes"][0]["nodes"].append(len(self.gltf["nodes"]) - 1)
-        return len(self.gltf["nodes"]) - 1
-
-    def animate(self, node, path, times, values):
-        animation = self.gltf["animations"][0]
-        kind = "VEC4" if path == "rotation" else "VEC3"
-        sampler = {"input": self.accessor([[t] for t in times], "SCALAR"), "output": self.accessor(values, kind)}
-        animation["samplers"].append(sampler)
-        target = {"node": node, "path": path}
-        animation["channels"].append({"sampler": len(animation["samplers"]) - 1, "target": target})
-
-    def write(self, path):
-        uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
-        self.gltf["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
-        with open(path, "w", encoding="utf-8") as file:
-            json.dump(self.gltf, file)
-
-
-def ball(radius, steps):
-    """Positions, normals and triangles of a sphere about the origin, poles on y."""
-    normals, triangles = [], []
-    for i in range(steps + 1):
-        for j in range(2 * steps + 1):
-            height, around = math.pi * i / steps, math.pi * j / steps
-            ring = math.sin(height)
-            normals.append([ring * math.cos(around), math.cos(height), ring * math.sin(around)])
-    row = 2 * steps + 1
-    for i in range(steps):
-        for j in range(2 * steps):
-            a, b = i * row + j, (i + 1) * row + j
-            triangles += [[a, a + 1, b]] if i > 0 else []
-            triangles += [[a + 1, b + 1, b]] if i + 1 < steps else []
-    return [[radius * x for x in n] for n in normals], normals, triangles
-
-
-def quaternion(axis, angle):
-    return [math.sin(angle / 2) * x for x in axis] + [math.cos(angle / 2)]
+from gltf_scene import Scene, ball, quaternion  # noqa: E402: the folder above is found by then.
 
 
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__.split("\n")[2])
-    scene = Scene()
+    scene = Scene("examples/motion/scene.py", ("chequer", "post", "floor"))
     sphere = scene.mesh(*ball(0.6, 48), material=0)
     rolling = scene.node(name="rolling", mesh=sphere, translation=[-1.5, 0.6, 0.9])
     spinning = scene.node(name="spinning", mesh=sphere, translation=[0.4, 0.6, -0.9])
@@ -122,8 +45,8 @@ def main():
     corners = [[x, 0.0, z] for x, z in ((-9, 9), (9, 9), (9, -9), (-9, -9))]
     floor = scene.mesh(corners, [[0.0, 1.0, 0.0]] * 4, [[0, 1, 2], [0, 2, 3]], material=2)
     scene.node(name="floor", mesh=floor)
-    scene.node(name="camera", camera=0, translation=[0.0, 3.2, 8.5], rotation=quaternion([1, 0, 0], -0.32))
-    scene.write(sys.argv[1])
+    scene.camera([0.0, 3.2, 8.5], quaternion([1, 0, 0], -0.32), yfov=0.62)
+    scene.write(sys.argv[1], extensions=["EXT_mesh_gpu_instancing"])
 
 
 if __name__ == "__main__":
