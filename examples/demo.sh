@@ -38,7 +38,7 @@ echo "== motion"
 
 # More samples: what is within is lit by light that paths happen to meet.
 echo "== volumes"
-"$nacre" render "$here/volumes/smoke.mtlx" --spp $((4 * spp)) --size "$size" --out "$out/rendered/smoke.png"
+"$nacre" render "$here/volumes/smoke.mtlx" --spp $((2 * spp)) --size "$size" --out "$out/rendered/smoke.png"
 
 echo "== displacement"
 "$nacre" render "$here/displacement/pebbles.mtlx" --spp "$spp" --size "$size" \
@@ -64,12 +64,12 @@ echo "== films"
 # Light followed below surfaces, as skin above is too, and beside it the diffuse limit.
 echo "== subsurface"
 "$python" "$here/subsurface/candle.py" "$out/candle.gltf"
-for kind in walk diffuse; do
-  "$nacre" render "$here/subsurface/candle.mtlx" --scene "$out/candle.gltf" --ground \
-    --environment-scale 0.1 --subsurface "$kind" --spp "$spp" --size "$size" \
-    --out "$out/rendered/candle_$kind.png"
-done
-"$nacre" render "$here/documents/skin.mtlx" --subsurface diffuse --spp "$spp" --size "$size" \
+candle=("$here/subsurface/candle.mtlx" --scene "$out/candle.gltf" --ground --environment-scale 0.1)
+few=$(((spp + 3) / 4))
+"$nacre" render "${candle[@]}" --spp "$spp" --size "$size" --out "$out/rendered/candle_walk.png"
+"$nacre" render "${candle[@]}" --subsurface diffuse --spp "$few" --size "$size" \
+  --out "$out/rendered/candle_diffuse.png"
+"$nacre" render "$here/documents/skin.mtlx" --subsurface diffuse --spp "$few" --size "$size" \
   --out "$out/rendered/skin_diffuse.png"
 
 echo "== lights"
