@@ -6,6 +6,7 @@
 #include <string>
 
 #include "pbs/color_channels.h"
+#include "pbs/emission.h"
 #include "pbs/enclosed.h"
 #include "pbs/term.h"
 #include "pbs/transport.h"
@@ -61,7 +62,7 @@ class SurfaceRecorder {
       if (wants(entry_sample | entry_shade)) record_sample();
       if (wants(entry_albedo)) add_color(kernels_.albedo, "albedo", albedo());
     }
-    if (wants(entry_emission)) record_emission();
+    if (wants(entry_emission | entry_emit)) record_emission();
     if (wants(entry_opacity)) record_opacity();
     if (wants(entry_interior)) kernels_.interior = interior_channels(view_, terms_, media_);
     if (wants(entry_subsurface)) kernels_.subsurface = subsurface_channels(view_, terms_);
@@ -342,7 +343,12 @@ class SurfaceRecorder {
       kernels_.manifest.push_back("emission: always black");
       return;
     }
-    add_color(kernels_.emission, "emission", emitted);
+    if (wants(entry_emission)) add_color(kernels_.emission, "emission", emitted);
+    if (!wants(entry_emit)) return;
+    const ScopedOrigin origin(recorder_, "emission");
+    SampledEmission sampled = sampled_emission(surface_.edf, view_, emitted);
+    kernels_.emit = std::move(sampled.emit);
+    if (wants(entry_emission)) kernels_.emission.push_back({"pdf", sampled.pdf.ref()});
   }
 
   void record_shadow() {

@@ -25,9 +25,10 @@ enum KernelEntry : std::uint32_t {
   entry_interior = 1 << 12,
   entry_subsurface = 1 << 13,
   entry_shadow = 1 << 14,
+  entry_emit = 1 << 15,
   /// What most renderers ask one after another.
   entry_usual = ~std::uint32_t(entry_evaluate_at | entry_shade | entry_interior | entry_subsurface |
-                               entry_shadow),
+                               entry_shadow | entry_emit),
 };
 
 /// What a host wants of a surface's kernels; only this is recorded.
@@ -77,6 +78,12 @@ bool is_point_result(std::string_view name);
 ///   albedo    out: albedo.x .y .z     fraction of light that scatters, at wo; at most 1, also
 ///                                     where weights above 1 let more leave than arrives
 ///   emission  out: emission.x .y .z   radiance towards wo
+///                  [, pdf: where `emit` is asked for too, the density with which it gives wo]
+///   emit      in:  u.x u.y u.z, geometry but wo
+///             out: emitted.x .y .z: unit, from the point, on either side as `emission` has light
+///                  there; weight.x .y .z (emission |cos emitted| / pdf, by the geometric normal:
+///                  what a path of light carries there); pdf by solid angle, 0 where there is no
+///                  light or none was found. Absent where nothing emits
 ///   opacity   out: opacity, transmission.x .y .z: of a ray that meets the
 ///             surface, 1 - opacity + opacity * transmission goes straight on
 ///   shadow    out: presence, opacity_color.x .y .z: of light that goes straight on through the
@@ -100,7 +107,7 @@ struct SurfaceKernels {
   /// Channels as listed above.
   /// @{
   std::vector<SliceOutput> evaluate, sample, albedo, emission, opacity, interior, subsurface,
-      shadow, point;
+      shadow, emit, point;
   /// @}
   /// One line for each thing that was left out, with the reason.
   std::vector<std::string> manifest;

@@ -91,12 +91,19 @@ Json inspect_material(const Opened& opened, const std::string& material,
               {"left_out", kernels->manifest}};
   Json list = Json::object();
   const std::pair<const char*, const std::optional<BoundKernel>*> all[]{
-      {"begin", &kernels->begin},           {"sample", &kernels->sample},
-      {"evaluate", &kernels->evaluate},     {"albedo", &kernels->albedo},
-      {"emission", &kernels->emission},     {"opacity", &kernels->opacity},
-      {"volume", &kernels->volume},         {"displacement", &kernels->displacement},
-      {"light", &kernels->light},           {"interior", &kernels->interior},
-      {"subsurface", &kernels->subsurface}, {"shadow", &kernels->shadow}};
+      {"begin", &kernels->begin},
+      {"sample", &kernels->sample},
+      {"evaluate", &kernels->evaluate},
+      {"albedo", &kernels->albedo},
+      {"emission", &kernels->emission},
+      {"opacity", &kernels->opacity},
+      {"volume", &kernels->volume},
+      {"displacement", &kernels->displacement},
+      {"light", &kernels->light},
+      {"interior", &kernels->interior},
+      {"subsurface", &kernels->subsurface},
+      {"shadow", &kernels->shadow},
+      {"emit", &kernels->emit}};
   std::vector<NamedKernel> present;
   for (const auto& [name, kernel] : all) {
     if (!kernel->has_value()) continue;

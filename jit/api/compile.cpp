@@ -12,7 +12,8 @@ namespace {
 static_assert(entry_begin == 1u << NACRE_BEGIN && entry_evaluate_at == 1u << NACRE_EVALUATE_AT &&
               entry_opacity == 1u << NACRE_OPACITY && entry_shade == 1u << NACRE_SHADE &&
               entry_interior == 1u << NACRE_INTERIOR &&
-              entry_subsurface == 1u << NACRE_SUBSURFACE && entry_shadow == 1u << NACRE_SHADOW);
+              entry_subsurface == 1u << NACRE_SUBSURFACE && entry_shadow == 1u << NACRE_SHADOW &&
+              entry_emit == 1u << NACRE_EMIT);
 static_assert(int{lobe_all} == (NACRE_DIFFUSE_REFLECTION | NACRE_GLOSSY_REFLECTION |
                                 NACRE_DIFFUSE_TRANSMISSION | NACRE_GLOSSY_TRANSMISSION) &&
               int{lobe_delta_reflection} == NACRE_DELTA_REFLECTION &&

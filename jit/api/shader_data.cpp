@@ -63,6 +63,7 @@ ShaderData::ShaderData(std::unique_ptr<MaterialKernels> kernels)
   add(NACRE_INTERIOR, std::move(kernels->interior));
   add(NACRE_SUBSURFACE, std::move(kernels->subsurface));
   add(NACRE_SHADOW, std::move(kernels->shadow));
+  add(NACRE_EMIT, std::move(kernels->emit));
   for (const std::string& line : kernels->manifest) {
     const auto& changes = kernels->not_modelled;
     left_out_.emplace_back(line, std::ranges::find(changes, line) != changes.end());

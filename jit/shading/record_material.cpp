@@ -142,6 +142,7 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   add_entry(&MaterialKernels::interior, "interior", surface_kernels.interior, Keeps::pass);
   add_entry(&MaterialKernels::subsurface, "subsurface", surface_kernels.subsurface, Keeps::pass);
   add_entry(&MaterialKernels::shadow, "shadow", surface_kernels.shadow, Keeps::pass);
+  add_entry(&MaterialKernels::emit, "emit", surface_kernels.emit, Keeps::pass);
   for (const Recorded& value : *values) {
     const auto found = std::ranges::find(other_kernels, value.type, &OtherKernel::type);
     if (found == std::end(other_kernels) || !wants(found->entry)) continue;

@@ -163,6 +163,8 @@ struct MaterialKernels {
   std::optional<BoundKernel> subsurface;
   /// Only if requested: what a straight ray loses, see SurfaceKernels.
   std::optional<BoundKernel> shadow;
+  /// Only if requested: a direction that light leaves along, see SurfaceKernels.
+  std::optional<BoundKernel> emit;
   /// Numbers k of the state channels, ascending: the host gives each an array.
   std::vector<std::uint32_t> state;
   std::vector<LobeInfo> lobes;        ///< The channel `lobe` of sample counts in this order.

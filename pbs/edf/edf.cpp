@@ -32,6 +32,16 @@ Color3 radiance(const EdfPtr& edf, const View& view) {
   return finite_light(known.at(edf.get()));
 }
 
+Color3 Edf::part_power(std::size_t, Color3 power) const { return power; }
+
+Color3 power_seen(Color3 power, Color3 factor) {
+  const auto one = [](Float x, Float y) {
+    if (x.is_constant(0.0f) || y.is_constant(0.0f)) return Float(0.0f);
+    return select((x > 0.0f) & (y > 0.0f), clamp(x * y, 1e-20f, 1e20f), 0.0f);
+  };
+  return {one(power.x, factor.x), one(power.y, factor.y), one(power.z, factor.z)};
+}
+
 EdfPtr as_edf(const ClosurePtr& closure) { return std::dynamic_pointer_cast<const Edf>(closure); }
 
 }  // namespace nacre

@@ -19,6 +19,16 @@ class GeneralizedSchlickEdf final : public Edf {
     // pow(0, 0) is 1: with exponent 0 color90 holds at normal incidence as well.
     return product(base, lerp(color0_, color90_, pow(max(flat, 0.0f), exponent_)));
   }
+  // The mean of (1 - cos)^n over the light of a uniform base: 2 / ((n + 1) (n + 2)). Each of the
+  // colours counts, be it of one angle alone or next to nothing.
+  Color3 part_power(std::size_t, Color3 power) const override {
+    const Float mean = 2.0f / ((exponent_ + 1.0f) * (exponent_ + 2.0f));
+    const auto one = [&](Float a, Float b) {
+      return select(max(a, b) > 0.0f, max(lerp(a, b, mean), 1e-20f), 0.0f);
+    };
+    return power_seen(power, {one(color0_.x, color90_.x), one(color0_.y, color90_.y),
+                              one(color0_.z, color90_.z)});
+  }
 
  private:
   Color3 color0_, color90_;

@@ -11,6 +11,7 @@
 #include "pbs/edf.h"
 #include "pbs/facets.h"
 #include "pbs/profile/ies.h"
+#include "pbs/profile/sample_profile.h"
 #include "pbs/sampling.h"
 #include "runtime/node/geometry.h"
 
@@ -108,25 +109,40 @@ Angles folded(const LightProfile& profile, Angles at) {
   return at;
 }
 
-class MeasuredEdf final : public Edf {
+class MeasuredEdf final : public Emitter {
  public:
-  /// `profile`: relative(); nothing emits in all directions alike.
-  MeasuredEdf(Color3 color, Float3 normal, Float3 tangent, std::optional<LightProfile> profile)
+  /// `profile`: relative().
+  MeasuredEdf(Color3 color, Float3 normal, Float3 tangent, LightProfile profile)
       : color_(color), normal_(normal), tangent_(tangent), profile_(std::move(profile)) {}
 
   Color3 radiance(const View& view, Color3, Color3) const override {
-    if (is_zero(color_) || !profile_) return color_;
-    return color_ * Color3(look_up(*view.recorder, *profile_, view.wo));
+    if (is_zero(color_)) return color_;
+    return color_ * Color3(look_up(*view.recorder, frame().to_local(view.wo)));
+  }
+
+  Color3 power() const override {
+    return power_seen(color_, Color3(tables().total > 0.0 ? 2.0f * pi : 0.0f));
+  }
+  Float3 sample(const View& view, Float3 u) const override {
+    if (tables().total == 0.0) return normal_;
+    return frame().to_world(sample_profile(*view.recorder, profile_, tables(), u));
+  }
+  Float pdf(const View& view) const override {
+    if (tables().total == 0.0) return 0.0f;
+    const Float3 local = frame().to_local(view.wo);
+    return look_up(*view.recorder, local) * profile_weight(profile_.type, local) *
+           Float(1.0 / tables().total);
   }
 
  private:
-  Float look_up(Recorder& recorder, const LightProfile& profile, Float3 wo) const {
-    const auto rows = static_cast<std::int32_t>(profile.vertical.size());
-    const std::uint32_t table = recorder.table("profile.intensity", profile.intensity);
-    const bool is_ring = profile.horizontal.size() == 1;
-    const Frame frame = is_ring ? make_frame(normal_) : make_frame(normal_, tangent_);
-    const Angles at = folded(profile, angles_of(profile.type, frame.to_local(wo)));
-    const auto v = AngleTable(recorder, "vertical", profile.vertical).find(at.vertical);
+  bool is_ring() const { return profile_.horizontal.size() == 1; }
+  Frame frame() const { return is_ring() ? make_frame(normal_) : make_frame(normal_, tangent_); }
+
+  Float look_up(Recorder& recorder, Float3 local) const {
+    const auto rows = static_cast<std::int32_t>(profile_.vertical.size());
+    const std::uint32_t table = recorder.table("profile.intensity", profile_.intensity);
+    const Angles at = folded(profile_, angles_of(profile_.type, local));
+    const auto v = AngleTable(recorder, "vertical", profile_.vertical).find(at.vertical);
     const auto column = [&](Int first) {
       const auto value = [&](Int row) {
         const std::array<Ref, 1> operand{(first + row).ref()};
@@ -134,16 +150,23 @@ class MeasuredEdf final : public Edf {
       };
       return lerp(value(v.first), value(v.first + Int(1)), v.fraction);
     };
-    if (is_ring) return select(v.measured, column(Int(0)), 0.0f);
-    const auto h = AngleTable(recorder, "horizontal", profile.horizontal).find(at.horizontal);
+    if (is_ring()) return select(v.measured, column(Int(0)), 0.0f);
+    const auto h = AngleTable(recorder, "horizontal", profile_.horizontal).find(at.horizontal);
     const Float found =
         lerp(column(h.first * Int(rows)), column((h.first + Int(1)) * Int(rows)), h.fraction);
     return select(v.measured & h.measured, found, 0.0f);
   }
 
+  /// Made where somebody samples; the recorder's thread is the only one.
+  const ProfileTables& tables() const {
+    if (!tables_) tables_ = make_profile_tables(profile_);
+    return *tables_;
+  }
+
   Color3 color_;
   Float3 normal_, tangent_;
-  std::optional<LightProfile> profile_;
+  LightProfile profile_;
+  mutable std::optional<ProfileTables> tables_;
 };
 
 /// With radiance in place of candela, over that of a surface that emits as much in all directions
@@ -185,8 +208,10 @@ void record_closure_measured_edf(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Color3 color = keep(recorder, max(call.vector3("color"), Color3(0.0f)));
   const Float3 normal = prepare_normal(recorder, call.vector3("normal"));
+  std::optional<LightProfile> profile = read_profile(call);
+  if (!profile) return call.set(uniform_edf(color));
   call.set(std::make_shared<MeasuredEdf>(color, normal, tangent(recorder, Space::world),
-                                         read_profile(call)));
+                                         std::move(*profile)));
 }
 
 }  // namespace nacre

@@ -15,6 +15,9 @@ class MixEdf final : public Edf {
   Color3 radiance(const View&, Color3 fg, Color3 bg) const override {
     return product(fg, Color3(mix_)) + product(bg, Color3(1.0f - mix_));
   }
+  Color3 part_power(std::size_t i, Color3 power) const override {
+    return power_seen(power, Color3(i == 0 ? mix_ : 1.0f - mix_));
+  }
 
  private:
   Float mix_;

@@ -11,6 +11,7 @@ class MultiplyEdf final : public Edf {
  public:
   MultiplyEdf(EdfPtr in1, Color3 tint) : Edf(std::move(in1)), tint_(tint) {}
   Color3 radiance(const View&, Color3 in1, Color3) const override { return product(in1, tint_); }
+  Color3 part_power(std::size_t, Color3 power) const override { return power_seen(power, tint_); }
 
  private:
   Color3 tint_;

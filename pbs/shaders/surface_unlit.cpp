@@ -3,20 +3,6 @@
 
 namespace nacre {
 
-namespace {
-
-/// The same radiance in all directions.
-class FlatEdf final : public Edf {
- public:
-  explicit FlatEdf(Color3 radiance) : radiance_(radiance) {}
-  Color3 radiance(const View&, Color3, Color3) const override { return radiance_; }
-
- private:
-  Color3 radiance_;
-};
-
-}  // namespace
-
 /// surface_unlit: emission and straight transmission, no scattering. MaterialX
 /// 1.39 Standard Nodes, "Shader Nodes". Colours below zero count as zero.
 void record_closure_surface_unlit(NodeCall& call) {
@@ -24,7 +10,7 @@ void record_closure_surface_unlit(NodeCall& call) {
     return weigh(max(call.number(weight), 0.0f), max(call.vector3(color), Color3(0.0f)));
   };
   auto surface = std::make_shared<Surface>();
-  surface->edf = std::make_shared<FlatEdf>(weighted("emission", "emission_color"));
+  surface->edf = uniform_edf(weighted("emission", "emission_color"));
   surface->transmission = saturate(weighted("transmission", "transmission_color"));
   surface->opacity = saturate(call.number("opacity"));
   call.set(std::move(surface));

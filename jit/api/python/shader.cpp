@@ -78,7 +78,8 @@ void bind_shader(nb::module_& module) {
       .value("SHADE", NACRE_SHADE, "Point, wi and u at once, without a state.")
       .value("INTERIOR", NACRE_INTERIOR, "Index and medium of what the surface encloses.")
       .value("SUBSURFACE", NACRE_SUBSURFACE, "Medium of light that goes below the surface.")
-      .value("SHADOW", NACRE_SHADOW, "Presence, and what is held back of light straight on.");
+      .value("SHADOW", NACRE_SHADOW, "Presence, and what is held back of light straight on.")
+      .value("EMIT", NACRE_EMIT, "A direction that light leaves along, its weight and pdf.");
 
   nb::class_<Shader>(module, "Shader")
       .def(

@@ -108,6 +108,31 @@ TEST_F(RixBxdfPage, WhatOnlyEmitsHasNoLobes) {
   }
 }
 
+// Paths that begin at a light have directions of what it emits: each carries the power that it has.
+TEST_F(RixBxdfPage, EmittedLightHasDirections) {
+  constexpr std::size_t count = 300;
+  CompileOptions options;
+  options.entries = 1u << NACRE_EMISSION | 1u << NACRE_EMIT;
+  const Shader shader = compile(R"(<materialx version="1.39">
+    <surface_unlit name="S" type="surfaceshader"><input name="emission_color" type="color3" value="2, 3, 4"/></surface_unlit>
+    <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  </materialx>)",
+                                options);
+  EXPECT_FALSE(reads(shader, NACRE_EMIT, "wo"));
+  const Columns emitted = ask(shader, NACRE_EMIT, random(direction(0), count), count);
+  std::vector<Direction> wo;
+  for (std::size_t i = 0; i < count; ++i) {
+    wo.push_back(
+        {emitted.at("emitted.x")[i], emitted.at("emitted.y")[i], emitted.at("emitted.z")[i]});
+    EXPECT_NEAR(emitted.at("weight.y")[i], 3 * 2 * pi, 1e-4f) << i;
+  }
+  Columns seen;
+  put(seen, "wo", wo);
+  const Columns again = ask(shader, NACRE_EMISSION, seen, count);
+  EXPECT_EQ(again.at("pdf"), emitted.at("pdf"));
+  EXPECT_EQ(again.at("emission.x"), std::vector<float>(count, 2.0f));
+}
+
 // The same at a point of a surface that scatters elsewhere.
 TEST_F(RixBxdfPage, PointsThatScatterNothingHaveDensitiesOfZero) {
   CompileOptions options;

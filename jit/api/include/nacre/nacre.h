@@ -130,7 +130,12 @@ typedef enum nacre_entry {
                             opacity_color is held back. Smooth thin walls let light pass as
                             NACRE_SAMPLE does: a host that shades shadows by this counts such
                             light once. */
-  NACRE_ENTRY_COUNT = 15
+  NACRE_EMIT = 15,       /* Of a surface that shines, by u: a direction `emitted` that light leaves
+                            along, on either side, its pdf, and as weight emission |cos emitted| /
+                            pdf, by Ng. Reads no wo. Asked for, NACRE_EMISSION stores the pdf of wo
+                            as well. Of a shader that has a back, what is on the other side than
+                            its own is the other's: a host drops it. */
+  NACRE_ENTRY_COUNT = 16
 } nacre_entry;
 
 /* Bits of the channel `flags` of NACRE_SAMPLE. */
@@ -197,7 +202,7 @@ typedef struct nacre_compile_options {
                       behind rough bounces find no sharp lobes. */
   /* Bits 1 << nacre_entry of those that are compiled, for rays that ask no more: a shadow ray needs
      NACRE_OPACITY. NACRE_BEGIN comes with what reads its state. 0: all but NACRE_EVALUATE_AT,
-     NACRE_SHADE, NACRE_INTERIOR, NACRE_SUBSURFACE and NACRE_SHADOW. */
+     NACRE_SHADE, NACRE_INTERIOR, NACRE_SUBSURFACE, NACRE_SHADOW and NACRE_EMIT. */
   uint32_t entries;
   /* What NACRE_BEGIN and NACRE_SHADE also store, so that nothing of a point is computed twice:
      "albedo", "emission", "opacity" (and transmission), "normal", "roughness", or a value of the

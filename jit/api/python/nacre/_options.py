@@ -63,7 +63,7 @@ class CompileOptions(TypedDict, total=False):
     min_alpha: bool  # A parameter min_alpha raises the roughness of what is smoother.
     energy_conserving: bool  # Lobes together give no more light than arrives, whatever the model.
     # Entries that are compiled; BEGIN comes with what reads its state. None: all but EVALUATE_AT,
-    # SHADE, INTERIOR, SUBSURFACE and SHADOW.
+    # SHADE, INTERIOR, SUBSURFACE, SHADOW and EMIT.
     entries: Iterable[_core.Entry]
     # What BEGIN and SHADE also store: "albedo", "emission", "opacity", "normal", "roughness", or
     # a value of the graph by its path: "NG_marble/noise1", "SR_marble/base_color".

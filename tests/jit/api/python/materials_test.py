@@ -153,3 +153,21 @@ def test_channels_say_what_they_are(lambert):
     assert (wi.component, wi.dtype, wi.role, wi.unit) == (0, "float32", "direction", "unit vector")
     names = {each.name for each in lambert.results(Entry.EVALUATE)}
     assert {"f.x", "f.y", "f.z", "pdf"} <= names
+
+
+def test_emitted_light_carries_the_power(system):
+    document = nacre.Document.parse("""<materialx version="1.39">
+      <uniform_edf name="e" type="EDF"><input name="color" type="color3" value="1, 2, 4"/></uniform_edf>
+      <surface name="S" type="surfaceshader"><input name="edf" type="EDF" nodename="e"/></surface>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>""")
+    shader = system.compile_material(document, "M", no_footprints=True,
+                                     entries=[Entry.EMISSION, Entry.EMIT])
+    points = nacre.surface_points((0.0, 0.0, 0.0), N, N)
+    u = numpy.random.default_rng(7).random((COUNT, 3), "float32")
+    light = shader.run(points | {"u": u}, Entry.EMIT)
+    assert light["emitted"].shape == (COUNT, 3)
+    numpy.testing.assert_allclose(light["pdf"], abs(light["emitted"][:, 2]) / (2 * math.pi), rtol=1e-4)
+    numpy.testing.assert_allclose(light["weight"][:, 1], 4 * math.pi, rtol=1e-4)
+    seen = shader.run(points | {"wo": light["emitted"]}, Entry.EMISSION)
+    numpy.testing.assert_array_equal(seen["pdf"], light["pdf"])
