@@ -110,7 +110,7 @@ class ClosureGraph {
 KernelRequest request_of(const ClosureWay& way) {
   KernelRequest request;
   request.entries = entry_begin | entry_sample | entry_evaluate | entry_albedo | entry_emission |
-                    entry_opacity | entry_interior | entry_shadow;
+                    entry_opacity | entry_interior | entry_shadow | entry_emit;
   request.reverse_pdf = true;
   request.with_begin = {"normal", "roughness"};
   if (!way.asks_all) return request;

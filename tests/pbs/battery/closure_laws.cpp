@@ -107,10 +107,12 @@ class Trial {
     }
     if (material.evaluate) try_evaluate(run(*material.evaluate));
     if (material.sample) try_sample(material, run(*material.sample));
-    for (const auto* kernel : {&material.albedo, &material.emission, &material.opacity,
-                               &material.shadow, &material.interior}) {
+    for (const auto* kernel :
+         {&material.albedo, &material.opacity, &material.shadow, &material.interior}) {
       if (*kernel) try_channels(run(**kernel));
     }
+    if (material.emission) try_emission(run(*material.emission));
+    if (material.emit) try_emit(material, run(*material.emit));
     if (material.subsurface) try_channels(run(*material.subsurface));
   }
 
@@ -174,13 +176,86 @@ class Trial {
     }
   }
 
-  /// What entries other than evaluate and sample give, by name.
+  void try_emission(const Results& r) {
+    expect_all(r, "emission", sane, "emission is finite and not negative");
+    expect_all(r, "pdf", sane, "the pdf of emission is finite and not negative");
+    const Results point(in_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double light = brightest(r, "emission", i), pdf = r.number("pdf", i);
+      // Along the horizon the density has too few bits.
+      const bool leaves =
+          light > 0.0 && is_unit(point, "wo", i) && std::abs(cosine(point, "wo", i)) > 1e-30;
+      expect(!leaves || pdf > 0.0, "emission needs a pdf", i,
+             [&] { return fmt::format("emission = {}, pdf = {}", light, pdf); });
+    }
+  }
+
+  /// Changes wo.
+  void try_emit(const MaterialKernels& material, const Results& s) {
+    expect_unit(s, "emitted", false, "emitted is unit");
+    expect_all(s, "weight", sane, "the weight of emitted light is finite and not negative");
+    expect_all(s, "pdf", sane, "the pdf of emitted light is finite and not negative");
+    for (const char* k : {".x", ".y", ".z"}) {
+      in_[std::string("wo") + k] = s.arrays().find(std::string("emitted") + k)->second;
+    }
+    const Results e = run(*material.emission);
+    const Results point(in_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const float pdf = s.number("pdf", i), weight = brightest(s, "weight", i);
+      expect(pdf > 0.0f || weight == 0.0f, "emitted light has a pdf", i,
+             [&] { return fmt::format("weight = {}, pdf = {}", weight, pdf); });
+      if (pdf > 0.0f) compare_emitted(s, e, point, i);
+    }
+  }
+
+  void compare_emitted(const Results& s, const Results& e, const Results& point, std::size_t i) {
+    const double pdf = s.number("pdf", i), again = e.number("pdf", i);
+    const bool is_fast = kernels_.way.accuracy == Accuracy::fast;
+    expect(is_fast ? agree(pdf, again, 1e-3, smallest) : pdf == again,
+           "emission has the pdf of emitted light", i,
+           [&] { return fmt::format("emit {}, emission {}", pdf, again); });
+    for (const char* k : {".x", ".y", ".z"}) {
+      const double weight = s.number(std::string("weight") + k, i);
+      const double emission = e.number(std::string("emission") + k, i);
+      const double light = emission * std::abs(cosine(point, "wo", i));
+      // A cosine of floats has so many digits.
+      const double rounding = 1e-6 * emission;
+      expect(weight == largest ||
+                 agree(weight * pdf, light, 1e-3, rounding + smallest * std::max(1.0, pdf)),
+             "weight pdf is emission cos", i, [&] {
+               return fmt::format("weight {} pdf {} = {}, emission cos {}", weight, pdf,
+                                  weight * pdf, light);
+             });
+    }
+  }
+
+  /// To Ng.
+  static double cosine(const Results& point, const std::string& w, std::size_t i) {
+    double sum = 0.0;
+    for (const char* k : {".x", ".y", ".z"}) {
+      sum += double(point.number(w + k, i)) * double(point.number(std::string("Ng") + k, i));
+    }
+    return sum;
+  }
+
+  /// As a kernel takes it.
+  static bool is_unit(const Results& point, const std::string& w, std::size_t i) {
+    double sum = 0.0;
+    for (const char* k : {".x", ".y", ".z"}) sum += std::pow(double(point.number(w + k, i)), 2.0);
+    return std::abs(sum - 1.0) < 0.9e-3;
+  }
+
+  static float brightest(const Results& r, const std::string& name, std::size_t i) {
+    return std::max({r.number(name + ".x", i), r.number(name + ".y", i), r.number(name + ".z", i)});
+  }
+
+  /// What other entries give, by name.
   void try_channels(const Results& r) {
     for (const char* name : {"albedo", "opacity", "presence", "opacity_color"}) {
       expect_all(r, name, is_share, std::string(name) + " is in [0, 1]");
     }
-    for (const char* name : {"emission", "transmission", "absorption", "scattering", "eta",
-                             "out.emission", "out.absorption", "out.scattering", "out.distance"}) {
+    for (const char* name : {"transmission", "absorption", "scattering", "eta", "out.emission",
+                             "out.absorption", "out.scattering", "out.distance"}) {
       expect_all(r, name, sane, std::string(name) + " is finite and not negative");
     }
     expect_all(r, "eta", [](float x) { return x > 0.0f; }, "eta is positive");

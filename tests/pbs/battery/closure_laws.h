@@ -22,7 +22,11 @@ struct ClosureFault {
 ///             not delta, `evaluate` of wi has that pdf, to the bit but for `fast`, and weight
 ///             times pdf is f
 ///   albedo, opacity, presence, opacity_color, roughness  in [0, 1]
-///   emission, transmission  finite and not negative
+///   emission, transmission  finite and not negative; with emission a pdf that is finite, not
+///             negative, and above 0 where there is light
+///   emit      emitted unit to 1e-5; weight and pdf finite and not negative, both 0 where one is;
+///             `emission` along it has that pdf, to the bit but for `fast`, and weight times pdf is
+///             emission times the cosine to Ng
 ///   interior, subsurface, media  coefficients finite and not negative, eta positive, anisotropy
 ///             in [-1, 1]
 ///   lights    intensity and direction finite, distance not negative; direction unit, or 0 where
