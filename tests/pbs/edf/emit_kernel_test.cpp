@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <nacre/lobe_test/sphere_partition.hpp>
 
 #include "tests/pbs/edf/emission_kernels.h"
@@ -185,6 +186,28 @@ TEST(EmitKernel, NumbersOfAnyBitsGiveDirectionsOrNone) {
       ASSERT_TRUE(out.at("pdf")[i] >= 0.0f && std::isfinite(out.at("pdf")[i])) << row.name << i;
       ASSERT_TRUE(out.at("weight.x")[i] >= 0.0f && out.at("weight.x")[i] <= 1.01 * row.most_weight)
           << row.name << i << " " << out.at("weight.x")[i];
+    }
+  }
+}
+
+TEST(EmitKernel, ViewsOfAnyBitsHaveADensity) {
+  const float infinite = std::numeric_limits<float>::infinity();
+  const float numbers[] = {
+      0.0f,  1.0f,   -1.0f,      infinite, std::numeric_limits<float>::quiet_NaN(),
+      3e38f, 1e-38f, 0.70710678f};
+  std::vector<Direction> wo;
+  for (const float x : numbers) {
+    for (const float y : numbers) {
+      for (const float z : numbers) wo.push_back({x, y, z});
+    }
+  }
+  for (const EmissionCase& row : emission_cases()) {
+    const EmissionKernels kernels(row, emission_options(Accuracy::standard));
+    const EmissionColumns seen = kernels.emission(tilted_point(), wo);
+    for (std::size_t i = 0; i < wo.size(); ++i) {
+      const float pdf = seen.at("pdf")[i], light = seen.at("emission.x")[i];
+      ASSERT_TRUE(pdf >= 0.0f && std::isfinite(pdf)) << row.name << i << " " << pdf;
+      ASSERT_TRUE(light >= 0.0f && std::isfinite(light)) << row.name << i << " " << light;
     }
   }
 }
