@@ -80,10 +80,12 @@ class ProfileSampler {
       const auto density = [&](Float t) {
         return lerp(first, last, t) * weight(lerp(from, to, t));
       };
-      // Gauss-Legendre, two points; over 10 degrees as good as exact.
+      // Gauss-Legendre, three points (Abramowitz and Stegun, table 25.4): over 10 degrees within
+      // 2e-7 of the segment's all. Two would be within 4e-4.
       const auto below = [&](Float t) {
-        constexpr float near = 0.211324865f, far = 0.788675135f;
-        return 0.5f * t * (density(near * t) + density(far * t));
+        constexpr float near = 0.112701665f, far = 0.887298335f;
+        const Float outer = density(near * t) + density(far * t);
+        return t * fma(4.0f / 9.0f, density(0.5f * t), 5.0f / 18.0f * outer);
       };
       const Float wanted = share * below(1.0f);
       const Float start = invert_linear(density(0.0f), density(1.0f), share);
