@@ -204,6 +204,7 @@ def hosts(run: results.Run) -> str:
                                 ("single", "a binding, code for single points"),
                                 ("code", "the code for single points itself"),
                                 ("empty", "a binding, no point"),
+                                ("empty_of_instance", "the same with an instance"),
                                 ("empty_code", "the code itself, no point"))]
     made = run.get("hosts/instance")
     topologies = [[live, number(figure.counters["compile_cpu_s"]), cell(figure),

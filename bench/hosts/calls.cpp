@@ -51,17 +51,20 @@ std::array<float, 4> expected() {
   return first_result(points);
 }
 
-void by_binding(benchmark::State& state, bool single, std::uint64_t count) {
+void by_binding(benchmark::State& state, bool single, std::uint64_t count,
+                bool with_instance = false) {
   Points points(false);
   const Binding binding = points.bind(shader(single));
   begin(binding, points);
   const std::vector<void*> arrays = points.arrays();
+  const Instance values(shader(single));
+  const Instance* const instance = with_instance ? &values : nullptr;
   Batch batch;
   batch.count = 1;
-  binding.run(NACRE_EVALUATE, arrays, batch);
+  binding.run(NACRE_EVALUATE, arrays, batch, instance);
   if (first_result(points) != expected()) return state.SkipWithError("another result");
   batch.count = count;
-  for (auto _ : state) binding.run(NACRE_EVALUATE, arrays, batch);
+  for (auto _ : state) binding.run(NACRE_EVALUATE, arrays, batch, instance);
   state.SetItemsProcessed(state.iterations());
 }
 
@@ -97,6 +100,7 @@ void register_calls() {
   add("single", [](benchmark::State& state) { by_binding(state, true, 1); });
   add("code", [](benchmark::State& state) { by_code(state, 1); });
   add("empty", [](benchmark::State& state) { by_binding(state, false, 0); });
+  add("empty_of_instance", [](benchmark::State& state) { by_binding(state, false, 0, true); });
   add("empty_code", [](benchmark::State& state) { by_code(state, 0); });
 }
 

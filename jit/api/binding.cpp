@@ -4,12 +4,14 @@
 #include <atomic>
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "jit/api/call.h"
 #include "jit/api/handles.h"
 #include "jit/api/run_status.h"
+#include "runtime/batch/words.h"
 
 using namespace nacre;
 using namespace nacre::api;
@@ -17,6 +19,8 @@ using namespace nacre::api;
 struct nacre_binding {
   std::shared_ptr<const ShaderData> data;
   std::array<std::optional<Binding>, NACRE_ENTRY_COUNT> entries;
+  /// Each kernel's slots with the values of the document, for calls without an instance.
+  std::array<std::vector<std::uint32_t>, NACRE_ENTRY_COUNT> slots;
   /// Of NACRE_EVALUATE_AT: where ShaderData::point_channels() are, as inputs.
   std::optional<Binding> of_point;
   std::vector<std::uint32_t> point_slots;  ///< Of the kernel, one each of its inputs.
@@ -26,28 +30,33 @@ namespace {
 
 constexpr std::array elements{ElementOf::point, ElementOf::place, ElementOf::instance};
 
-/// A kernel's slots out of an instance's block.
-class Block {
- public:
-  Block(const std::vector<std::uint32_t>& places, const std::vector<std::uint32_t>& values,
-        const std::vector<std::uint32_t>& present) {
-    if (places.size() > few_.size()) many_.resize(places.size());
-    std::uint32_t* to = many_.empty() ? few_.data() : many_.data();
+/// A kernel's slots out of a block of values, as ShaderData::block.
+void take_slots(const nacre_binding& binding, nacre_entry entry,
+                const std::vector<std::uint32_t>& values, std::uint32_t* to) {
+  const std::vector<std::uint32_t>& places = binding.data->slots(entry);
+  if (entry == NACRE_EVALUATE_AT) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       to[i] = places[i] != ShaderData::of_point ? values[places[i]] : 0;
     }
-    for (const std::uint32_t slot : present) to[slot] = 1;
-    block_ = {to, places.size()};
+  } else {
+    gather_words(places.size(), to, [&](std::size_t i) { return &values[places[i]]; });
   }
-  void set(std::size_t slot, std::uint32_t bits) {
-    (many_.empty() ? few_.data() : many_.data())[slot] = bits;
+  for (const std::uint32_t slot : binding.entries[entry]->present) to[slot] = 1;
+}
+
+/// Slots of one call.
+class Slots {
+ public:
+  explicit Slots(std::size_t count) : count_(count) {
+    if (count > few_.size()) many_ = std::make_unique_for_overwrite<std::uint32_t[]>(count);
   }
-  std::span<const std::uint32_t> get() const { return block_; }
+  std::uint32_t* data() { return many_ != nullptr ? many_.get() : few_.data(); }
+  std::span<const std::uint32_t> get() { return {data(), count_}; }
 
  private:
+  std::size_t count_;
   std::array<std::uint32_t, 256> few_;
-  std::vector<std::uint32_t> many_;
-  std::span<const std::uint32_t> block_;
+  std::unique_ptr<std::uint32_t[]> many_;
 };
 
 /// The channels of NACRE_EVALUATE_AT's one point that the kernel has slots for, as if another
@@ -68,7 +77,7 @@ bool bind_point(const Binder& binder, nacre_binding& binding, Diagnostics& said)
 /// Fills in the slots of the one point; false where the batch lacks an array or the point's
 /// instance.
 bool take_point(const nacre_binding& binding, const Batch& batch, std::uint32_t point,
-                Block& block) {
+                std::uint32_t* slots) {
   const Binding& of_point = *binding.of_point;
   if (batch.arrays.size() < of_point.arrays) return false;
   for (std::size_t i = 0; i < of_point.inputs.size(); ++i) {
@@ -78,10 +87,8 @@ bool take_point(const nacre_binding& binding, const Batch& batch, std::uint32_t 
     const std::uint32_t element = is_of_instance ? batch.instances[point] : point;
     const auto* array = static_cast<const std::byte*>(
         layout.array == bound_constants ? of_point.constants.data() : batch.arrays[layout.array]);
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, array + layout.offset + layout.stride * std::ptrdiff_t{element},
-                sizeof bits);
-    block.set(binding.point_slots[i], bits);
+    std::memcpy(slots + binding.point_slots[i],
+                array + layout.offset + layout.stride * std::ptrdiff_t{element}, sizeof *slots);
   }
   return true;
 }
@@ -144,6 +151,10 @@ nacre_status nacre_binding_create(const nacre_binder* binder, const nacre_shader
       made->entries[entry] =
           binder->binder.finish(kernel->program(), shader->data->state(), said.diagnostics());
       is_complete = is_complete && made->entries[entry].has_value();
+      if (made->entries[entry]) {
+        made->slots[entry].resize(shader->data->slots(entry).size());
+        take_slots(*made, entry, shader->data->block(), made->slots[entry].data());
+      }
       if (entry != NACRE_EVALUATE_AT) continue;
       is_complete = bind_point(binder->binder, *made, said.diagnostics()) && is_complete;
     }
@@ -173,11 +184,15 @@ nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
                       .stop = reinterpret_cast<const std::atomic<std::uint32_t>*>(
                           const_cast<const std::uint32_t*>(asked.stop))};
     const Binding& bound = *binding->entries[entry];
-    Block block(binding->data->slots(entry),
-                instance != nullptr ? instance->block : binding->data->block(), bound.present);
-    if (entry == NACRE_EVALUATE_AT && !take_point(*binding, batch, asked.point, block)) {
+    if (instance == nullptr && entry != NACRE_EVALUATE_AT) {
+      return status_of(kernel->run(bound, batch, binding->slots[entry]));
+    }
+    Slots slots(binding->slots[entry].size());
+    take_slots(*binding, entry, instance != nullptr ? instance->block : binding->data->block(),
+               slots.data());
+    if (entry == NACRE_EVALUATE_AT && !take_point(*binding, batch, asked.point, slots.data())) {
       return nacre_status{NACRE_WRONG_ARGUMENTS};
     }
-    return status_of(kernel->run(bound, batch, block.get()));
+    return status_of(kernel->run(bound, batch, slots.get()));
   });
 }

@@ -21,6 +21,13 @@ struct Binding {
   std::vector<ChannelLayout> outputs;    ///< One a Program::outputs entry.
   std::vector<std::uint32_t> constants;  ///< What layouts of array `bound_constants` lie in.
   std::uint32_t arrays = 0;              ///< As many as a Batch must have.
+  bool reads_instances = false;          ///< A Batch must have a list of them.
+  /// Channels that kernels cannot take where they are: of batches without a list of points, and
+  /// with one.
+  /// @{
+  std::uint32_t copies = 0;
+  std::uint32_t copies_of_list = 0;
+  /// @}
   /// Slots "geomprop.<name>" that are true, for the host has that property.
   std::vector<std::uint32_t> present;
 };
@@ -29,6 +36,17 @@ struct Binding {
 inline constexpr std::uint32_t bound_constants = ~std::uint32_t{0} - 1;
 /// ChannelLayout::array of outputs that nobody wants.
 inline constexpr std::uint32_t discarded = ~std::uint32_t{0};
+
+/// Whether a list says which elements of a channel are the points', of a batch with or without a
+/// list of points.
+constexpr bool is_listed(const ChannelLayout& layout, bool has_points) {
+  return layout.element == ElementOf::instance ||
+         (layout.element == ElementOf::point && has_points);
+}
+/// Whether that leaves no array that a kernel can take: a four-byte number for each point.
+constexpr bool needs_copy(const ChannelLayout& layout, bool has_points) {
+  return layout.stride != 4 || layout.array == discarded || is_listed(layout, has_points);
+}
 
 /// Where a host keeps its numbers, channel by channel. It binds all that it has, once; each
 /// kernel takes what it needs.

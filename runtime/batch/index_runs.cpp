@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <cstddef>
+
+#include "runtime/batch/words.h"
 
 namespace nacre {
 
@@ -17,6 +19,24 @@ bool has_avx2() {
   return has;
 }
 
+/// How many indices lie before the one they follow, or eight or more behind it: as many runs end
+/// at least. Without branches, which of a list that jumps about nobody predicts.
+__attribute__((target("avx2"))) std::size_t count_jumps(const std::uint32_t* indices,
+                                                        std::size_t count) {
+  std::uint32_t jumps = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    jumps += indices[i] - indices[i - 1] - 1 < width - 1 ? 0u : 1u;
+  }
+  return jumps;
+}
+
+__attribute__((target("avx2"))) std::uint32_t largest_of(const std::uint32_t* indices,
+                                                         std::size_t count) {
+  std::uint32_t largest = 0;
+  for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, indices[i]);
+  return largest;
+}
+
 }  // namespace
 
 void IndexRuns::prepare(const std::uint32_t* indices, std::size_t count) {
@@ -26,12 +46,13 @@ void IndexRuns::prepare(const std::uint32_t* indices, std::size_t count) {
   std::copy_n(indices, count, indices_.begin());
   std::fill_n(indices_.begin() + static_cast<std::ptrdiff_t>(count), slack, 0u);
   if (!has_avx2() || count < width) return;
+  // As many single loads as this cost what that many runs do, by measurement.
+  const std::size_t worth_it = count * 2 / 5;
+  if (count_jumps(indices, count) >= worth_it) return;
   // No run may read behind the last element that the list names.
-  const std::uint32_t largest = *std::max_element(indices, indices + count);
+  const std::uint32_t largest = largest_of(indices, count);
   if (largest + 1 < width) return;
   const std::uint32_t last_base = largest - (width - 1);
-  // As many single loads as this cost what that many runs do, by measurement.
-  const std::size_t worth_it = count / 2;
   for (std::size_t i = 0; i < count;) {
     if (run_count_ == worth_it) {
       run_count_ = 0;
@@ -63,16 +84,24 @@ void IndexRuns::gather(const void* from, std::ptrdiff_t stride, std::uint32_t* t
     return gather_runs(static_cast<const std::uint32_t*>(from), to);
   }
   const auto* bytes = static_cast<const std::byte*>(from);
-  for (std::size_t i = 0; i < count_; ++i) {
-    std::memcpy(to + i, bytes + stride * static_cast<std::ptrdiff_t>(indices_[i]), sizeof *to);
+  if (stride == sizeof(std::uint32_t)) {
+    return gather_words(count_, to,
+                        [&](std::size_t i) { return bytes + 4 * std::size_t{indices_[i]}; });
   }
+  gather_words(count_, to, [&](std::size_t i) {
+    return bytes + stride * static_cast<std::ptrdiff_t>(indices_[i]);
+  });
 }
 
 void IndexRuns::scatter(const std::uint32_t* from, void* to, std::ptrdiff_t stride) const {
   auto* bytes = static_cast<std::byte*>(to);
-  for (std::size_t i = 0; i < count_; ++i) {
-    std::memcpy(bytes + stride * static_cast<std::ptrdiff_t>(indices_[i]), from + i, sizeof *from);
+  if (stride == sizeof(std::uint32_t)) {
+    return scatter_words(count_, from,
+                         [&](std::size_t i) { return bytes + 4 * std::size_t{indices_[i]}; });
   }
+  scatter_words(count_, from, [&](std::size_t i) {
+    return bytes + stride * static_cast<std::ptrdiff_t>(indices_[i]);
+  });
 }
 
 }  // namespace nacre

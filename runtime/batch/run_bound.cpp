@@ -7,12 +7,11 @@
 #include <memory>
 
 #include "runtime/batch/index_runs.h"
+#include "runtime/batch/words.h"
 
 namespace nacre {
 
 namespace {
-
-constexpr std::ptrdiff_t word = 4;
 
 /// Words of all copies at once: within a level-2 cache. What a kernel computes once a call it
 /// computes once for so many points, and of a live material that is as much as for 20 of them.
@@ -42,11 +41,10 @@ class Access {
   Access(const Binding& binding, const Batch& batch) : binding_(binding), batch_(batch) {}
 
   bool is_listed(const ChannelLayout& layout) const {
-    return layout.element == ElementOf::instance ||
-           (layout.element == ElementOf::point && batch_.points != nullptr);
+    return nacre::is_listed(layout, batch_.points != nullptr);
   }
   bool needs_copy(const ChannelLayout& layout) const {
-    return layout.stride != word || layout.array == discarded || is_listed(layout);
+    return nacre::needs_copy(layout, batch_.points != nullptr);
   }
   /// Element `i` of a channel that no list picks from.
   std::byte* element(const ChannelLayout& layout, std::uint64_t i) const {
@@ -142,8 +140,9 @@ class Stage {
         list_of(input).gather(access_.element(input, 0), input.stride, to);
       } else {
         const std::byte* from = access_.element(input, first);
-        for (std::size_t i = 0; i < count; ++i, from += input.stride)
-          std::memcpy(to + i, from, word);
+        gather_words(count, to, [&](std::size_t i) {
+          return from + input.stride * static_cast<std::ptrdiff_t>(i);
+        });
       }
       ++row;
     }
@@ -163,7 +162,9 @@ class Stage {
         continue;
       }
       std::byte* to = access_.element(output, first);
-      for (std::size_t i = 0; i < count; ++i, to += output.stride) std::memcpy(to, from + i, word);
+      scatter_words(count, from, [&](std::size_t i) {
+        return to + output.stride * static_cast<std::ptrdiff_t>(i);
+      });
     }
   }
 
@@ -178,12 +179,8 @@ class Stage {
 };
 
 bool fits(const Binding& binding, const Batch& batch) {
-  if (batch.arrays.size() < binding.arrays) return false;
-  const auto is_of_instance = [](const ChannelLayout& layout) {
-    return layout.element == ElementOf::instance;
-  };
-  return batch.instances != nullptr || (std::ranges::none_of(binding.inputs, is_of_instance) &&
-                                        std::ranges::none_of(binding.outputs, is_of_instance));
+  return batch.arrays.size() >= binding.arrays &&
+         (batch.instances != nullptr || !binding.reads_instances);
 }
 
 }  // namespace
@@ -191,9 +188,7 @@ bool fits(const Binding& binding, const Batch& batch) {
 RunStatus run_bound(const Binding& binding, const Batch& batch, const RunArrays& run) {
   if (!fits(binding, batch)) return RunStatus::wrong_arguments;
   const Access access(binding, batch);
-  const auto needs_copy = [&](const ChannelLayout& layout) { return access.needs_copy(layout); };
-  const auto copies = static_cast<std::size_t>(std::ranges::count_if(binding.inputs, needs_copy) +
-                                               std::ranges::count_if(binding.outputs, needs_copy));
+  const std::size_t copies = batch.points != nullptr ? binding.copies_of_list : binding.copies;
   Room<void*, usual_channels> rows(binding.inputs.size() + binding.outputs.size());
   if (copies == 0) {
     void** row = rows.data();
