@@ -174,6 +174,72 @@ TEST(ApiShader, WrongValuesAreRefusedWithTheReason) {
   EXPECT_NO_THROW(instance.set("S/base_color", {1.0f, 1.0f, 1.0f}));
 }
 
+TEST(ApiShader, AnInstanceSaysWhatItHas) {
+  CompileOptions options = live({"S/base_color"});
+  options.lobe_mask = true;
+  const Shader shader = compiled(surface_document("0.8, 0.3, 0.1"), options);
+  Instance instance(shader);
+  EXPECT_EQ(instance.value("S/base_color"), (std::vector<float>{0.8f, 0.3f, 0.1f}));
+  instance.set("S/base_color", {0.25f, 0.5f, 1.0f});
+  EXPECT_EQ(instance.value("S/base_color"), (std::vector<float>{0.25f, 0.5f, 1.0f}));
+  instance.set("lobe_mask", NACRE_GLOSSY_REFLECTION);
+  EXPECT_EQ(instance.value("lobe_mask"), std::vector<float>{NACRE_GLOSSY_REFLECTION});
+  EXPECT_THROW(instance.value("S/metalness"), Error);
+}
+
+// The same for all points: of integers by their bits, which a float of that value has not.
+TEST(ApiShader, ConstantsAreNumbersOrIntegers) {
+  CompileOptions options;
+  options.lobes_wanted = true;
+  const Shader shader = compiled(surface_document("0.8, 0.3, 0.1"), options);
+  SurfacePoints points(count);
+  const auto bound = [&](int wanted) {
+    Binder binder = points.binder();
+    binder.integers("lobes_wanted", {wanted});
+    return Binding(binder, shader);
+  };
+  points.shade(bound(NACRE_DIFFUSE_REFLECTION | NACRE_GLOSSY_REFLECTION));
+  const std::vector<float> both = points.f;
+  Batch batch;
+  batch.count = count;
+  const auto evaluated = [&](int wanted) {
+    bound(wanted).run(NACRE_EVALUATE, points.arrays(), batch);
+    return points.f;
+  };
+  const std::vector<float> diffuse = evaluated(NACRE_DIFFUSE_REFLECTION);
+  const std::vector<float> glossy = evaluated(NACRE_GLOSSY_REFLECTION);
+  EXPECT_EQ(evaluated(0), std::vector<float>(both.size(), 0.0f));
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    ASSERT_NEAR(diffuse[i] + glossy[i], both[i], 1e-5f * both[i]) << i;
+  }
+}
+
+TEST(ApiShader, ChannelGroupsAreATable) {
+  const std::vector<ChannelGroup> groups = channel_groups();
+  const auto found = std::find_if(groups.begin(), groups.end(),
+                                  [](const ChannelGroup& each) { return each.name == "dPdx"; });
+  ASSERT_NE(found, groups.end());
+  EXPECT_EQ(found->role, NACRE_POINT);
+  EXPECT_EQ(found->components, 3);
+  EXPECT_EQ(found->type, NACRE_FLOAT);
+  EXPECT_EQ(found->unit, "scene units per sample");
+}
+
+// The mean free paths of what is below a surface change the picture; a lobe of weight 0 does not.
+TEST(ApiShader, WhatIsLeftOutMayChangeThePicture) {
+  const Shader shader = compiled(R"(<materialx version="1.39">
+    <standard_surface name="S" type="surfaceshader">
+      <input name="subsurface" type="float" value="0.5"/></standard_surface>
+    <surfacematerial name="M" type="material">
+      <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  </materialx>)");
+  const std::vector<std::string> all = shader.left_out();
+  const std::vector<std::string> visible = shader.left_out(true);
+  EXPECT_LT(visible.size(), all.size());
+  ASSERT_EQ(visible.size(), 1u);
+  EXPECT_NE(visible[0].find("subsurface"), std::string::npos) << visible[0];
+}
+
 TEST(ApiShader, ErrorsOfDocumentsCarryTheirPlace) {
   try {
     Document::parse("<materialx version=\"1.39\"><mix name=\"m\"", "broken.mtlx");

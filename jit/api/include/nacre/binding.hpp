@@ -42,7 +42,13 @@ class Binder {
     detail::check(nacre_binder_array(get(), name.c_str(), &asked));
     return *this;
   }
+  /// The same numbers for all points.
   Binder& constant(const std::string& name, std::initializer_list<float> values) {
+    detail::check(nacre_binder_constant(get(), name.c_str(), values.begin(), values.size()));
+    return *this;
+  }
+  /// The same of a channel of integers or booleans.
+  Binder& integers(const std::string& name, std::initializer_list<std::int32_t> values) {
     detail::check(nacre_binder_constant(get(), name.c_str(), values.begin(), values.size()));
     return *this;
   }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -43,6 +44,45 @@ struct LobeInfo {
   int kinds = 0;
 };
 
+/// Channels of one meaning; see nacre_channel_group.
+struct ChannelGroup {
+  std::string name;
+  int role = NACRE_POINT;
+  int components = 1;
+  int type = NACRE_FLOAT;
+  std::string unit, meaning;
+};
+/// All that there are.
+inline std::vector<ChannelGroup> channel_groups() {
+  std::vector<ChannelGroup> list;
+  for (std::size_t i = 0; i < nacre_channel_group_count(); ++i) {
+    nacre_channel_group one{};
+    one.size = sizeof one;
+    detail::check(nacre_channel_group_get(i, &one));
+    list.push_back({one.name, one.role, one.components, one.type, one.unit, one.meaning});
+  }
+  return list;
+}
+
+namespace detail {
+
+/// As many four-byte numbers as a parameter has components.
+inline std::vector<float> numbers_of(const nacre_parameter& parameter, const void* from) {
+  std::vector<float> values(static_cast<std::size_t>(parameter.components));
+  if (parameter.number_type == NACRE_FLOAT) {
+    std::memcpy(values.data(), from, sizeof(float) * values.size());
+    return values;
+  }
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    std::int32_t number = 0;
+    std::memcpy(&number, static_cast<const char*>(from) + sizeof number * k, sizeof number);
+    values[k] = static_cast<float>(number);
+  }
+  return values;
+}
+
+}  // namespace detail
+
 /// The compiled kernels of a material or of outputs.
 class Shader {
  public:
@@ -69,11 +109,13 @@ class Shader {
     }
     return list;
   }
-  /// What the kernels leave out, a line each.
-  std::vector<std::string> left_out() const {
+  /// What the kernels leave out, a line each; all, or what changes the picture alone.
+  std::vector<std::string> left_out(bool changes_picture_only = false) const {
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < nacre_shader_left_out_count(get()); ++i) {
-      lines.emplace_back(nacre_shader_left_out(get(), i, nullptr));
+      int changes_picture = 0;
+      const char* line = nacre_shader_left_out(get(), i, &changes_picture);
+      if (changes_picture != 0 || !changes_picture_only) lines.emplace_back(line);
     }
     return lines;
   }
@@ -106,13 +148,7 @@ class Shader {
       one.size = sizeof one;
       detail::check(nacre_shader_parameter(get(), i, &one));
       const auto numbers = [&](const void* from) {
-        std::vector<float> values;
-        for (int k = 0; from != nullptr && k < one.components; ++k) {
-          values.push_back(one.number_type == NACRE_FLOAT
-                               ? static_cast<const float*>(from)[k]
-                               : static_cast<float>(static_cast<const std::int32_t*>(from)[k]));
-        }
-        return values;
+        return from != nullptr ? detail::numbers_of(one, from) : std::vector<float>();
       };
       list.push_back({one.name, one.type, one.number_type, one.components, one.is_varying != 0,
                       numbers(one.value), numbers(one.minimum), numbers(one.maximum), one.label,
@@ -165,24 +201,41 @@ class Instance {
     set_numbers(parameter, &bits, 1, NACRE_BOOL);
   }
   /// @}
+  /// The numbers that it has by now; integers and booleans as numbers.
+  std::vector<float> value(const std::string& parameter) const {
+    nacre_parameter about{};
+    const std::size_t index = find(parameter, about);
+    if (index == SIZE_MAX) refuse(parameter, "read: the shader has none of that name");
+    std::vector<std::uint32_t> numbers(static_cast<std::size_t>(about.components));
+    detail::check(nacre_instance_get(get(), index, numbers.data()));
+    return detail::numbers_of(about, numbers.data());
+  }
   nacre_instance* get() const { return instance_.get(); }
 
  private:
-  void set_numbers(const std::string& name, const void* values, std::size_t count, int type) {
+  /// SIZE_MAX where the shader has none of that name.
+  std::size_t find(const std::string& name, nacre_parameter& about) const {
     const std::size_t index = nacre_shader_find_parameter(shader_, name.c_str());
-    nacre_parameter parameter{};
-    parameter.size = sizeof parameter;
-    const bool is_known =
-        index != SIZE_MAX && nacre_shader_parameter(shader_, index, &parameter) == NACRE_OK;
-    const bool fits = is_known && parameter.number_type == type &&
-                      static_cast<std::size_t>(parameter.components) == count;
+    about.size = sizeof about;
+    if (index != SIZE_MAX) detail::check(nacre_shader_parameter(shader_, index, &about));
+    return index;
+  }
+  [[noreturn]] static void refuse(const std::string& name, const std::string& why) {
+    Diagnostic said;
+    said.code = "bad-parameter";
+    said.path = name;
+    said.text = said.message = "'" + name + "' cannot be " + why;
+    throw Error(NACRE_WRONG_ARGUMENTS, {said});
+  }
+  void set_numbers(const std::string& name, const void* values, std::size_t count, int type) {
+    nacre_parameter about{};
+    const std::size_t index = find(name, about);
+    const bool is_known = index != SIZE_MAX;
+    const bool fits = is_known && about.number_type == type &&
+                      static_cast<std::size_t>(about.components) == count;
     if (!fits) {
-      const std::string found = is_known ? std::string("a ") + parameter.type : "none of that name";
-      Diagnostic said;
-      said.code = "bad-parameter";
-      said.path = name;
-      said.text = said.message = "'" + name + "' cannot be set to that: the shader has " + found;
-      throw Error(NACRE_WRONG_ARGUMENTS, {said});
+      refuse(name, "set to that: the shader has " +
+                       (is_known ? std::string("a ") + about.type : "none of that name"));
     }
     detail::check(nacre_instance_set(get(), index, values));
   }
