@@ -1,24 +1,11 @@
 #include "pbs/facets.h"
 
-#include <algorithm>
-
 #include "pbs/beckmann.h"
 #include "pbs/microfacet.h"
 #include "pbs/per_view.h"
 #include "runtime/node/geometry.h"
 
 namespace nacre {
-
-namespace {
-
-/// Whether whoever records has said that the host sets a slot: by recording it first.
-bool is_offered(const Program& program, std::string_view slot) {
-  return std::ranges::find(program.parameters, slot, &ParameterSlot::name) !=
-             program.parameters.end() ||
-         std::ranges::find(program.inputs, slot, &Channel::name) != program.inputs.end();
-}
-
-}  // namespace
 
 LocalView Facets::look(const View& view) const {
   Frame frame = isotropic ? make_frame(normal) : make_frame(normal, tangent);
@@ -60,7 +47,7 @@ Facets prepare_facets(NodeCall& call) {
   Float2 roughness = call.vector2("roughness");
   const float threshold = call.accuracy() == Accuracy::fast ? 1e-3f : 1e-4f;
   const bool isotropic = same_value(roughness.x.ref(), roughness.y.ref());
-  if (is_offered(recorder.program(), "min_alpha")) {
+  if (recorder.has_leaf("min_alpha")) {
     const Float least(recorder.parameter("min_alpha", Scalar::f32, 0));
     roughness = {max(roughness.x, least), max(roughness.y, least)};
   }

@@ -33,6 +33,8 @@ struct TextureCall {
   const float* dudy;
   const float* dvdy;
   /// @}
+  /// The largest allowed, at least 1; null: that of the modes everywhere.
+  const std::int32_t* max_anisotropy;
   float* rgba;  ///< To be filled in; 0 before.
 };
 /// Answers a call; may be called by all threads that run kernels. `user` is

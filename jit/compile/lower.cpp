@@ -8,6 +8,7 @@
 #include "jit/passes/derive.h"
 #include "jit/passes/expand_math.h"
 #include "jit/passes/flatten.h"
+#include "jit/passes/scale_footprints.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {
@@ -73,14 +74,22 @@ Program lower_to_engine(Program program, const CompileOptions& options,
     passes.run("flatten",
                [&](const Program& p) { return flatten_regions(p, options.max_instructions); });
   }
-  if (options.backend == Backend::reference) return std::move(passes.program());
+  // Last: what is rounded is chosen as if the host had multiplied.
+  const auto scale = [&] {
+    if (offers_footprint_scale(passes.program())) passes.run("scale_footprints", scale_footprints);
+    return std::move(passes.program());
+  };
+  if (options.backend == Backend::reference) return scale();
 
   // Transcendental functions become polynomials of the accuracy asked for.
   passes.run("expand_math", [&](const Program& p) {
     return expand_math(p, options.accuracy, options.max_instructions);
   });
-  if (options.all_varying && !passes.is_over()) mark_varying(passes.program(), true);
-  return std::move(passes.program());
+  Program made = scale();
+  if (options.all_varying && !is_too_large(made, options) && !options.stop.is_due()) {
+    mark_varying(made, true);
+  }
+  return made;
 }
 
 Program lower(Program program, const CompileOptions& options, std::vector<StageReport>* reports) {

@@ -14,7 +14,7 @@ namespace nacre {
 namespace {
 
 /// To be raised when what kernels do or expect changes and no build id tells.
-constexpr int version = 3;
+constexpr int version = 4;
 
 /// The object file that is loaded at an address, and the id its linker gave it.
 struct BuildId {

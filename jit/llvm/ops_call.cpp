@@ -71,6 +71,13 @@ Value* texture_call(FunctionEmitter& e, ValueId id) {
     put(array, 0, e.use(operands[k + 1], lanes));
     b.CreateAlignedStore(array, e.byte_offset(request, fields[k]), llvm::Align(8));
   }
+  Value* limits = llvm::ConstantPointerNull::get(b.getPtrTy());
+  if (operands.size() > fields.size() + 1) {
+    limits = e.scratch(b.getInt32Ty(), count, "texture.operand");
+    put(limits, 0, e.use(operands.back(), lanes));
+  }
+  b.CreateAlignedStore(limits, e.byte_offset(request, offsetof(TextureCall, max_anisotropy)),
+                       llvm::Align(8));
   Value* rgba = e.scratch(b.getFloatTy(), 4 * count, "texture.rgba");
   b.CreateMemSet(rgba, b.getInt8(0), 16 * count, llvm::Align(64));
   b.CreateAlignedStore(rgba, e.byte_offset(request, offsetof(TextureCall, rgba)), llvm::Align(8));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "jit/passes/footprint.h"
+#include "jit/passes/scale_footprints.h"
 #include "jit/passes/tangent.h"
 #include "jit/passes/tangent_plan.h"
 #include "runtime/program/recorder.h"
@@ -282,6 +283,7 @@ Program derive(const Program& program, std::span<const std::string_view> more, s
   for (int order = 1; has_ddx(result) && order <= max_derivative_order; ++order) {
     result = Deriver(result, more, order == max_derivative_order, most).run();
   }
+  keep_footprint_scale(program, result);
   return result;
 }
 

@@ -167,27 +167,46 @@ bool RecordedTextures::may_change() const {
   return std::ranges::any_of(slots_, [](const Slot& slot) { return slot.image != nullptr; });
 }
 
+namespace {
+
+/// Points `first` to `end` of a call, with an anisotropy of their own.
+void look_up_lanes(const TextureSampler& sampler, const TextureCall& call, std::uint32_t first,
+                   std::uint32_t end, int max_anisotropy) {
+  const TextureModes modes = unpack_modes(call.modes);
+  const TextureLookup lookup{.count = static_cast<int>(end - first),
+                             .u = call.u + first,
+                             .v = call.v + first,
+                             .dudx = call.dudx + first,
+                             .dvdx = call.dvdx + first,
+                             .dudy = call.dudy + first,
+                             .dvdy = call.dvdy + first,
+                             .filter = modes.filter,
+                             .u_mode = modes.u,
+                             .v_mode = modes.v,
+                             .max_anisotropy = max_anisotropy};
+  float* const rgba = call.rgba + first;
+  const std::size_t lanes = call.lanes;
+  sampler.lookup(lookup, {rgba, rgba + lanes, rgba + 2 * lanes, rgba + 3 * lanes});
+}
+
+}  // namespace
+
 void RecordedTextures::look_up(void* user, const TextureCall* call) {
   const auto* self = static_cast<const RecordedTextures*>(user);
   if (call->slot >= self->slots_.size()) return;
   // What is looked up by calls is never replaced.
   const Texture* texture = self->slots_[call->slot].texture.get();
   if (texture == nullptr || texture->sampler() == nullptr) return;
-  const auto lanes = static_cast<std::size_t>(call->lanes);
-  const TextureModes modes = unpack_modes(call->modes);
-  const TextureLookup lookup{.count = static_cast<int>(call->lanes),
-                             .u = call->u,
-                             .v = call->v,
-                             .dudx = call->dudx,
-                             .dvdx = call->dvdx,
-                             .dudy = call->dudy,
-                             .dvdy = call->dvdy,
-                             .filter = modes.filter,
-                             .u_mode = modes.u,
-                             .v_mode = modes.v,
-                             .max_anisotropy = modes.max_anisotropy};
-  texture->sampler()->lookup(
-      lookup, {call->rgba, call->rgba + lanes, call->rgba + 2 * lanes, call->rgba + 3 * lanes});
+  const std::int32_t* const limits = call->max_anisotropy;
+  if (limits == nullptr) {
+    const int most = unpack_modes(call->modes).max_anisotropy;
+    return look_up_lanes(*texture->sampler(), *call, 0, call->lanes, most);
+  }
+  // One call where all points have one limit, as mostly.
+  for (std::uint32_t first = 0, end = 0; first < call->lanes; first = end) {
+    while (end < call->lanes && limits[end] == limits[first]) ++end;
+    look_up_lanes(*texture->sampler(), *call, first, end, limits[first]);
+  }
 }
 
 }  // namespace nacre

@@ -45,6 +45,8 @@ class RecordedTextures final : public TextureProvider {
   /// What a resolver gave: the path under which find() will have it, wherever it lies. Contents in
   /// memory that there is no room for are a missing image.
   std::string accept(const ResolvedFile& file);
+  /// Of look-ups, in 1 .. largest_anisotropy.
+  int max_anisotropy() const { return max_anisotropy_; }
   /// Of what is found from now on; without it all may be read, and what is missing is an error.
   void give_access(ImageAccess access) { access_ = std::move(access); }
   /// How many of its complaints were errors: of images, with which kernels are made all the same.

@@ -9,12 +9,14 @@
 #include "jit/compile/compile.h"
 #include "jit/compile/lower.h"
 #include "jit/compile/stages.h"
+#include "jit/passes/scale_footprints.h"
 #include "jit/record/leaves.h"
 #include "jit/record/pattern.h"
 #include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
 #include "pbs/exterior.h"
 #include "pbs/shader_channels.h"
+#include "runtime/node/live_anisotropy.h"
 #include "runtime/program/drop_footprints.h"
 #include "runtime/report_stop.h"
 
@@ -127,6 +129,12 @@ std::vector<Parameter> Compilation::live_parameters(const Graph& graph) const {
   return live;
 }
 
+bool Compilation::varies(std::string_view slot) const {
+  // A pattern of the parameter, or of one of its components.
+  return fits_any(std::string(slot), options_.varying) ||
+         fits_any(std::string(slot.substr(0, slot.rfind('.'))), options_.varying);
+}
+
 std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   const FileRoots roots = options_.files_anywhere
                               ? FileRoots{}
@@ -134,11 +142,7 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   textures_->give_access(image_access(roots, options_.missing_images, options_.compile.stop));
   const RecordOptions options = record_options(roots);
   if (!options_.varying.empty()) {
-    recorder_.vary_parameters([this](std::string_view slot) {
-      // A pattern of the parameter, or of one of its components.
-      return fits_any(std::string(slot), options_.varying) ||
-             fits_any(std::string(slot.substr(0, slot.rfind('.'))), options_.varying);
-    });
+    recorder_.vary_parameters([this](std::string_view slot) { return varies(slot); });
   }
   // By its name and no pattern: who varies all parameters need not know what is outside.
   if (std::ranges::find(options_.varying, exterior_index_channel) != options_.varying.end()) {
@@ -146,6 +150,9 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   }
   // Recorded first, it is a slot that facets read; see pbs/facets.cpp.
   if (options_.kernels.min_alpha) recorder_.parameter("min_alpha", Scalar::f32, 0);
+  if (options_.footprints && options_.live_footprints) {
+    offer_live_anisotropy(recorder_, textures_->max_anisotropy());
+  }
   if (!graph.outputs.empty()) where_ = graph.outputs.front().where;
   return Stages(&stages_).run(
       "record",
@@ -176,7 +183,11 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
   std::vector<std::string> names;
   for (Program& program : programs) {
     names.push_back(program.name);
-    if (!options_.footprints) program = drop_footprints(program);
+    if (!options_.footprints) {
+      program = drop_footprints(program);
+    } else if (options_.live_footprints) {
+      offer_footprint_scale(program, varies("footprint_scale"));
+    }
   }
   std::vector<std::vector<StageReport>> reports;
   Diagnostics said;

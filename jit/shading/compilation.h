@@ -70,6 +70,8 @@ class Compilation {
   std::string resolve_image(const std::string& name, const std::string& document,
                             const FileRoots& roots);
   std::vector<Parameter> live_parameters(const Graph& graph) const;
+  /// Whether a slot comes with each point.
+  bool varies(std::string_view slot) const;
   /// Whether nothing was wrong since there were so many errors, but for images that are missing.
   bool is_complete(std::size_t errors_before) const;
   /// Whether there is time and room for more; false, with an error, once there is not.

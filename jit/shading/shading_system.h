@@ -85,6 +85,9 @@ struct ShaderOptions {
   /// Whether images are filtered and derivatives taken by how channels change from sample to
   /// sample. False: points have no extent, and no such channels are read.
   bool footprints = true;
+  /// Slots "footprint_scale" and "max_anisotropy", which change footprints later (see
+  /// jit/passes/scale_footprints.h, runtime/node/live_anisotropy.h). Not where there are none.
+  bool live_footprints = false;
   Side side = Side::front;  ///< Of a material; see MaterialKernels::has_back.
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;

@@ -51,9 +51,8 @@ Octave octave_of(Float x) {
           float_of_bits((bits & Int(0x007fffff)) | Int(0x3f800000)) - 1.0f};
 }
 
-Probes measured(Float2 dx, Float2 dy, const MipLevel& finest, Float last, int max_anisotropy) {
+Probes measured(Float2 dx, Float2 dy, const MipLevel& finest, Float last, Float most) {
   const Ellipse ellipse = ellipse_of(dx, dy);
-  const Float most(static_cast<float>(max_anisotropy));
   const Float widest = most * ellipse.minor;
   const Bool too_long = ellipse.major > widest;
   const Float major = select(too_long, 0.5f * (ellipse.major + widest), ellipse.major);
@@ -74,7 +73,7 @@ Probes measured(Float2 dx, Float2 dy, const MipLevel& finest, Float last, int ma
 
 }  // namespace
 
-Probes find_probes(Float2 dx, Float2 dy, const MipLevel& finest, Float last, int max_anisotropy) {
+Probes find_probes(Float2 dx, Float2 dy, const MipLevel& finest, Float last, Float max_anisotropy) {
   const Float2 x = in_texels(dx, finest);
   const Float2 y = in_texels(dy, finest);
   const Probes one{.level = 0.0f, .blend = 0.0f, .count = 1.0f, .reach = {}, .spread = 0.0f};

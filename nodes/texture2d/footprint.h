@@ -21,8 +21,9 @@ void visit(Probes& p, F&& f) {
 }
 
 /// Of a footprint with the axes dx, dy (uv per pixel; NaN counts as no footprint), on an
-/// image of that finest level, whose last level is number `last`.
-Probes find_probes(Float2 dx, Float2 dy, const MipLevel& finest, Float last, int max_anisotropy);
+/// image of that finest level, whose last level is number `last`. `max_anisotropy`: whole, at
+/// least 1.
+Probes find_probes(Float2 dx, Float2 dy, const MipLevel& finest, Float last, Float max_anisotropy);
 
 /// The point is read once, on level 0.
 Bool is_magnified(const Probes& probes);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "nodes/texture2d/footprint.h"
+#include "runtime/node/live_anisotropy.h"
 #include "runtime/value/control.h"
 
 namespace nacre {
@@ -98,9 +99,10 @@ Float4 sample_resident(const TexelFetch& fetch, const TextureSource& source,
   if (modes.filter == TextureFilter::closest) return magnified();
 
   const Float last = float_of_bits(fetch.word(Int(texture_layout::word_max_level_float)));
-  const Probes probes =
-      find_probes(derivative(fetch.recorder, lookup.uv, 0),
-                  derivative(fetch.recorder, lookup.uv, 1), finest, last, modes.max_anisotropy);
+  const auto limit = live_anisotropy(fetch.recorder, modes.max_anisotropy);
+  const Float most = limit ? to_float(*limit) : Float(static_cast<float>(modes.max_anisotropy));
+  const Probes probes = find_probes(derivative(fetch.recorder, lookup.uv, 0),
+                                    derivative(fetch.recorder, lookup.uv, 1), finest, last, most);
   // Usually all lanes take one side, and level 0 costs less than any other.
   const Bool near = is_magnified(probes);
   const Float4 found = if_any(near, Float4{}, magnified);
@@ -114,9 +116,12 @@ Float4 sample_by_call(Recorder& recorder, const TextureSource& source, const Ima
     dx = derivative(recorder, lookup.uv, 0);
     dy = derivative(recorder, lookup.uv, 1);
   }
-  const std::array<Ref, 7> operands{source.slot.ref(), lookup.uv.x.ref(), lookup.uv.y.ref(),
-                                    dx.x.ref(),        dx.y.ref(),        dy.x.ref(),
-                                    dy.y.ref()};
+  std::vector<Ref> operands{source.slot.ref(), lookup.uv.x.ref(), lookup.uv.y.ref(), dx.x.ref(),
+                            dx.y.ref(),        dy.x.ref(),        dy.y.ref()};
+  if (lookup.modes.filter != TextureFilter::closest) {
+    const auto limit = live_anisotropy(recorder, lookup.modes.max_anisotropy);
+    if (limit) operands.push_back(limit->ref());
+  }
   const std::vector<Ref> rgba = recorder.texture_call(operands, pack_modes(lookup.modes));
   return {Float(rgba[0]), Float(rgba[1]), Float(rgba[2]), Float(rgba[3])};
 }

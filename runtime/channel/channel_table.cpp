@@ -93,6 +93,11 @@ constexpr std::array groups = std::to_array<ChannelGroup>({
     {"world_to_object", slot, 16, f32, "", "its inverse"},
     {"lobe_mask", slot, 1, i32, "", "LobeKind bits that count, where KernelRequest::lobe_mask"},
     {"min_alpha", slot, 1, f32, "[0, 1]", "no facets are smoother; where KernelRequest::min_alpha"},
+    {"footprint_scale", slot, 1, f32, "[0, 1e6]",
+     "multiplies footprints; 1 unless set; where ShaderOptions::live_footprints"},
+    {"max_anisotropy", slot, 1, i32, "",
+     "bounds that of look-ups of images below the one compiled; where "
+     "ShaderOptions::live_footprints"},
 });
 
 /// "duv*dx" fits "duv12dx"; the star of "geomprop.*" stands for any text.

@@ -53,10 +53,12 @@ void Block::load_texel(Register& to, const Register& slot, const Register& word)
 }
 
 void Block::call_texture(std::span<Register, 4> to, const Instruction& call,
-                         std::span<const Register* const, 7> from) const {
+                         std::span<const Register* const> from) const {
   const auto floats = [&](std::size_t k) {
     return reinterpret_cast<const float*>(from[k]->data());
   };
+  const auto* const limits =
+      from.size() > 7 ? reinterpret_cast<const std::int32_t*>(from[7]->data()) : nullptr;
   std::array<float, 4 * block_lanes> rgba{};
   const TextureCall request{.slot = (*from[0])[0],
                             .modes = call.imm,
@@ -67,6 +69,7 @@ void Block::call_texture(std::span<Register, 4> to, const Instruction& call,
                             .dvdx = floats(4),
                             .dudy = floats(5),
                             .dvdy = floats(6),
+                            .max_anisotropy = limits,
                             .rgba = rgba.data()};
   if (arguments.texture_callback != nullptr) {
     arguments.texture_callback(arguments.texture_user, &request);

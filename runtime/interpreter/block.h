@@ -27,7 +27,7 @@ struct Block {
   void load_texel(Register& to, const Register& slot, const Register& word) const;
   /// `from`: slot, u, v, dudx, dvdx, dudy, dvdy; `to`: r, g, b, a.
   void call_texture(std::span<Register, 4> to, const Instruction& call,
-                    std::span<const Register* const, 7> from) const;
+                    std::span<const Register* const> from) const;
   void store(const Register& value, const Instruction& output) const;
 };
 

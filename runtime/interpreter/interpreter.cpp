@@ -233,10 +233,11 @@ class Run {
 
   void texture_call(const Activation& frame, const Instruction& instruction) {
     const auto operands = frame.prepared->function->operands(instruction);
-    std::array<const Register*, 7> from{};
-    for (std::size_t k = 0; k < from.size(); ++k) from[k] = &reg(frame, operands[k]);
+    std::array<const Register*, 8> from{};
+    for (std::size_t k = 0; k < operands.size(); ++k) from[k] = &reg(frame, operands[k]);
     results_.resize(4);
-    block_.call_texture(std::span<Register, 4>(results_), instruction, from);
+    block_.call_texture(std::span<Register, 4>(results_), instruction,
+                        std::span(from).first(operands.size()));
   }
 
   const std::vector<Prepared>& functions_;

@@ -71,7 +71,7 @@ constexpr std::array<OpInfo, op_count> table{{
     {Op::pow, "pow", "ff", f32, false, false},
     {Op::table, "table", "i", f32, false, false},
     {Op::texel, "texel", "ii", i32, false, false},
-    {Op::texture_call, "texture_call", "iffffff", none, false, false},
+    {Op::texture_call, "texture_call", "iffffff?i", none, false, false},
     {Op::result, "result", "*", none, true, false},
     {Op::if_any, "if_any", "b", none, false, false},
     {Op::merge, "merge", "xx", none, true, false},

@@ -103,8 +103,9 @@ enum class Op : std::uint8_t {
   // Memory
   table,         ///< (i32 index) Entry of constant table imm; index clamped to it.
   texel,         ///< (i32 slot, i32 word) One word of a resident texture.
-  texture_call,  ///< (slot, u, v, dudx, dvdx, dudy, dvdy) A look-up that the
-                 ///< host answers; imm: filter and address modes. See `result`.
+  texture_call,  ///< (slot, u, v, dudx, dvdx, dudy, dvdy[, i32 anisotropy]) A look-up that the
+                 ///< host answers; imm: filter and address modes, with the anisotropy of who
+                 ///< gives none. See `result`.
   result,        ///< (call or texture_call) Result imm of it.
 
   // Structure. A region is the instructions between its opening and closing
@@ -137,7 +138,7 @@ struct OpInfo {
   Op op;                  ///< The one that the row is of.
   std::string_view name;  ///< "add", as texts of Programs have it.
   /// One letter an operand: f, i, b, or x for any (all x of one operation
-  /// agree); "*" for as many as there are.
+  /// agree); "*" for as many as there are; those behind "?" all or none.
   std::string_view operands;
   Scalar result;    ///< none also where the instruction itself says (x).
   bool any_result;  ///< The result's type is that of the x operands.

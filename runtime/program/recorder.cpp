@@ -88,6 +88,12 @@ Ref Recorder::parameter(std::string_view name, Scalar type, std::uint32_t bits) 
   return append_shared(bare_instruction(Op::parameter, type, index), false);
 }
 
+bool Recorder::has_leaf(std::string_view name) const {
+  return std::ranges::find(program_.parameters, name, &ParameterSlot::name) !=
+             program_.parameters.end() ||
+         std::ranges::find(program_.inputs, name, &Channel::name) != program_.inputs.end();
+}
+
 Ref Recorder::texture(std::string_view key) {
   auto& list = program_.textures;
   const auto found = std::find_if(list.begin(), list.end(),

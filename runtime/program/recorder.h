@@ -48,6 +48,9 @@ class Recorder {
   void vary_parameters(std::function<bool(std::string_view slot)> varies) {
     varies_ = std::move(varies);
   }
+  /// Whether an input or a slot of that name was recorded: who records first what a host sets
+  /// besides, says so to the bodies that come.
+  bool has_leaf(std::string_view name) const;
   /// The slot number (an i32 literal) of the texture that the host knows by `key`.
   Ref texture(std::string_view key);
   /// The index of a constant table, for Op::table. The same name with other numbers is

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <type_traits>
 #include <vector>
 
@@ -62,18 +63,20 @@ class Verifier {
     const Instruction& instruction = function_.code[id];
     const std::string_view letters = info(instruction.op).operands;
     const auto operands = function_.operands(instruction);
-    if (letters != "*" && operands.size() != letters.size()) return "wrong number of operands";
+    const std::size_t least = std::min(letters.find('?'), letters.size());
+    const bool has_rest = operands.size() + 1 == letters.size() && least != letters.size();
+    if (letters != "*" && operands.size() != least && !has_rest) return "wrong number of operands";
     Scalar any = Scalar::none;
     for (std::size_t k = 0; k < operands.size(); ++k) {
       if (operands[k] >= id) return fmt::format("operand {} is not defined before", k);
       if (!visible(operands[k])) return fmt::format("operand {} is out of scope", k);
       const Scalar type = function_.code[operands[k]].type;
       if (letters == "*") continue;
-      const Scalar wanted = letter_type(letters[k]);
+      const Scalar wanted = letter_type(letters[k < least ? k : k + 1]);
       if (wanted != Scalar::none && type != wanted) {
         return fmt::format("operand {} is {}, not {}", k, scalar_name(type), scalar_name(wanted));
       }
-      if (letters[k] != 'x') continue;
+      if (wanted != Scalar::none) continue;
       if (any != Scalar::none && type != any) return "operand types differ";
       any = type;
     }

@@ -233,6 +233,8 @@ class Run {
     for (std::size_t k = 0; k < 6; ++k) {
       x[k] = static_cast<float>(frame.values[operands[k + 1]].f);
     }
+    const auto limit =
+        static_cast<std::int32_t>(operands.size() > 7 ? frame.values[operands[7]].i : 0u);
     std::array<float, 4> rgba{};
     const TextureCall request{.slot = frame.values[operands[0]].i,
                               .modes = instruction.imm,
@@ -243,6 +245,7 @@ class Run {
                               .dvdx = &x[3],
                               .dudy = &x[4],
                               .dvdy = &x[5],
+                              .max_anisotropy = operands.size() > 7 ? &limit : nullptr,
                               .rgba = rgba.data()};
     if (args_.texture_callback != nullptr) args_.texture_callback(args_.texture_user, &request);
     results_.assign(4, {});

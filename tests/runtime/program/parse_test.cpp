@@ -48,6 +48,8 @@ TEST(Parse, ReadsBackEveryKindOfInstruction) {
   const Float looked_up(record(Op::table, {n.ref()}, table));
   const std::vector<Ref> rgba = recorder.texture_call(
       std::vector<Ref>{slot, x.ref(), live.ref(), x.ref(), x.ref(), x.ref(), x.ref()}, 5);
+  const std::vector<Ref> limited = recorder.texture_call(
+      std::vector<Ref>{slot, x.ref(), live.ref(), x.ref(), x.ref(), x.ref(), x.ref(), n.ref()}, 5);
   const Int word(record(Op::texel, {slot, n.ref()}));
   const auto body = [](Float a, Int b) { return Float2{a * to_float(b), a + 1.0f}; };
   const Float2 called = outline<Float2>(recorder, "pair", body, x, count);
@@ -55,7 +57,7 @@ TEST(Parse, ReadsBackEveryKindOfInstruction) {
     s.x = if_any(s.x < s.y, s.y, [&] { return s.x * looked_up; });
     return i < n;
   });
-  const Float kept(recorder.keep((looped.x + Float(rgba[2])).ref()));
+  const Float kept(recorder.keep((looped.x + Float(rgba[2]) * Float(limited[1])).ref()));
   const Float sum = kept + half_to_float(word) + footprint_derivative(x * x, 1);
   expect_round_trip(single(recorder, sum.ref()));
   expect_round_trip(single(recorder, (sum < live).ref()));

@@ -119,6 +119,20 @@ TEST(Verify, RefusesEverythingElseThatEnginesRelyOn) {
   for (const Case& c : cases) EXPECT_EQ(fault_of(c.text), c.fault) << c.text;
 }
 
+TEST(Verify, ATextureCallMayHaveALimit) {
+  const auto fault_with = [](const std::string& operands) {
+    return fault_of("entry\n  %0 = i32 input n\n  %1 = f32 input x\n  %2 = texture_call 0 " +
+                    operands + "\n");
+  };
+  EXPECT_EQ(fault_with("%0 %1 %1 %1 %1 %1 %1"), "");
+  EXPECT_EQ(fault_with("%0 %1 %1 %1 %1 %1 %1 %0"), "");
+  EXPECT_EQ(fault_with("%0 %1 %1 %1 %1 %1 %1 %1"),
+            "entry %2 texture_call: operand 7 is f32, not i32");
+  for (const char* operands : {"%0 %1 %1 %1 %1 %1", "%0 %1 %1 %1 %1 %1 %1 %0 %0"}) {
+    EXPECT_EQ(fault_with(operands), "entry %2 texture_call: wrong number of operands");
+  }
+}
+
 TEST(Verify, EveryResultOfAFunctionIsGiven) {
   Program program;
   program.functions.push_back(

@@ -124,8 +124,9 @@ struct CompileOptions {
   const StopSource* stop = nullptr;
   bool single_points = false;
   bool energy_conserving = false;
-  bool lobes_wanted = false;  ///< A channel lobes_wanted, of sample and evaluate.
-  bool transport = false;     ///< A channel transport, of sample and evaluate.
+  bool lobes_wanted = false;     ///< A channel lobes_wanted, of sample and evaluate.
+  bool transport = false;        ///< A channel transport, of sample and evaluate.
+  bool live_footprints = false;  ///< Slots footprint_scale and max_anisotropy.
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -325,6 +326,7 @@ class System {
     asked.energy_conserving = options.energy_conserving;
     asked.lobes_wanted = options.lobes_wanted;
     asked.transport = options.transport;
+    asked.live_footprints = options.live_footprints;
     call(asked);
   }
 

@@ -73,6 +73,9 @@ class CompileOptions(TypedDict, total=False):
     max_seconds: float  # Of the call; 60 unless set.
     max_anisotropy: int  # Of footprints on images, at most 64; 32 unless set.
     no_footprints: bool  # Points have no extent, and no channels as dPdx are read.
+    # Parameters change footprints later: footprint_scale multiplies them, max_anisotropy, an int, is
+    # at most the one above.
+    live_footprints: bool
     search_paths: Iterable[str]  # Of images, after the document's own folder.
     files_anywhere: bool  # Images also from outside those folders.
     missing_images_pass: bool  # An image that cannot be had is a warning and no error.

@@ -132,3 +132,21 @@ def test_varying_matrices_come_with_points(system, documents):
     assert numpy.array_equal(shader.run({"m/value": rows.reshape(3, 16)})["out"], expected)
     one = shader.run({"m/value": rows[1].ravel().tolist()}, count=1)["out"]
     assert numpy.array_equal(one, expected[1:2])
+
+
+def test_footprints_are_scaled_by_an_instance(system):
+    """The edge of splitlr is box-filtered over the footprint, so a ramp of its width."""
+    document = nacre.Document.parse("""<materialx version="1.39">
+      <splitlr name="edge" type="float"><input name="valuel" type="float" value="1"/>
+        <input name="valuer" type="float" value="3"/></splitlr>
+      <output name="out" type="float" nodename="edge"/></materialx>""")
+    shader = system.compile_outputs(document, ["out"], live_footprints=True)
+    assert shader.parameters["footprint_scale"] == 1.0
+    u = numpy.linspace(0, 1, 101, dtype="float32")
+    points = {"uv0": numpy.stack([u, u], 1), "duv0dx": (0.125, 0), "duv0dy": (0, 0.5)}
+    for scale in (0.0, 1.0, 4.0):
+        found = shader.run(points, instance=shader.instance({"footprint_scale": scale}))["out"]
+        with numpy.errstate(divide="ignore", invalid="ignore"):
+            ramp = 2 + numpy.clip(2 * (u - 0.5) / (0.125 * scale), -1, 1)
+        expected = ramp if scale else numpy.where(u > 0.5, 3, 1)
+        assert numpy.allclose(found, expected, atol=1e-5), scale
