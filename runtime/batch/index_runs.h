@@ -12,8 +12,10 @@ namespace nacre {
 /// takes a load for each.
 class IndexRuns {
  public:
-  static constexpr std::size_t most = 512;  ///< Indices of one part.
-  static constexpr std::size_t slack = 8;   ///< Words behind the last that `gather` writes, too.
+  /// Indices of one part: what a kernel computes once a call is spread over as many points, and a
+  /// column of the copies still is but a few kilobytes.
+  static constexpr std::size_t most = 1024;
+  static constexpr std::size_t slack = 8;  ///< Words behind the last that `gather` writes, too.
 
   /// Prepares `count` indices, at most `most`.
   void prepare(const std::uint32_t* indices, std::size_t count);
