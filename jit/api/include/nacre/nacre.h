@@ -256,6 +256,7 @@ typedef struct nacre_compile_options {
   int transport; /* 1: they read a channel transport. Radiance is multiplied by (eta_o / eta_i)^2 at
                     refraction, importance by |wo.N wi.Ng| / |wo.Ng wi.N| (Veach 1997, 5.2, 5.3).
                     0: by neither. */
+  int reserved;  /* Not read: what fills the structure that hosts of before were compiled with. */
   int live_footprints; /* 1: slots change footprints later, for rays behind a bounce that want less
                           of them: footprint_scale, 1 unless set, multiplies the changes along them,
                           as dPdx; at 0 points have no extent. max_anisotropy, an int, bounds that
