@@ -33,30 +33,69 @@ std::vector<const NodeDef*> lobes() {
   return found;
 }
 
-/// The strings of an input that choose another closure; one empty string for none.
-std::vector<std::string> modes(const NodeDef& def) {
-  for (const char* name : {"scatter_mode", "mode"}) {
-    const NodeDefInput* input = def.input(name);
-    if (input != nullptr) return {input->enums.begin(), input->enums.end()};
+/// One way in which a lobe is timed.
+struct Form {
+  std::string name;  ///< "dielectric_bsdf_RT_film".
+  std::string mode;  ///< Of its input scatter_mode or mode; empty: it has none.
+  bool isotropic = false, film = false, beckmann = false;
+};
+
+const char* mode_input(const NodeDef& def) {
+  return def.input("scatter_mode") != nullptr ? "scatter_mode" : "mode";
+}
+
+/// Where facets have a roughness for each axis, both differ from point to point and from each
+/// other, but in the forms that end in "isotropic".
+std::vector<Form> forms(const NodeDef& def) {
+  std::vector<std::string> modes{""};
+  if (const NodeDefInput* mode = def.input(mode_input(def))) {
+    modes.assign(mode->enums.begin(), mode->enums.end());
   }
-  return {""};
+  const NodeDefInput* roughness = def.input("roughness");
+  const bool has_axes = roughness != nullptr && roughness->type == Type::vector2;
+  std::vector<Form> found;
+  for (const std::string& mode : modes) {
+    const std::string name = mode.empty() ? def.category : def.category + "_" + mode;
+    found.push_back({.name = name, .mode = mode});
+    if (!has_axes) continue;
+    found.push_back({.name = name + "_isotropic", .mode = mode, .isotropic = true});
+    if (def.input("thinfilm_thickness") != nullptr && mode != "T") {
+      found.push_back(
+          {.name = name + "_film_isotropic", .mode = mode, .isotropic = true, .film = true});
+    }
+    found.push_back(
+        {.name = name + "_beckmann_isotropic", .mode = mode, .isotropic = true, .beckmann = true});
+  }
+  return found;
 }
 
 /// A surface of the lobe alone. Roughness differs from point to point, as from a texture;
-/// the rest is as the nodedef has it.
-std::shared_ptr<const Graph> lobe_graph(const NodeDef& def, const std::string& mode,
-                                        std::string& error) {
+/// the rest is as the nodedef and the form have it.
+std::shared_ptr<const Graph> lobe_graph(const NodeDef& def, const Form& form, std::string& error) {
   GraphBuilder builder(shading_system().library());
   const auto lobe = builder.add_node(def.name, "lobe");
-  if (const NodeDefInput* roughness = def.input("roughness")) {
-    const std::string type(type_name(roughness->type));
-    const auto varying = builder.add_node("ND_geompropvalue_" + type, "roughness");
-    builder.set(varying, "geomprop", {Type::string, {}, {}, {"roughness"}});
-    builder.connect(lobe, "roughness", varying);
+  const auto property = [&](Type type) {
+    const auto node =
+        builder.add_node("ND_geompropvalue_" + std::string(type_name(type)), "roughness");
+    builder.set(node, "geomprop", {Type::string, {}, {}, {"roughness"}});
+    return node;
+  };
+  const NodeDefInput* roughness = def.input("roughness");
+  if (form.isotropic) {
+    const auto both = builder.add_node("ND_combine2_vector2", "both");
+    const auto one = property(Type::float_);
+    for (const char* axis : {"in1", "in2"}) builder.connect(both, axis, one);
+    builder.connect(lobe, "roughness", both);
+  } else if (roughness != nullptr) {
+    builder.connect(lobe, "roughness", property(roughness->type));
   }
-  if (!mode.empty()) {
-    const char* input = def.input("scatter_mode") != nullptr ? "scatter_mode" : "mode";
-    builder.set(lobe, input, {Type::string, {}, {}, {mode}});
+  if (!form.mode.empty()) {
+    builder.set(lobe, mode_input(def), {Type::string, {}, {}, {form.mode}});
+  }
+  if (form.beckmann) builder.set(lobe, "distribution", {Type::string, {}, {}, {"beckmann"}});
+  if (form.film) {
+    builder.set(lobe, "thinfilm_thickness", {Type::float_, {450.0f}, {}, {}});
+    builder.set(lobe, "thinfilm_ior", {Type::float_, {1.35f}, {}, {}});
   }
   const auto surface = builder.add_node("ND_surface", "surface");
   builder.connect(surface, "bsdf", lobe);
@@ -68,17 +107,16 @@ std::shared_ptr<const Graph> lobe_graph(const NodeDef& def, const std::string& m
   return nullptr;
 }
 
-void register_lobe(const NodeDef& def, const std::string& mode) {
-  const std::string name = mode.empty() ? def.category : def.category + "_" + mode;
+void register_lobe(const NodeDef& def, const Form& form) {
   for (const Entry entry : {Entry::begin, Entry::sample, Entry::evaluate, Entry::albedo}) {
-    const auto make = [&def, mode, entry](const CompileOptions& options,
+    const auto make = [&def, form, entry](const CompileOptions& options,
                                           std::string& error) -> std::unique_ptr<KernelRun> {
-      const auto graph = lobe_graph(def, mode, error);
+      const auto graph = lobe_graph(def, form, error);
       if (graph == nullptr) return nullptr;
       return run_material(*graph, ParameterMode::frozen, entry, options, error);
     };
-    register_kernel(fmt::format("closures/{}/{}", name, entry_name(entry)), all_variants(), make,
-                    tolerance);
+    register_kernel(fmt::format("closures/{}/{}", form.name, entry_name(entry)), all_variants(),
+                    make, tolerance);
   }
 }
 
@@ -86,7 +124,7 @@ void register_lobe(const NodeDef& def, const std::string& mode) {
 
 void register_benchmarks() {
   for (const NodeDef* def : lobes()) {
-    for (const std::string& mode : modes(*def)) register_lobe(*def, mode);
+    for (const Form& form : forms(*def)) register_lobe(*def, form);
   }
 }
 
