@@ -11,7 +11,7 @@ namespace nacre {
 class CosineLobe : public Lobe {
  public:
   enum class Hemisphere { viewer, other };
-  /// `normal` is kept: prepare_normal.
+  /// `normal` is kept: prepare_facing_normal.
   CosineLobe(std::string_view name, Hemisphere hemisphere, Float3 normal)
       : name_(name), hemisphere_(hemisphere), normal_(normal) {}
 

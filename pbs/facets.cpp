@@ -58,17 +58,36 @@ Facets prepare_facets(NodeCall& call) {
           .delta = keep(recorder, !((roughness.x >= threshold) | (roughness.y >= threshold))),
           .threshold = threshold,
           .isotropic = isotropic,
-          .normal = prepare_normal(recorder, call.vector3("normal")),
+          .normal = prepare_facing_normal(recorder, call.vector3("normal")),
           .tangent = isotropic ? Float3(0.0f) : keep(recorder, call.vector3("tangent"))};
 }
+
+namespace {
+
+/// Where `given` is not the shading normal itself: it, unit, or that one if it is zero or NaN.
+Float3 unit_normal(Float3 given, Float3 shading) {
+  const Float squared = dot(given, given);
+  const Bool usable = (squared > 1e-30f) & (squared < 1e30f);
+  return select(usable, given * Float3(1.0f / sqrt(squared)), shading);
+}
+
+}  // namespace
 
 Float3 prepare_normal(Recorder& recorder, Float3 given) {
   const Float3 shading = normal(recorder, Space::world);
   if (same_value(given, shading)) return given;
-  const Float squared = dot(given, given);
-  const Bool usable = (squared > 1e-30f) & (squared < 1e30f);
-  const Float3 unit = given * Float3(1.0f / sqrt(squared));
-  return keep(recorder, select(usable, unit, shading));
+  return keep(recorder, unit_normal(given, shading));
+}
+
+Float3 prepare_facing_normal(Recorder& recorder, Float3 given) {
+  const Float3 shading = normal(recorder, Space::world);
+  if (same_value(given, shading)) return given;
+  const Float3 unit = unit_normal(given, shading);
+  const Float3 geometric = geometric_normal(recorder);
+  const Float3 wo = view_direction(recorder);
+  const Float seen = dot(unit, wo);
+  const Bool away = (seen * dot(geometric, wo) < 0.0f) & (dot(geometric, unit) > 0.0f);
+  return keep(recorder, select(away, unit - wo * Float3(2.0f * seen), unit));
 }
 
 Float relative_index(Float index, Bool inside) { return select(inside, 1.0f / index, index); }

@@ -56,6 +56,11 @@ Facets prepare_facets(NodeCall& call);
 /// A unit normal, kept. The shading normal itself is trusted; others are
 /// normalized, and the shading normal stands in for a zero or a NaN.
 Float3 prepare_normal(Recorder& recorder, Float3 normal);
+/// The same for what scatters. Bumps turn normals away from viewers who see the surface: such a
+/// one is mirrored at the plane across the view, lest the viewer be taken for one on the other
+/// side, where glass reflects all light and paper is dark. The shading normal itself is the host's
+/// to turn.
+Float3 prepare_facing_normal(Recorder& recorder, Float3 normal);
 
 /// Index of the side beyond over the viewer's.
 Float relative_index(Float index, Bool inside);

@@ -37,6 +37,15 @@ Vec3 normal_to_world(const Affine& to_object, Vec3 n, Vec3 otherwise) {
   return is_finite(world) ? world : otherwise;
 }
 
+/// n, and mirrored at the plane across the view where it turns away from a viewer who sees the
+/// surface, as at the outline of what a few triangles stand for: shaders would take the viewer for
+/// one on the other side.
+Vec3 facing(Vec3 n, Vec3 ng, Vec3 wo) {
+  const float seen = dot(n, wo);
+  const bool away = seen * dot(ng, wo) < 0.f && dot(n, ng) > 0.f;
+  return away ? n - 2.f * seen * wo : n;
+}
+
 /// The uv shift that moves P by d, in the least-squares sense.
 Vec2 to_uv(Vec3 dPdu, Vec3 dPdv, Vec3 d) {
   const float uu = dot(dPdu, dPdu), uv = dot(dPdu, dPdv), vv = dot(dPdv, dPdv);
@@ -193,6 +202,7 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
       n = normal_to_world(pose.to_object, n, ng);
       position = transform_point(pose.to_world, position);
     }
+    n = facing(n, ng, p.wo);
     store(b.P, i, position);
     store(b.N, i, n);
     store(b.Ng, i, ng);

@@ -58,9 +58,10 @@ class BurleyDiffuse final : public CosineLobe {
 /// burley_diffuse_bsdf. MaterialX PBS 1.39. roughness is clamped to [0, 1].
 void record_closure_burley_diffuse_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  auto lobe = std::make_shared<BurleyDiffuse>(prepare_normal(recorder, call.vector3("normal")),
-                                              prepare_tint(recorder, call.vector3("color")),
-                                              keep(recorder, saturate(call.number("roughness"))));
+  auto lobe =
+      std::make_shared<BurleyDiffuse>(prepare_facing_normal(recorder, call.vector3("normal")),
+                                      prepare_tint(recorder, call.vector3("color")),
+                                      keep(recorder, saturate(call.number("roughness"))));
   set_lobe(call, std::move(lobe));
 }
 

@@ -121,7 +121,7 @@ void record_closure_oren_nayar_diffuse_bsdf(NodeCall& call) {
   const Model model = select(call.boolean("energy_compensation"),
                              compensated_model(roughness, color), plain_model(roughness));
   auto lobe = std::make_shared<OrenNayar>(
-      recorder, prepare_normal(recorder, call.vector3("normal")), color, model);
+      recorder, prepare_facing_normal(recorder, call.vector3("normal")), color, model);
   set_lobe(call, std::move(lobe));
 }
 

@@ -211,7 +211,7 @@ class ZeltnerSheen final : public Lobe {
 /// than "zeltner" is "conty_kulla", the default.
 void record_closure_sheen_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  const Float3 normal = prepare_normal(recorder, call.vector3("normal"));
+  const Float3 normal = prepare_facing_normal(recorder, call.vector3("normal"));
   const Color3 color = prepare_tint(recorder, call.vector3("color"));
   const Float roughness = call.number("roughness");
   LobePtr lobe;

@@ -76,7 +76,7 @@ class SubsurfaceLobe final : public Lobe {
 void record_closure_subsurface_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
   set_lobe(call, std::make_shared<SubsurfaceLobe>(
-                     recorder, prepare_normal(recorder, call.vector3("normal")),
+                     recorder, prepare_facing_normal(recorder, call.vector3("normal")),
                      prepare_tint(recorder, call.vector3("color")), call.vector3("radius"),
                      call.number("anisotropy")));
 }

@@ -10,7 +10,7 @@ namespace nacre {
 void record_closure_translucent_bsdf(NodeCall& call) {
   Recorder& recorder = call.recorder();
   auto lobe = std::make_shared<LambertLobe>("translucent_bsdf", CosineLobe::Hemisphere::other,
-                                            prepare_normal(recorder, call.vector3("normal")),
+                                            prepare_facing_normal(recorder, call.vector3("normal")),
                                             prepare_tint(recorder, call.vector3("color")));
   set_lobe(call, std::move(lobe));
 }
