@@ -63,6 +63,21 @@ FacetReflection facet_reflection(Recorder& recorder, const FacetView& view) {
           saturate(found[2] + view.cosine)};
 }
 
+FacetReflection for_dielectric(Recorder& recorder, const FacetView& view,
+                               const FacetReflection& reflection, Float index) {
+  // Measured: what exponent of 1 - cosine the factor is most like.
+  const Float near = clamp(0.44f * (1.0f / sqrt(max(index - 1.0f, 1e-6f)) - 1.8f), 0.0f, 2.0f);
+  return if_any(near > 0.0f, reflection, [&] {
+    const std::vector<Float> steep =
+        look_up(recorder, facet_tables(view.distribution).steep,
+                table_axes::angle(view.masked, view.alpha), table_axes::roughness(view.alpha));
+    FacetReflection better = reflection;
+    better.low = saturate(lerp(reflection.low, saturate(steep[0] + view.cosine), near));
+    better.high = saturate(lerp(reflection.high, saturate(steep[1] + view.cosine), near));
+    return better;
+  });
+}
+
 FacetInterface facet_leaving(Recorder& recorder, const FacetView& view, Float eta, Float perfect) {
   const Float cosine = view.cosine;
   const Float alpha = view.alpha;

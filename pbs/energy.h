@@ -58,6 +58,11 @@ void visit(FacetReflection& reflection, F&& f) {
 }
 FacetReflection facet_reflection(Recorder& recorder, const FacetView& view);
 
+/// The same with cosines for Fresnel's factor of that index, at least 1: the nearer to 1, the
+/// steeper it falls from grazing.
+FacetReflection for_dielectric(Recorder& recorder, const FacetView& view,
+                               const FacetReflection& reflection, Float index);
+
 /// An interface between two dielectrics, eta the index beyond over before. Glass
 /// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 % as far
 /// as 85 degrees, from outside and from inside, layered or joint; joint to 89 from outside

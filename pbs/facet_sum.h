@@ -25,8 +25,13 @@ void visit(FacetSum& sum, F&& f) {
 /// From a to b where t is 1.
 FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t);
 
+/// What is divided by the sum: both sides together, or transmission alone, whose light ends where
+/// total reflection begins.
+enum class LobeOfFacets { joint, transmission };
+
+/// Of `joint`, `turned` is 0.
 FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
-                         Float eta);
+                         Float eta, LobeOfFacets lobe);
 
 /// facet_reflection(); and where roughnesses differ, what a sum over fewer facets knows of their
 /// cosines: a rule of Gauss with two nodes.

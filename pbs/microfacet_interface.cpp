@@ -62,7 +62,8 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
   const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
   light = if_any(share > 0.0f, light, [&] {
     const Float eta = relative_index(index, local.below);
-    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta);
+    const FacetSum sum =
+        sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta, LobeOfFacets::joint);
     return lerp(light, sum, share);
   });
   Color3 total = Color3(light.total);

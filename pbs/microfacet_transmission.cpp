@@ -83,14 +83,15 @@ MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view
   const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
   light = if_any((share > 0.0f) & !delta(view), light, [&] {
     const Float eta = relative_index(index_, local.below);
-    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta);
+    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta,
+                                         LobeOfFacets::transmission);
     return lerp(light, sum, share);
   });
   const Float part = light.passed / max(light.total, 0.05f);
   const Float narrow = facets_.isotropic ? seen.alpha : min(facets_.alpha.x, facets_.alpha.y);
   const Float x = saturate(part / max(little * (1.0f - narrow), least));
   const Float turned = select(leaving, fma(square(x), fma(2.0f, x, -3.0f), 1.0f), 0.0f);
-  return {1.0f / max(fma(turned, light.turned, light.passed), 0.02f), turned};
+  return {1.0f / max(fma(turned, light.turned, light.passed), 0.005f), turned};
 }
 
 MicrofacetTransmission::Terms MicrofacetTransmission::thin(const View& view,

@@ -24,6 +24,9 @@ struct FacetTables {
   /// the cosine of the view. The mean over a half of (1 - cosine)^5.4 is exact.
   FacetTable reflection;
 
+  /// Those two cosines for (1 - cosine)^10: what Fresnel's factor of an index next to 1 is like.
+  FacetTable steep;
+
   /// How much more the albedo E is where roughness is not equal on both axes than with the wider
   /// one alone: of a view along that axis, and of one across it that is as much masked. Angle: of
   /// the former, with the wider roughness; on the third axis the root of the ratio of the narrower

@@ -171,33 +171,52 @@ double fresnel(double cosine, double eta) {
   return 0.5 * (s * s + p * p);
 }
 
-/// Of the mean that a stand-in for many facet cosines keeps: Schlick's 5 and a
-/// little more, for the steeper curves of low indices.
-constexpr double moment_exponent = 5.4;
-
-std::vector<double> reflection(const Facets& facets, double cosine, double alpha, double) {
-  const Scene scene(facets, cosine, alpha);
-  std::vector<std::pair<double, double>> parts;  // Facet cosine, light.
+/// What perfect facets send back to a view.
+struct Reflected {
+  std::vector<std::pair<double, double>> parts;  ///< Facet cosine, light; darker ones first.
   double total = 0.0;
+};
+
+Reflected reflected(const Scene& scene) {
+  Reflected found;
   scene.each_normal([&](Vec h, double c) {
     const double out = 2.0 * c * h.z - scene.cosine;
     if (out <= 0.0) return;
-    parts.emplace_back(c, scene.shadowing(out) / (steps * steps));
-    total += parts.back().second;
+    found.parts.emplace_back(c, scene.shadowing(out) / (steps * steps));
+    found.total += found.parts.back().second;
   });
-  std::sort(parts.begin(), parts.end());
+  std::sort(found.parts.begin(), found.parts.end());
+  return found;
+}
+
+/// The cosines that stand for the darker and the brighter half of the light, less that of the view:
+/// the mean of (1 - cosine)^exponent over a half is exact.
+std::vector<double> stand_ins(const Reflected& light, double exponent, double view) {
   double moment[2] = {0.0, 0.0};
   double before = 0.0;
-  for (const auto& [c, light] : parts) {
-    const double low = std::clamp(0.5 * total - before, 0.0, light);
-    moment[0] += low * std::pow(1.0 - c, moment_exponent);
-    moment[1] += (light - low) * std::pow(1.0 - c, moment_exponent);
-    before += light;
+  const double half = 0.5 * light.total;
+  for (const auto& [c, part] : light.parts) {
+    const double low = std::clamp(half - before, 0.0, part);
+    moment[0] += low * std::pow(1.0 - c, exponent);
+    moment[1] += (part - low) * std::pow(1.0 - c, exponent);
+    before += part;
   }
-  const auto stand_in = [&](double m) {
-    return 1.0 - std::pow(m / (0.5 * total), 1.0 / moment_exponent);
-  };
-  return {total, stand_in(moment[0]) - scene.cosine, stand_in(moment[1]) - scene.cosine};
+  const auto cosine = [&](double m) { return 1.0 - std::pow(m / half, 1.0 / exponent) - view; };
+  return {cosine(moment[0]), cosine(moment[1])};
+}
+
+std::vector<double> reflection(const Facets& facets, double cosine, double alpha, double) {
+  const Scene scene(facets, cosine, alpha);
+  const Reflected light = reflected(scene);
+  // Schlick's 5 and a little more, for the curves of usual indices.
+  const std::vector<double> means = stand_ins(light, 5.4, scene.cosine);
+  return {light.total, means[0], means[1]};
+}
+
+/// For the curves of indices next to 1, which fall within few degrees of grazing.
+std::vector<double> steep(const Facets& facets, double cosine, double alpha, double) {
+  const Scene scene(facets, cosine, alpha);
+  return stand_ins(reflected(scene), 10.0, scene.cosine);
 }
 
 struct Interface {
@@ -310,7 +329,8 @@ int main(int count, char** arguments) {
   const Facets& facets = name == "ggx" ? static_cast<const Facets&>(ggx) : beckmann;
   std::printf("// Written by pbs/tables/make_tables.cpp.\n");
   write(facets, "reflection_values", 24, 20, 1, angle, reflection);
+  write(facets, "steep_values", 24, 20, 1, angle, steep);
   write(facets, "entering_values", 40, 10, 8, entering_angle, entering);
-  write(facets, "leaving_values", 20, 16, 24, angle_below_one, leaving);
-  write_stretched(facets, "stretched_values", 24, 16, 10);
+  write(facets, "leaving_values", 40, 16, 24, angle_below_one, leaving);
+  write_stretched(facets, "stretched_values", 24, 16, 20);
 }
