@@ -96,7 +96,7 @@ class ChiangHair final : public Lobe {
   struct Inputs {
     Float3 normal, direction;
     std::array<Color3, 3> tint;        ///< In [0, 1e6].
-    std::array<Float, 3> variance;     ///< Longitudinal, in [5e-7, 100].
+    std::array<Float, 3> variance;     ///< Longitudinal, in [5e-7, 1000].
     std::array<Float, 3> scale;        ///< Of the logistic, in [6e-4, 10].
     std::array<Float, 3> tilt_sine;    ///< Of the cuticle's angle, as each way sees it.
     std::array<Float, 3> tilt_cosine;  ///< The same.
@@ -282,7 +282,7 @@ void record_closure_chiang_hair_bsdf(NodeCall& call) {
     const std::string name = names[way];
     in.tint[way] = prepare_tint(recorder, call.vector3("tint_" + name));
     const Float2 roughness = call.vector2("roughness_" + name);
-    in.variance[way] = keep(recorder, clamp(roughness.x, 5e-7f, 100.0f));
+    in.variance[way] = keep(recorder, clamp(roughness.x, 5e-7f, 1e3f));
     in.scale[way] = keep(recorder, clamp(roughness.y, 1e-3f, 16.0f) * root_eighth_pi);
     // By 2, -1 and -4 times the angle, as the data library's text has it.
     const Float angle = (2.0f - 3.0f * static_cast<float>(way)) * tilt;

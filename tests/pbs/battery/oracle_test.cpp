@@ -1,0 +1,73 @@
+// T-ORA and T-MONO: machine code against the formula of each closure, in double.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/pbs/battery/oracle_errors.h"
+
+namespace nacre {
+namespace {
+
+/// Where in the order of points, to repeat it.
+std::string at(const OraclePoints& points, std::size_t i) {
+  std::string text =
+      fmt::format("f {} pdf {} albedo {} at", points.f[i], points.pdf[i], points.albedo[i]);
+  for (const auto& [name, column] : points.columns) {
+    if (column.size() > 1) text += fmt::format(" {}={}", name, column[i]);
+  }
+  return text;
+}
+
+/// Errors that do not hang on the mode, as those of tables, are equal but for rounding.
+constexpr double scatter = 1.1, least = 1e-6;
+
+void expect_ordered(const ErrorList& better, const ErrorList& worse, const char* what) {
+  EXPECT_LE(better.usual(), scatter * worse.usual() + least) << what;
+}
+
+class Oracle : public testing::TestWithParam<OracleCase> {};
+
+// Without NACRE_TEST_FULL fewer views are taken.
+TEST_P(Oracle, LobesAreTheirFormulas) {
+  const OracleCase& row = GetParam();
+  const std::size_t views = std::getenv("NACRE_TEST_FULL") != nullptr ? 2000 : 60;
+  const OraclePoints points = oracle_points(row, views, 32, 1);
+  const auto measure = [&](Accuracy mode) {
+    const auto kernel = oracle_kernel(row, mode);
+    const OracleGate& gate = mode == Accuracy::fast ? row.fast : row.standard;
+    OracleErrors errors = oracle_errors(points, *kernel, gate);
+    const auto expect = [&](const char* what, const ErrorList& list) {
+      EXPECT_LE(list.usual(), 1.0)
+          << accuracy_name(mode) << ", parts of the gate of " << what << "; at worst "
+          << list.most() << ": " << at(points, list.worst());
+    };
+    expect("f", errors.f_by_gate), expect("pdf", errors.pdf_by_gate);
+    EXPECT_LE(errors.albedo.most(), row.albedo)
+        << accuracy_name(mode) << ": " << at(points, errors.albedo.worst());
+    return errors;
+  };
+  const OracleErrors precise = measure(Accuracy::precise), standard = measure(Accuracy::standard);
+  expect_ordered(precise.f, standard.f, "f, precise and standard");
+  expect_ordered(precise.pdf, standard.pdf, "pdf, precise and standard");
+  if (!row.is_fast_too) return;
+  const OracleErrors fast = measure(Accuracy::fast);
+  expect_ordered(standard.f, fast.f, "f, standard and fast");
+  expect_ordered(standard.pdf, fast.pdf, "pdf, standard and fast");
+}
+
+std::string case_name(const testing::TestParamInfo<OracleCase>& info) {
+  std::string name;
+  for (const char c : info.param.name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Oracle, testing::ValuesIn(oracle_cases()), case_name);
+
+}  // namespace
+}  // namespace nacre
