@@ -50,8 +50,9 @@ OracleView draw_view(const OracleCase& row, std::size_t count, Random& random) {
 /// the density alike, for what is black next to it is not seen.
 constexpr double floor_of_peak = 1e-6;
 
-/// Where the digits of the directions leave f better known than this, errors are the lobe's.
-constexpr double well_known = 1e-3;
+/// Where no more than this may be of the digits of the directions, errors are the lobe's. (What
+/// is, is a thirtieth of it.)
+constexpr double well_known = 1e-2;
 
 void add_view(const OracleCase& row, const OracleView& view, OraclePoints& points) {
   const bool inside = view.wo.z < 0.0;

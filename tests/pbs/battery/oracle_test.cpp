@@ -5,6 +5,9 @@
 #include <cstdlib>
 
 #include "tests/pbs/battery/oracle_errors.h"
+#include "tests/pbs/independent/fresnel.h"
+#include "tests/pbs/independent/integral.h"
+#include "tests/pbs/independent/microfacet.h"
 
 namespace nacre {
 namespace {
@@ -19,11 +22,14 @@ std::string at(const OraclePoints& points, std::size_t i) {
   return text;
 }
 
-/// Errors that do not hang on the mode, as those of tables, are equal but for rounding.
-constexpr double scatter = 1.1, least = 1e-6;
+bool full_run() { return std::getenv("NACRE_TEST_FULL") != nullptr; }
 
+/// Errors that do not hang on the mode, as those of tables, are equal but for rounding. Of few
+/// views one decides: a sum of more facets is no better at each.
 void expect_ordered(const ErrorList& better, const ErrorList& worse, const char* what) {
-  EXPECT_LE(better.usual(), scatter * worse.usual() + least) << what;
+  constexpr double rounding = 1e-5;
+  const double scatter = full_run() ? 1.1 : 3.0;
+  EXPECT_LE(better.usual(), scatter * worse.usual() + rounding) << what;
 }
 
 class Oracle : public testing::TestWithParam<OracleCase> {};
@@ -31,7 +37,7 @@ class Oracle : public testing::TestWithParam<OracleCase> {};
 // Without NACRE_TEST_FULL fewer views are taken.
 TEST_P(Oracle, LobesAreTheirFormulas) {
   const OracleCase& row = GetParam();
-  const std::size_t views = std::getenv("NACRE_TEST_FULL") != nullptr ? 2000 : 60;
+  const std::size_t views = full_run() ? 2000 : 60;
   const OraclePoints points = oracle_points(row, views, 32, 1);
   const auto measure = [&](Accuracy mode) {
     const auto kernel = oracle_kernel(row, mode);
@@ -65,6 +71,31 @@ std::string case_name(const testing::TestParamInfo<OracleCase>& info) {
       name += '_';
   }
   return name;
+}
+
+/// Formulas by direction and sums over facets are two ways to one number.
+TEST(OracleFormulas, AreWhatTheirIntegralsSay) {
+  using namespace reference;
+  const auto whole = [](const FacetLobe& lobe) {
+    const auto below = [&](Vec wi) { return lobe.at({wi.x, wi.y, -wi.z}); };
+    return integral([&](Vec wi) { return lobe.at(wi); }) + integral(below);
+  };
+  for (const bool beckmann : {false, true}) {
+    for (const Facets& facets : {Facets{beckmann, 0.6, 0.6}, Facets{beckmann, 1.0, 0.4}}) {
+      for (const double index : {1.5, 1.0 / 1.5}) {
+        for (const double sine : {0.3, 0.95}) {
+          const Vec wo{0.6 * sine, 0.8 * sine, std::sqrt(1.0 - sine * sine)};
+          const auto factor = [&](double c) { return fresnel(c, index); };
+          const FacetReflection back(facets, wo, factor);
+          EXPECT_NEAR(whole(back), back.albedo(), 2e-3) << index << " " << sine;
+          const FacetTransmission through(facets, wo, index, index < 1.0);
+          EXPECT_NEAR(whole(through), 1.0, 1e-2) << index << " " << sine;
+          const FacetInterface both(facets, wo, index, factor);
+          EXPECT_NEAR(whole(both), 1.0, 1e-2) << index << " " << sine;
+        }
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Oracle, testing::ValuesIn(oracle_cases()), case_name);
