@@ -41,6 +41,9 @@ struct FacetReflection {
   Float low_share = 0.5f;   ///< Part of the light that `low` stands for.
   Float dielectric = 0.0f;  ///< The mean of a dielectric's Fresnel factor, where light leaves it.
   Float summed = 0.0f;      ///< How far to trust `dielectric` rather than tables, in [0, 1].
+  /// Only under a film:
+  Color3 filmed = Color3(0.0f);  ///< The mean of the Fresnel factor, where light leaves.
+  Float filmed_share = 0.0f;     ///< How far to trust it.
 
   /// The mean of a Fresnel factor over the reflected light: f(Float) -> Float or Color3.
   template <class F>
@@ -55,6 +58,7 @@ template <class F>
 void visit(FacetReflection& reflection, F&& f) {
   f(reflection.albedo), f(reflection.low), f(reflection.high), f(reflection.low_share);
   f(reflection.dielectric), f(reflection.summed);
+  visit(reflection.filmed, f), f(reflection.filmed_share);
 }
 FacetReflection facet_reflection(Recorder& recorder, const FacetView& view);
 
@@ -66,7 +70,7 @@ FacetReflection for_dielectric(Recorder& recorder, const FacetView& view,
 /// An interface between two dielectrics, eta the index beyond over before. Glass
 /// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 % as far
 /// as 85 degrees, from outside and from inside, layered or joint; joint to 89 from outside
-/// (tests/pbs/furnace_test.cpp); 2 % with Beckmann's facets. Beyond 4.56 the tables stay as there.
+/// (tests/pbs/battery/furnace_test.cpp); 2 % with Beckmann's facets. The tables end with index 50.
 struct FacetInterface {
   Float fresnel;       ///< Mean Fresnel factor of the reflected light.
   Float transmission;  ///< Albedo of transmission without a Fresnel factor.

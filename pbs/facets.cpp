@@ -110,7 +110,13 @@ Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
         [&](Float c) { return at(c, inside) - Color3(fresnel_dielectric(c, eta)); });
     return saturate(mean + rest);
   };
-  return choose(inside ^ (index() < 1.0f), leaving, plain);
+  const Color3 found = choose(inside ^ (index() < 1.0f), leaving, plain);
+  if (!reflection.filmed_share.is_constant(0.0f)) {
+    return fma(reflection.filmed - found, Color3(reflection.filmed_share), found);
+  }
+  // Of equal roughnesses the sum is for either side.
+  if (view.anisotropic || !is_dielectric() || reflection.summed.is_constant(0.0f)) return found;
+  return fma(Color3(reflection.dielectric) - found, Color3(reflection.summed), found);
 }
 
 Color3 prepare_tint(Recorder& recorder, Color3 tint) {

@@ -72,8 +72,9 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
     Color3 more = product(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed));
     // What a film does to the mean is not what it does to the facets that let light pass.
     const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
-    const Float rough = fresnel_->has_film() ? saturate(fma(10.0f, alpha, -1.0f)) : Float(0.0f);
-    const Float by_sum = max(perfect.summed, rough);
+    const Float film = fresnel_->film_share();
+    const Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(10.0f, alpha, -1.0f));
+    const Float by_sum = facets_.isotropic ? rough : max(perfect.summed, rough);
     more = if_any(by_sum > 0.0f, more, [&] {
       const Color3 sum =
           sum_over_fresnel(recorder, view.accuracy, local.wo, facets_, *fresnel_, local.below);
@@ -81,7 +82,7 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
     });
     total = total + more;
   }
-  return Color3(1.0f) / max(total, Color3(0.05f));
+  return Color3(1.0f) / max(total, Color3(0.005f));
 }
 
 MicrofacetInterface::Terms MicrofacetInterface::compute(const View& view) const {

@@ -30,6 +30,10 @@ class ThinFilm {
   /// False where the thickness is a literal 0: nothing to record.
   bool exists() const { return !thickness_.is_constant(0.0f); }
 
+  /// How far what holds for the interface without it does not: 0 without, 1 from 30 nm on; a
+  /// literal 0 where there is none.
+  Float share() const { return exists() ? saturate(thickness_ * (1.0f / 30.0f)) : Float(0.0f); }
+
   /// Reflectance in [0, 1]. cosine: of the ray in the medium of index `before`
   /// (at least 0.02); n + ik: index of the substrate, as `before` relative to vacuum,
   /// in [0, 1e4] each. `bare`: without the film.

@@ -51,12 +51,16 @@ T entering_angle(T cosine, T alpha) {
   return steep(cosine, alpha / (T(1.0) + T(9.0) * alpha));
 }
 
-/// Relative index from 1 up to 4.56 (beyond: as there), and the same below 1: the
-/// fourth root of the reflectance at normal incidence, which is 0.8 there.
+/// The last of the indices, and the fourth root of its reflectance at normal incidence.
+inline constexpr double last_index = 50.0;
+inline constexpr double last_root = 0.98019605881960692;
+
+/// Relative index from 1 up to the last, and the same below 1: the fourth root of the
+/// reflectance at normal incidence.
 template <class T>
 T index(T eta) {
   const T offset = (eta - T(1.0)) / (eta + T(1.0));
-  return least(sqrt(most(offset, -offset)) * T(1.25), T(1.0));
+  return least(sqrt(most(offset, -offset)) * T(1.0 / last_root), T(1.0));
 }
 
 /// Cosine of the critical angle of a relative index below 1; not quite 0 at 1.

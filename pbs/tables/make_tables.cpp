@@ -301,7 +301,8 @@ void write(const Facets& facets, const char* name, int angles, int roughnesses, 
            Axis axis, Integral f) {
   std::printf("constexpr float %s[] = {\n", name);
   for (int k = 0; k < indices; ++k) {
-    const double offset = indices == 1 ? 0.0 : std::pow(0.8 * k / (indices - 1), 2);
+    const double root = nacre::table_axes::last_root * k / (indices - 1);
+    const double offset = indices == 1 ? 0.0 : root * root;
     const double eta = std::max((1.0 + offset) / (1.0 - offset), 1.0 + 1e-6);
     for (int j = 0; j < roughnesses; ++j) {
       const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-8);
@@ -330,7 +331,7 @@ int main(int count, char** arguments) {
   std::printf("// Written by pbs/tables/make_tables.cpp.\n");
   write(facets, "reflection_values", 24, 20, 1, angle, reflection);
   write(facets, "steep_values", 24, 20, 1, angle, steep);
-  write(facets, "entering_values", 40, 10, 8, entering_angle, entering);
-  write(facets, "leaving_values", 40, 16, 24, angle_below_one, leaving);
+  write(facets, "entering_values", 40, 10, 10, entering_angle, entering);
+  write(facets, "leaving_values", 40, 16, 30, angle_below_one, leaving);
   write_stretched(facets, "stretched_values", 24, 16, 20);
 }
