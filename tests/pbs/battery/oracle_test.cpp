@@ -37,7 +37,7 @@ class Oracle : public testing::TestWithParam<OracleCase> {};
 // Without NACRE_TEST_FULL fewer views are taken.
 TEST_P(Oracle, LobesAreTheirFormulas) {
   const OracleCase& row = GetParam();
-  const std::size_t views = full_run() ? 2000 : 60;
+  const std::size_t views = full_run() ? 1000 : 60;
   const OraclePoints points = oracle_points(row, views, 32, 1);
   const auto measure = [&](Accuracy mode) {
     const auto kernel = oracle_kernel(row, mode);
