@@ -331,7 +331,7 @@ int main(int count, char** arguments) {
   std::printf("// Written by pbs/tables/make_tables.cpp.\n");
   write(facets, "reflection_values", 24, 20, 1, angle, reflection);
   write(facets, "steep_values", 24, 20, 1, angle, steep);
-  write(facets, "entering_values", 40, 10, 10, entering_angle, entering);
+  write(facets, "entering_values", 40, 20, 10, entering_angle, entering);
   write(facets, "leaving_values", 40, 16, 30, angle_below_one, leaving);
   write_stretched(facets, "stretched_values", 24, 16, 20);
 }
