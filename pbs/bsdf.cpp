@@ -97,6 +97,11 @@ Color3 MultiplyBsdf::part_weight(std::size_t, Color3 weight, const Throughput&) 
   return product(weight, tint_);
 }
 
+bool MultiplyBsdf::blackens() const {
+  const auto may_be_zero = [](Float x) { return !x.is_constant() || x.constant() <= 0.0f; };
+  return may_be_zero(tint_.x) || may_be_zero(tint_.y) || may_be_zero(tint_.z);
+}
+
 Color3 MultiplyBsdf::throughput(const View&, Color3 in1, Color3) const { return in1; }
 
 BsdfPtr MultiplyBsdf::with_parts(BsdfPtr in1, BsdfPtr) const {

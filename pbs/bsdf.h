@@ -45,6 +45,10 @@ class Bsdf : public Closure {
   /// The weight of part `i` where the whole has `weight`. What stands before part `i` has
   /// been flattened, so that `passes` may be asked about it.
   virtual Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const = 0;
+  /// Whether it may turn a part black that lets as little pass as before.
+  virtual bool blackens() const { return false; }
+  /// Whether part_weight() asks what part `i` lets pass.
+  virtual bool asks(std::size_t i) const { return (void)i, false; }
   /// Whether part `i` has to do with what the whole lets pass.
   virtual bool shades(std::size_t i) const { return parts_[i] != nullptr; }
   /// What passes through to a layer underneath, in [0, 1], by what the parts let pass: 1
@@ -104,6 +108,7 @@ class LayerBsdf final : public Bsdf {
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
   BsdfPtr with_parts(BsdfPtr top, BsdfPtr base) const override;
+  bool asks(std::size_t i) const override { return i == 0; }
   bool is_uppermost(std::size_t i) const override { return i == 0; }
   void report(const View& view, Color3 weight) const override;
 
@@ -141,6 +146,7 @@ class MultiplyBsdf final : public Bsdf {
   /// `tint` in [0, 1].
   MultiplyBsdf(BsdfPtr in1, Color3 tint) : Bsdf(std::move(in1)), tint_(tint) {}
   Color3 part_weight(std::size_t i, Color3 weight, const Throughput& passes) const override;
+  bool blackens() const override;
   Color3 throughput(const View& view, Color3 first, Color3 second) const override;
   BsdfPtr with_parts(BsdfPtr in1, BsdfPtr none) const override;
 

@@ -22,30 +22,37 @@ class Flattener {
   std::vector<WeightedLobe> run(const Bsdf& root) {
     count_readers(root);
     states_.at(&root).readers = 1;
-    see(&root, Color3(1.0f));
+    see(&root, {.weight = Color3(1.0f)});
     while (!open_.empty() && !ended_) {
       Open& at = open_.back();
       if (at.part == Bsdf::Parts::count) {
         open_.pop_back();
         continue;
       }
-      if (at.part == 1 && !is_zero(states_.at(at.bsdf).weight)) {
-        at.bsdf->report(view_, states_.at(at.bsdf).weight);
+      if (at.part == 1 && !is_zero(states_.at(at.bsdf).seen.weight)) {
+        at.bsdf->report(view_, states_.at(at.bsdf).seen.weight);
       }
       const std::size_t i = at.part++;
       const Bsdf* part = at.bsdf->parts()[i].get();
       if (part == nullptr) continue;
-      const Color3 weight = states_.at(at.bsdf).weight;
-      // What is not seen at all still has to say so to its parts.
-      see(part, is_zero(weight) ? weight : at.bsdf->part_weight(i, weight, passes_));
+      see(part, seen_of(*at.bsdf, i));
     }
     return std::move(lobes_);
   }
 
  private:
+  /// Of a node.
+  struct Seen {
+    Color3 weight = Color3(0.0f);
+    /// Something asks what it lets pass.
+    bool is_asked = false;
+    /// The weight with which that counts, if it is not the other: what a tint turns black takes as
+    /// much away from a layer underneath.
+    std::optional<Color3> shade = {};
+  };
   struct State {
     std::size_t readers = 0;  ///< That have not yet said what they see of it.
-    Color3 weight = Color3(0.0f);
+    Seen seen;
     std::optional<Color3> throughput;
   };
   struct Open {
@@ -69,29 +76,52 @@ class Flattener {
     }
   }
 
-  /// One reader of `bsdf` sees `weight` of it.
-  void see(const Bsdf* bsdf, Color3 weight) {
+  /// What a node that is seen itself shows of a part.
+  Seen seen_of(const Bsdf& bsdf, std::size_t i) {
+    const Seen seen = states_.at(&bsdf).seen;
+    // What is not seen at all still has to say so to its parts.
+    if (is_zero(seen.weight)) return {.weight = seen.weight};
+    Seen part{.weight = bsdf.part_weight(i, seen.weight, passes_),
+              .is_asked = bsdf.asks(i) || (seen.is_asked && bsdf.shades(i))};
+    if (!part.is_asked) return part;
+    if (bsdf.blackens()) {
+      part.shade = seen.shade.value_or(seen.weight);
+    } else if (seen.shade) {
+      part.shade = bsdf.part_weight(i, *seen.shade, passes_);
+    }
+    return part;
+  }
+
+  /// One reader of `bsdf` sees that of it.
+  void see(const Bsdf* bsdf, const Seen& seen) {
     State& state = states_.at(bsdf);
-    state.weight = is_zero(state.weight) ? weight
-                   : is_zero(weight)     ? state.weight
-                                         : state.weight + weight;
+    state.seen = sum(state.seen, seen);
     if (--state.readers > 0) return;
     const LobeBsdf* leaf = bsdf->leaf();
     if (leaf == nullptr) {
       open_.push_back({bsdf});
     } else {
-      add(*leaf, state.weight);
+      add(*leaf, state.seen);
     }
   }
 
-  void add(const LobeBsdf& leaf, Color3 weight) {
-    const Color3 total = product(weight, Color3(leaf.weight()));
+  static Color3 sum(Color3 a, Color3 b) { return is_zero(a) ? b : is_zero(b) ? a : a + b; }
+  static Seen sum(const Seen& a, const Seen& b) {
+    Seen both{.weight = sum(a.weight, b.weight), .is_asked = a.is_asked || b.is_asked};
+    if (!a.shade && !b.shade) return both;
+    both.shade = sum(a.shade.value_or(a.weight), b.shade.value_or(b.weight));
+    return both;
+  }
+
+  void add(const LobeBsdf& leaf, const Seen& seen) {
+    const Color3 total = product(seen.weight, Color3(leaf.weight()));
     if (is_zero(total)) return note_unseen(leaf);
     ended_ = may_go_on_ && !may_go_on_();
     if (ended_) return;
     leaf.report(view_, total);
     const ScopedOrigin origin(*view_.recorder, leaf.origin());
-    leaf.lobe()->prepare(view_, max_component(total) > 0.0f);
+    const Color3 counts = seen.shade ? product(*seen.shade, Color3(leaf.weight())) : total;
+    leaf.lobe()->prepare(view_, max_component(counts) > 0.0f);
     lobes_.push_back({leaf.lobe(), total, leaf.origin()});
   }
 
