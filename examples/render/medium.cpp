@@ -70,25 +70,37 @@ Meeting sample_meeting(const Medium& there, float bound, Vec3 throughput, float 
   return {scatters, (1.f / (bound * probability)) * (scatters ? there.scattering : nothing)};
 }
 
-Scattered sample_phase(float anisotropy, Vec3 along, Uniform2 u) {
-  const float g = anisotropy;
-  const float s = 2.f * u.x - 1.f;
-  // (1 + g^2 - ((1 - g^2) / (1 + g s))^2) / (2 g), divided out.
-  const float below = 1.f + g * s;
-  const float above = s + 0.5f * g * (s * s + 3.f) + g * g * s + 0.5f * g * g * g * (s * s - 1.f);
-  const float cosine = std::clamp(above / (below * below), -1.f, 1.f);
-  const float sine = std::sqrt((1.f - cosine) * (1.f + cosine));
-  const float phi = 2.f * std::numbers::pi_v<float> * u.y;
-  const Vec3 x = perpendicular(along);
-  const Vec3 y = cross(along, x);
-  return {normalize(cosine * along + (sine * std::cos(phi)) * x + (sine * std::sin(phi)) * y),
-          phase(g, cosine)};
+namespace {
+
+/// By how far the cosine is from that of where most light goes: a cosine itself has no digits
+/// there.
+float phase_density(float narrowness, float apart) {
+  const float g = narrowness, rest = 1.f - g;
+  const float base = std::max(rest * rest + 2.f * g * apart, 1e-12f);
+  return rest * (1.f + g) / (4.f * std::numbers::pi_v<float> * base * std::sqrt(base));
 }
 
-float phase(float anisotropy, float cosine) {
-  const float g = anisotropy;
-  const float base = std::max(1.f + g * g - 2.f * g * cosine, 1e-12f);
-  return (1.f - g * g) / (4.f * std::numbers::pi_v<float> * base * std::sqrt(base));
+}  // namespace
+
+Scattered sample_phase(float anisotropy, Vec3 along, Uniform2 u) {
+  const float g = std::abs(anisotropy), rest = 1.f - g;
+  const float share = anisotropy < 0.f ? 1.f - u.x : u.x;  // Of what is further from there.
+  // 1 - (1 + g^2 - s^2) / (2 g), the division by g divided out.
+  const float a = std::max(rest + 2.f * g * share, 1e-12f);
+  const float s = rest * (1.f + g) / a;
+  const float apart = std::clamp(rest * (1.f - share) * (s + rest) / a, 0.f, 2.f);
+  const float sine = std::sqrt(apart * (2.f - apart));
+  const float phi = 2.f * std::numbers::pi_v<float> * u.y;
+  const Vec3 most = std::copysign(1.f, anisotropy) * along;
+  const Vec3 x = perpendicular(along);
+  const Vec3 y = cross(along, x);
+  return {normalize((1.f - apart) * most + (sine * std::cos(phi)) * x + (sine * std::sin(phi)) * y),
+          phase_density(g, apart)};
+}
+
+float phase(float anisotropy, Vec3 along, Vec3 to) {
+  const Vec3 apart = to - std::copysign(1.f, anisotropy) * along;
+  return phase_density(std::abs(anisotropy), 0.5f * dot(apart, apart));
 }
 
 }  // namespace nacre::host

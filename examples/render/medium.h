@@ -79,8 +79,8 @@ struct Scattered {
 };
 Scattered sample_phase(float anisotropy, Vec3 along, Uniform2 u);
 
-/// The density with which it is scattered to what has that cosine with the way it went: the phase
+/// The density with which light that goes along one unit vector is scattered to another: the phase
 /// function too.
-float phase(float anisotropy, float cosine);
+float phase(float anisotropy, Vec3 along, Vec3 to);
 
 }  // namespace nacre::host

@@ -71,7 +71,7 @@ void Wavefront::connect_media() {
   for (const Scattering& at : scatterings_) {
     const LightSample& light = light_samples_[at.path];
     if (!(light.pdf > 0.f)) continue;
-    const float value = phase(at.anisotropy, dot(at.along, light.wi));
+    const float value = phase(at.anisotropy, at.along, light.wi);
     const float weight = light.unseen ? 1.f : connection_weight(light.pdf, value);
     const Vec3 contribution = (weight * value / light.pdf) * (at.throughput * light.radiance);
     if (is_zero(contribution)) continue;
