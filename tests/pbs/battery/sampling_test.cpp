@@ -2,182 +2,55 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nacre/lobe_test/chi_square.hpp>
-#include <nacre/lobe_test/sphere_partition.hpp>
 #include <tuple>
-#include <utility>
 
-#include "tests/pbs/battery/lobe_kernels.h"
+#include "tests/pbs/battery/sampling_trial.h"
+#include "tests/support/chi_squares.h"
 
 namespace nacre {
 namespace {
 
-/// Each configuration has its own numbers, always the same: a failure is a fault
-/// of the code as it stands, and comes again.
-constexpr std::uint64_t seed = 20261121;
-constexpr std::size_t sample_count = 100'000;
-constexpr float roughnesses[] = {0.05f, 0.1f, 0.3f, 0.6f, 1.0f};
-constexpr double angles[] = {0.0, 30.0, 60.0, 80.0, 85.0, 130.0, 160.0};
+class Lobes : public testing::TestWithParam<std::tuple<LobeCase, Accuracy>> {};
 
-std::vector<float> roughnesses_of(const LobeCase& row) {
-  std::vector<float> list;
-  for (const float r : roughnesses) {
-    if (row.rough ? r >= row.least_roughness : r == 1.0f) list.push_back(r);
-  }
-  return list;
-}
-
-double configurations() {
-  double count = 0.0;
-  for (const LobeCase& row : lobe_cases()) {
-    count += static_cast<double>(roughnesses_of(row).size() * std::size(angles)) * 2.0;
-  }
-  return count;
-}
-
-/// What one configuration's samples and quadrature say.
-struct Trial {
-  Trial(const LobeKernels& kernels, float roughness, Direction wo, std::uint64_t number,
-        std::size_t count)
-      : samples(kernels.sample(roughness, wo, count, seed + number)),
-        cells(
-            [&](const std::vector<Direction>& wi) {
-              Evaluated values = kernels.evaluate(roughness, wo, wi);
-              return SpherePartition::Densities{std::move(values.pdf), std::move(values.f)};
-            },
-            kernels.sample(roughness, wo, 4096, ~(seed + number)).wi, static_cast<double>(count)) {}
-
-  double valid_fraction() const {
-    return static_cast<double>(std::ranges::count(samples.valid, true)) /
-           static_cast<double>(samples.valid.size());
-  }
-  double chi_square() const {
-    std::vector<double> counts(cells.cells(), 0.0), expected(cells.cells());
-    for (std::size_t i = 0; i < samples.wi.size(); ++i) {
-      if (samples.valid[i]) counts[cells.find(samples.wi[i])] += 1.0;
-    }
-    for (std::size_t c = 0; c < expected.size(); ++c) expected[c] = cells.pdf(c);
-    return chi_square_probability(counts, expected);
-  }
-  /// Mean of the weights and the deviation of that mean.
-  std::pair<double, double> light() const {
-    double sum = 0.0, squares = 0.0;
-    for (const float w : samples.weight) sum += w, squares += double(w) * w;
-    const double n = static_cast<double>(samples.weight.size());
-    const double mean = sum / n;
-    return {mean, std::sqrt(std::max(squares / n - mean * mean, 0.0) / n)};
-  }
-
-  Sampled samples;
-  SpherePartition cells;
-};
-
-void check_weights(const LobeKernels& kernels, float roughness, Direction wo,
-                   const Sampled& samples) {
-  const Evaluated again = kernels.evaluate(roughness, wo, samples.wi);
-  for (std::size_t i = 0; i < samples.wi.size(); ++i) {
-    if (!samples.valid[i]) {
-      ASSERT_EQ(samples.weight[i], 0.0f);
-      ASSERT_EQ(samples.pdf[i], 0.0f);
-      continue;
-    }
-    const Direction w = samples.wi[i];
-    ASSERT_NEAR(w.x * w.x + w.y * w.y + w.z * w.z, 1.0f, 1e-5f);
-    ASSERT_GT(again.pdf[i], 0.0f);
-    ASSERT_NEAR(samples.pdf[i], again.pdf[i], 1e-4f * again.pdf[i]);
-    const float weight = again.f[i] / again.pdf[i];
-    ASSERT_NEAR(samples.weight[i], weight, 1e-4f * weight + 1e-12f) << i;
-  }
-}
-
-void check_energy(const LobeCase& row, double light, double albedo) {
-  switch (row.energy) {
-    case Energy::conserving: EXPECT_LE(light, 1.0 + 1e-3); break;
-    case Energy::preserving: EXPECT_NEAR(light, 1.0, row.preserving_error); break;
-    case Energy::exceeding: break;  // The brightest of all is pinned.
-  }
-  EXPECT_NEAR(albedo, std::min(light, 1.0), row.albedo_error);
-}
-
-/// Of a mean of 0s and 1s over so many samples, by chance once in 2.6e7.
-double deviation_of_fraction(double fraction, std::size_t samples) {
-  return 5.5 * std::sqrt(fraction * (1.0 - fraction) / static_cast<double>(samples));
-}
-
-class Lobes : public testing::TestWithParam<std::tuple<LobeCase, Accuracy>> {
- protected:
-  template <class F>
-  void each_configuration(F&& check, Backend backend = Backend::jit) {
-    const auto& [row, accuracy] = GetParam();
-    const LobeKernels kernels(row, accuracy, backend);
-    std::uint64_t number = 0;
-    for (const float roughness : roughnesses_of(row)) {
-      for (const double angle : angles) {
-        SCOPED_TRACE(testing::Message() << "roughness " << roughness << " angle " << angle);
-        check(row, kernels, roughness, direction(angle), ++number);
-      }
-    }
-  }
-};
-
-// Samples, density and scattering function are one thing seen from three sides.
 TEST_P(Lobes, SamplesFollowTheDensityAndCarryTheLight) {
-  const double level = level_of_one(configurations());
-  double brightest = 0.0;
-  each_configuration([&](const LobeCase& row, const LobeKernels& kernels, float roughness,
-                         Direction wo, std::uint64_t number) {
-    const Trial trial(kernels, roughness, wo, number, sample_count);
-    const double valid = trial.valid_fraction();
-    // A lobe too dark to be chosen has no samples and no density.
-    EXPECT_NEAR(trial.cells.pdf_integral(), valid,
-                valid == 0.0 ? 0.0 : 5e-4 + deviation_of_fraction(valid, sample_count));
-    if (valid > 0.0) {
-      EXPECT_GT(trial.chi_square(), level);
-    }
-    brightest = std::max(brightest, trial.cells.f_integral());
-    const auto [mean, deviation] = trial.light();
-    EXPECT_NEAR(mean, trial.cells.f_integral(), 5.5 * deviation + 5e-4);
-    check_energy(row, trial.cells.f_integral(), kernels.albedo(roughness, wo));
-    check_weights(kernels, roughness, wo, trial.samples);
-  });
-  const LobeCase& row = std::get<0>(GetParam());
-  if (row.energy == Energy::exceeding) {
-    EXPECT_NEAR(brightest, row.most_light, 2e-3);
-  }
+  const auto& [row, accuracy] = GetParam();
+  try_lobe(row, accuracy, daily_tier);
 }
 
 // A host that runs a path backwards relies on it. For `fast` LLVM may order sums and products as
 // it likes, in two kernels' code differently; the interpreter keeps their order.
 TEST_P(Lobes, ReverseDensityIsTheForwardOneOfTheSwappedPair) {
-  const bool is_fast = std::get<1>(GetParam()) == Accuracy::fast;
+  const auto& [row, accuracy] = GetParam();
+  const bool is_fast = accuracy == Accuracy::fast;
+  const LobeKernels kernels(row, accuracy, is_fast ? Backend::interpreter : Backend::jit);
   double worst = 1.0;
-  each_configuration(
-      [&](const LobeCase&, const LobeKernels& kernels, float roughness, Direction wo,
-          std::uint64_t number) {
-        const Sampled samples = kernels.sample(roughness, wo, 2000, seed + number);
-        std::vector<Direction> wi;
-        for (std::size_t i = 0; i < samples.wi.size(); ++i) {
-          if (samples.valid[i]) wi.push_back(samples.wi[i]);
-        }
-        if (wi.empty()) return;
-        const Evaluated there = kernels.evaluate(roughness, wo, wi);
-        const Evaluated back = kernels.evaluate(roughness, wi, {wo});
-        for (std::size_t i = 0; i < wi.size(); ++i) {
-          ASSERT_EQ(there.pdf_reverse[i], back.pdf[i]);
-          ASSERT_EQ(back.pdf_reverse[i], there.pdf[i]);
-          const double f = there.f[i] * std::abs(double(wo.z));
-          const double g = back.f[i] * std::abs(double(wi[i].z));
-          if (std::max(f, g) < 1e-6) continue;
-          worst = std::max({worst, f / g, g / f});
-        }
-      },
-      is_fast ? Backend::interpreter : Backend::jit);
-  const LobeCase& row = std::get<0>(GetParam());
+  each_lobe_view(row, daily_tier, [&](float roughness, Direction wo, std::uint64_t seed) {
+    const Sampled samples = kernels.sample(roughness, wo, 2000, seed);
+    std::vector<Direction> wi;
+    for (std::size_t i = 0; i < samples.wi.size(); ++i) {
+      if (samples.valid[i]) wi.push_back(samples.wi[i]);
+    }
+    if (wi.empty()) return;
+    const Evaluated there = kernels.evaluate(roughness, wo, wi);
+    const Evaluated back = kernels.evaluate(roughness, wi, {wo});
+    for (std::size_t i = 0; i < wi.size(); ++i) {
+      ASSERT_EQ(there.pdf_reverse[i], back.pdf[i]);
+      ASSERT_EQ(back.pdf_reverse[i], there.pdf[i]);
+      const double f = there.f[i] * std::abs(double(wo.z));
+      const double g = back.f[i] * std::abs(double(wi[i].z));
+      if (std::max(f, g) < 1e-6) continue;
+      worst = std::max({worst, f / g, g / f});
+    }
+  });
   // Reciprocal, or as far from it as was measured when the row was written.
   const double error = row.reciprocity == 1.0 ? 2e-4 : 2e-2 * row.reciprocity;
   if (row.reciprocity > 0.0) {
     EXPECT_NEAR(worst, row.reciprocity, error);
   }
+}
+
+TEST(LobeCases, AreNoMoreThanTheLevelIsFor) {
+  EXPECT_LE(lobe_chi_squares(), chi_squares_of::lobes);
 }
 
 std::string case_name(const testing::TestParamInfo<std::tuple<LobeCase, Accuracy>>& info) {
