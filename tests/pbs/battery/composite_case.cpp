@@ -22,7 +22,8 @@ const Values rough{"0.2", "0.3", "0.6", "1"};
 const Values anisotropies{"0", "0.5", "0.95", "1"};
 /// Of OpenPBR, whose 1 is a roughness of 0 across.
 const Values some_anisotropies{"0", "0.5", "0.9"};
-const Values indices{"1", "1.000001", "0.999999", "1.001", "1.05", "1.33", "1.5", "2.5", "40"};
+const Values indices{"1",    "1.000001", "0.999999", "1.001", "0.999", "0.667",
+                     "1.05", "1.33",     "1.5",      "2.5",   "40"};
 const Values films{"0", "0.001", "1", "30", "550", "5000", "1000000"};  // nm
 const Values micrometres{"0", "0.000001", "0.001", "0.03", "0.55", "5"};
 const Values colours{"0.8, 0.8, 0.8", "0.9, 0.3, 0.05", "1, 1, 1", "0, 0, 0"};

@@ -165,6 +165,9 @@ std::vector<Limit> films() {
     };
     add("conductor", lobe("conductor_bsdf", rough(alpha) + film), false);
     add("interface", lobe("dielectric_bsdf", rough(alpha) + mode("RT") + film), true);
+    add("schlick_interface",
+        lobe("generalized_schlick_bsdf", rough(alpha) + grey("color0", "0.3") + mode("RT") + film),
+        true);
     add("over_paper", over("dielectric_bsdf", rough(alpha) + film), false);
     add("schlick", lobe("generalized_schlick_bsdf", rough(alpha) + grey("color0", "0.04") + film),
         false);
@@ -177,7 +180,9 @@ std::vector<Limit> anisotropies() {
   for (const char* alpha : {"0.01", "0.1", "0.4", "0.9"}) {
     const double a = std::atof(alpha);
     const std::vector<std::string> near{fmt::format("{}, {}", a, a * 1.00002),
-                                        fmt::format("{}, {}", a * 1.00002, a)};
+                                        fmt::format("{}, {}", a * 1.00002, a),
+                                        // Where sums over facets come in beside tables.
+                                        fmt::format("{}, {}", a, a * 1.0005)};
     const auto add = [&](const char* of, std::string nodes, bool inside) {
       limits.push_back({fmt::format("anisotropy_{}_{}", of, alpha + 2), std::move(nodes),
                         fmt::format("{}, {}", a, a), near, inside});
@@ -208,9 +213,9 @@ std::vector<Limit> indices() {
       std::vector<std::string> near{"1.000001", "0.999999"};
       if (each[0] != 'R' || each[1] == 'T') near.insert(near.end(), {"1.0009", "0.9991"});
       limits.push_back({name, nodes, "1", near, true});
-      // Both sides in one lobe: what the sum over facets finds is .17 % from all light at 88
-      // degrees.
-      const double most = std::string_view(each) == "RT" ? 2e-3 : most_jump;
+      // Measured: what the sum over facets finds is .17 % from all light at 88 degrees (both sides
+      // in one lobe) and at 160 (transmission).
+      const double most = std::string_view(each) == "R" ? most_jump : 2e-3;
       limits.push_back({name + "_bending", nodes, "1.000999", {"1.001001"}, true, {}, false, most});
     }
   }

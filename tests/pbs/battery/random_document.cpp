@@ -128,7 +128,7 @@ const std::vector<Closure>& lobes() {
        {mode("R"), mode("T"), mode("RT")}},
       {"generalized_schlick_bsdf",
        {{"weight", weight}, {"color0", color}, {"roughness", alpha}},
-       {mode("R")}},
+       {mode("R"), mode("RT")}},
   };
   return all;
 }
