@@ -134,7 +134,7 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
                         "a <light>, which is where its mesh is");
       return false;
     }
-    if (!kernels->has_surface && !kernels->light && !kernels->volume) {
+    if (!kernels->has_surface && !kernels->has_light && !kernels->volume) {
       diagnostics.error(
           "no-surface", {},
           "material '" + assignment.material + "' has no surface, and nothing else is rendered",

@@ -136,6 +136,7 @@ bool has_kernel(Type type);
 /// surface shader `displacement`.
 struct MaterialKernels {
   bool has_surface = true;  ///< The material has a surface shader.
+  bool has_light = false;   ///< It has a light shader: dark, where `light` is absent.
   /// The back shows another shader: to be compiled with ShaderOptions::side and used
   /// where dot(Ng, wo) < 0. Else these kernels are those of both sides (MaterialX PBS 1.39,
   /// "Surfaces").

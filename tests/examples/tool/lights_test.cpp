@@ -102,6 +102,9 @@ TEST_F(Lights, ALightOfAMesh) {
   // The middle of the scene is at z = 2, seen from (0.55, 0.35, 1): behind it is (-1.1, -0.7, 0).
   const double squared = 1.1 * 1.1 + 0.7 * 0.7 + 16;
   EXPECT_NEAR(light, 1000 * 0.04 * 16 / (squared * squared) / pi, 2e-2);
+  // One that is switched off is a lamp, too.
+  EXPECT_EQ(card(lamp("0, 0, 0"), look, square), 0.0);
+  EXPECT_EQ(errors_, "");
 }
 
 TEST_F(Lights, NoMeshIsALightThatStandsSomewhere) {
