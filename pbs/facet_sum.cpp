@@ -44,7 +44,7 @@ Lattices small_lattices(Accuracy accuracy) {
 Lattices film_lattices(Accuracy accuracy) {
   if (accuracy == Accuracy::fast) return {.entering = {21, 13}, .leaving = {34, 21}};
   if (accuracy == Accuracy::standard) return {.entering = {34, 21}, .leaving = {144, 89}};
-  return {.entering = {144, 89}, .leaving = {377, 233}};
+  return {.entering = {89, 55}, .leaving = {144, 89}};
 }
 
 /// That of each lane.
