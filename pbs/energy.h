@@ -30,10 +30,9 @@ struct FacetView {
 };
 FacetView facet_view(Float3 wo, FacetDistribution distribution, Float2 alpha, bool isotropic);
 
-/// Measured against quadrature (alpha 0.001 to 1, to 89.99 degrees; bench/results/lobes.md): albedo
-/// of perfect facets 0.3 %; times Fresnel 0.8 % of the light for an index of 1.5, 1.4 % for 1.33
-/// and 2.5, 2.5 % for 1.1, 3 % for 1.05, each at its worst next to grazing; nearer 1 up to 23 %. Of
-/// Schlick's curves 1 % with exponent 5, 5 % where color82 is 0.5 or the exponent 3 or 10.
+/// Measured against quadrature (tests/pbs/energy_test.cpp: alpha 0.01 to 1, cosines from 0.05):
+/// albedo of perfect facets 0.4 %; times Fresnel, with for_dielectric()'s cosines, 0.7 % of the
+/// light for indices of 1.05 to 2.5.
 struct FacetReflection {
   Float albedo;  ///< Of perfectly reflecting facets, in (0, 1].
   /// Facet cosines for the darker and the brighter half of the reflected light.
@@ -69,10 +68,9 @@ FacetReflection for_dielectric(Recorder& recorder, const FacetView& view,
                                const FacetReflection& reflection, Float index);
 
 /// An interface between two dielectrics, eta the index beyond over before. Glass
-/// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 % as far
-/// as 85 degrees, from outside and from inside, layered or joint; joint to 89 from outside
-/// (tests/pbs/battery/furnace_test.cpp); 2 % with Beckmann's facets. What is beyond:
-/// bench/results/lobes.md. The tables end with index 50.
+/// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 %, from outside and from
+/// inside, layered or joint, to 89.9 degrees (bench/results/furnace.md); 2 % with Beckmann's
+/// facets. What is beyond: bench/results/lobes.md. The tables end with index 50.
 struct FacetInterface {
   Float fresnel;       ///< Mean Fresnel factor of the reflected light.
   Float transmission;  ///< Albedo of transmission without a Fresnel factor.
