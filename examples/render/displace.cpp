@@ -158,6 +158,7 @@ class Displacer {
         SurfacePoint& point = points.emplace_back(corners[asked[i]]);
         const Vec3 p = transform_point(placed.to_world, mesh.position[asked[i]]);
         point.wo = normalize_or(eye_ - p, {0.f, 0.f, 1.f});
+        point.keeps_normal = true;
         point.width = edge_at(p);
         point.instance = placed.instance;
       }

@@ -202,7 +202,7 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
       n = normal_to_world(pose.to_object, n, ng);
       position = transform_point(pose.to_world, position);
     }
-    n = facing(n, ng, p.wo);
+    if (!p.keeps_normal) n = facing(n, ng, p.wo);
     store(b.P, i, position);
     store(b.N, i, n);
     store(b.Ng, i, ng);

@@ -24,6 +24,8 @@ struct SurfacePoint {
   std::uint32_t instance = 0;  ///< As Hit.
   float time = 0.f;            ///< As Ray.
   Vec3 normal = {};            ///< As Hit.
+  /// N as the mesh has it, wherever wo is: of what is moved and not yet seen.
+  bool keeps_normal = false;
 };
 
 /// A point within a mesh.
