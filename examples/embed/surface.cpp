@@ -12,7 +12,6 @@
 constexpr int width = 480, height = 270, most_bounces = 6;
 constexpr std::size_t pixels = std::size_t(width) * height;
 constexpr std::uint32_t nothing = ~0u;
-
 struct Vec {
   float x = 0, y = 0, z = 0;
 };
