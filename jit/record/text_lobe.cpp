@@ -204,7 +204,7 @@ bool set_text_lobe(const NodeText& source, std::shared_ptr<const glsl::Module> m
     if (input.name == "tangent") frames.tangent = keep(recorder, call.vector3("tangent"));
   }
   frames.normal =
-      prepare_normal(recorder, normal ? *normal : nacre::normal(recorder, Space::world));
+      prepare_facing_normal(recorder, normal ? *normal : nacre::normal(recorder, Space::world));
   auto lobe =
       std::make_shared<TextLobe>(call.category(), *sides, std::move(*functions), std::move(frames),
                                  options, source.where.path, call.diagnostics());
