@@ -86,8 +86,11 @@ Float3 prepare_facing_normal(Recorder& recorder, Float3 given) {
   const Float3 geometric = geometric_normal(recorder);
   const Float3 wo = view_direction(recorder);
   const Float seen = dot(unit, wo);
-  const Bool away = (seen * dot(geometric, wo) < 0.0f) & (dot(geometric, unit) > 0.0f);
-  return keep(recorder, select(away, unit - wo * Float3(2.0f * seen), unit));
+  const Float squared = dot(wo, wo);
+  // A unit vector stays one whatever the length of wo.
+  const Bool usable = (squared > 1e-30f) & (squared < 1e30f);
+  const Bool away = (seen * dot(geometric, wo) < 0.0f) & (dot(geometric, unit) > 0.0f) & usable;
+  return keep(recorder, select(away, unit - wo * Float3(2.0f * seen / squared), unit));
 }
 
 Float relative_index(Float index, Bool inside) { return select(inside, 1.0f / index, index); }
