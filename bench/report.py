@@ -209,7 +209,7 @@ def hosts(run: results.Run) -> str:
     made = run.get("hosts/instance")
     topologies = [[live, number(figure.counters["compile_cpu_s"]), cell(figure),
                    number(figure.counters["instance_bytes"])]
-                  for live, figure in ((live, run.get(f"hosts/topologies/{live}"))
+                  for live, figure in ((live, run.get(f"hosts/topologies/{live}/iterations:1"))
                                        for live in ("few", "all")) if figure]
     return ("What a host pays for the way it keeps its points: standard_surface with every number "
             "live, time for each point that is shaded. Half of the points are picked by a list, "
