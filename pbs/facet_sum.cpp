@@ -262,8 +262,12 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     // reflection begins. Measured: the sum is better up to indices of 1.01 where light enters, of
     // 1.025 where it leaves; not from 1.06 and 1.05 on.
     const Bool leaving = eta < 1.0f;
-    const Float dense = select(leaving, fma(2.0f, 1.0f / eta, -1.0f), eta + 0.04f);
-    table.summed = facet_sum_share(facets.alpha, true, dense);
+    const Float dense = max(fresnel.index(), 1.0f / fresnel.index());
+    const Float where_leaving = facet_sum_share(facets.alpha, true, fma(2.0f, dense, -1.0f));
+    const Float where_entering = facet_sum_share(facets.alpha, true, dense + 0.04f);
+    // Nothing is recorded for an index that is known to be another.
+    if (where_leaving.is_constant(0.0f) && where_entering.is_constant(0.0f)) return table;
+    table.summed = select(leaving, where_leaving, where_entering);
     table.dielectric = if_any((table.summed > 0.0f) & !facets.delta, Float(0.0f),
                               [&] { return mean_dielectric(leaving); });
     return table;
