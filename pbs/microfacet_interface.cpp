@@ -70,14 +70,10 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
   if (!fresnel_->is_dielectric()) {
     const Color3 fresnel = fresnel_->mean(recorder, perfect, seen, local.below);
     Color3 more = product(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed));
-    // What a film does to the mean is not what it does to the facets that let light pass; nor is
-    // what another curve does where facets are as rough as can be.
+    // What a film does to the mean is not what it does to the facets that let light pass.
     const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
     const Float film = fresnel_->film_share();
-    const Float roughest = saturate(fma(5.0f, alpha, -4.0f));
-    const Float rough = film.is_constant(0.0f)
-                            ? roughest
-                            : max(roughest, film * saturate(fma(10.0f, alpha, -1.0f)));
+    const Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(10.0f, alpha, -1.0f));
     const Float by_sum = facets_.isotropic ? rough : max(perfect.summed, rough);
     more = if_any(by_sum > 0.0f, more, [&] {
       const Color3 sum =

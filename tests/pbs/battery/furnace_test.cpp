@@ -353,10 +353,10 @@ TEST(Furnace, SchlickInterfaceReturnsAllLight) {
       for (const double angle : outside) {
         EXPECT_NEAR(layer.light(angle), 1.0, 1e-2)
             << "R over T " << alpha << " f0 " << f0 << " angle " << angle;
-        EXPECT_NEAR(joint.light(angle), 1.0, 1.1e-2)
+        EXPECT_NEAR(joint.light(angle), 1.0, 1.5e-2)
             << "RT " << alpha << " f0 " << f0 << " angle " << angle;
       }
-      EXPECT_NEAR(joint.light(160.0), 1.0, 1e-2) << "RT " << alpha << " f0 " << f0;
+      EXPECT_NEAR(joint.light(160.0), 1.0, 2e-2) << "RT " << alpha << " f0 " << f0;
     }
   }
 }
