@@ -247,7 +247,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     table.filmed_share = select(leaving & !facets.delta, film, 0.0f);
     table.filmed = if_any(table.filmed_share > 0.0f, Color3(0.0f), [&] {
       const FilmSum sum = over_facets(
-          recorder, in_lanes(film_lattices(accuracy), leaving), local.wo, facets,
+          recorder, in_lanes(film_lattices(accuracy), Bool(true)), local.wo, facets,
           FilmSum{0.0f, Color3(0.0f)}, [&](const Facet& facet, const auto&, Float, FilmSum& all) {
             all.light = all.light + facet.back;
             all.reflected =
@@ -305,7 +305,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
         .filmed_share = table.filmed_share};
     // Where total reflection sets in no two cosines stand for all.
     const Bool leaving = fresnel.has_inside() ? Bool(eta < 1.0f) : Bool(false);
-    result.dielectric = if_any(leaving, Float(0.0f), [&] { return mean_dielectric(leaving); });
+    result.dielectric = if_any(leaving, Float(0.0f), [&] { return mean_dielectric(Bool(true)); });
     return result;
   });
 }
