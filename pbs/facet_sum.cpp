@@ -227,7 +227,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
                                      Bool inside) {
   const FacetView seen = facets.table_view(local);
   FacetReflection table = facet_reflection(recorder, seen);
-  if (fresnel.is_dielectric()) {
+  if (fresnel.covers_dielectric()) {
     const Float index = fresnel.index();
     table = for_dielectric(recorder, seen, table, max(index, 1.0f / index));
   }
@@ -257,14 +257,16 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     });
   }
   if (facets.isotropic) {
-    if (!fresnel.is_dielectric()) return table;
+    if (!fresnel.has_inside()) return table;
     // Next to 1 no cosines stand for Fresnel's curve, nor can a table's axes tell where total
     // reflection begins. Measured: the sum is better up to indices of 1.01 where light enters, of
     // 1.025 where it leaves; not from 1.06 and 1.05 on.
     const Bool leaving = eta < 1.0f;
     const Float dense = max(fresnel.index(), 1.0f / fresnel.index());
     const Float where_leaving = facet_sum_share(facets.alpha, true, fma(2.0f, dense, -1.0f));
-    const Float where_entering = facet_sum_share(facets.alpha, true, dense + 0.04f);
+    const Float where_entering = fresnel.covers_dielectric()
+                                     ? facet_sum_share(facets.alpha, true, dense + 0.04f)
+                                     : Float(0.0f);
     // Nothing is recorded for an index that is known to be another.
     if (where_leaving.is_constant(0.0f) && where_entering.is_constant(0.0f)) return table;
     table.summed = select(leaving, where_leaving, where_entering);

@@ -101,25 +101,30 @@ Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
                           const FacetView& view, Bool inside) const {
   const auto plain = [&] { return reflection.mean([&](Float c) { return at(c, inside); }); };
   if (!has_inside()) return plain();
-  // Where total reflection sets in no two cosines stand for all facets. A table
-  // has the mean for dielectrics; the rest of a curve is smooth.
-  const auto leaving = [&] {
-    const Float eta = min(index(), 1.0f / index());
-    Float dielectric = facet_leaving(recorder, view, eta, reflection.albedo).fresnel;
-    if (view.anisotropic) dielectric = lerp(dielectric, reflection.dielectric, reflection.summed);
-    const Color3 mean(dielectric);
-    if (is_dielectric()) return mean;
+  const bool has_sum = !reflection.summed.is_constant(0.0f);
+  // Of a dielectric whose mean is known the rest of a curve is smooth.
+  const auto with_rest = [&](Float dielectric, Float eta) {
+    if (is_dielectric()) return Color3(dielectric);
     const Color3 rest = reflection.mean(
         [&](Float c) { return at(c, inside) - Color3(fresnel_dielectric(c, eta)); });
-    return saturate(mean + rest);
+    return saturate(Color3(dielectric) + rest);
   };
-  const Color3 found = choose(inside ^ (index() < 1.0f), leaving, plain);
-  if (!reflection.filmed_share.is_constant(0.0f)) {
-    return fma(reflection.filmed - found, Color3(reflection.filmed_share), found);
-  }
-  // Of equal roughnesses the sum is for either side.
-  if (view.anisotropic || !is_dielectric() || reflection.summed.is_constant(0.0f)) return found;
-  return fma(Color3(reflection.dielectric) - found, Color3(reflection.summed), found);
+  // Where total reflection sets in no two cosines stand for all facets: a table has the mean.
+  const auto leaving = [&] {
+    const Float eta = min(index(), 1.0f / index());
+    const Float table = facet_leaving(recorder, view, eta, reflection.albedo).fresnel;
+    return with_rest(has_sum ? lerp(table, reflection.dielectric, reflection.summed) : table, eta);
+  };
+  const auto entering = [&] {
+    const Color3 two = plain();
+    // Of unequal roughnesses the sum is of light that leaves.
+    if (!has_sum || view.anisotropic || !covers_dielectric()) return two;
+    const Color3 all = with_rest(reflection.dielectric, max(index(), 1.0f / index()));
+    return fma(all - two, Color3(reflection.summed), two);
+  };
+  const Color3 found = choose(inside ^ (index() < 1.0f), leaving, entering);
+  if (reflection.filmed_share.is_constant(0.0f)) return found;
+  return fma(reflection.filmed - found, Color3(reflection.filmed_share), found);
 }
 
 Color3 prepare_tint(Recorder& recorder, Color3 tint) {

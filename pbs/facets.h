@@ -88,6 +88,8 @@ class FacetFresnel {
   virtual bool has_inside() const { return false; }
   /// Whether at() is Fresnel's formula for that index and nothing else.
   virtual bool is_dielectric() const { return false; }
+  /// Whether it is that, or that under a film.
+  virtual bool covers_dielectric() const { return is_dielectric(); }
   /// How far it goes up and down with the cosine, as under a film: ThinFilm::share().
   virtual Float film_share() const { return 0.0f; }
   /// The same under that film, which is kept, in place of one that it may have.
