@@ -64,9 +64,10 @@ FacetReflection facet_reflection(Recorder& recorder, const FacetView& view) {
 }
 
 FacetReflection for_dielectric(Recorder& recorder, const FacetView& view,
-                               const FacetReflection& reflection, Float index) {
+                               const FacetReflection& reflection, Float index, Float bare) {
   // Measured: what exponent of 1 - cosine the factor is most like.
-  const Float near = clamp(0.44f * (1.0f / sqrt(max(index - 1.0f, 1e-6f)) - 1.8f), 0.0f, 2.0f);
+  const Float near =
+      bare * clamp(0.44f * (1.0f / sqrt(max(index - 1.0f, 1e-6f)) - 1.8f), 0.0f, 2.0f);
   return if_any(near > 0.0f, reflection, [&] {
     const std::vector<Float> steep =
         look_up(recorder, facet_tables(view.distribution).steep,

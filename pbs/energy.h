@@ -63,9 +63,9 @@ void visit(FacetReflection& reflection, F&& f) {
 FacetReflection facet_reflection(Recorder& recorder, const FacetView& view);
 
 /// The same with cosines for Fresnel's factor of that index, at least 1: the nearer to 1, the
-/// steeper it falls from grazing.
+/// steeper it falls from grazing. `bare`: how far no film makes it another, in [0, 1].
 FacetReflection for_dielectric(Recorder& recorder, const FacetView& view,
-                               const FacetReflection& reflection, Float index);
+                               const FacetReflection& reflection, Float index, Float bare = 1.0f);
 
 /// An interface between two dielectrics, eta the index beyond over before. Glass
 /// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 %, from outside and from

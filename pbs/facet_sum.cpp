@@ -229,7 +229,8 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
   FacetReflection table = facet_reflection(recorder, seen);
   if (fresnel.covers_dielectric()) {
     const Float index = fresnel.index();
-    table = for_dielectric(recorder, seen, table, max(index, 1.0f / index));
+    table = for_dielectric(recorder, seen, table, max(index, 1.0f / index),
+                           1.0f - fresnel.film_share());
   }
   const Lattices few = small_lattices(accuracy);
   const Float eta = relative_index(fresnel.index(), inside);
