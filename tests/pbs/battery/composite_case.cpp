@@ -158,16 +158,16 @@ std::vector<Composite> make_composites() {
                 real("specular2Strength", shares), real("specular2Roughness", roughnesses),
                 real("transmissionStrength", shares), real("transmissionRoughness", roughnesses)},
        .has_inside = true,
-       // Transmission alone under two lobes, from inside (pbs/facet_sum.h).
-       .most_energy = 1.05},
+       // Measured: 1.018, of anisotropic metal of index 40 and more.
+       .most_energy = 1.025},
       {.name = "reflection_over_transmission",
        .nodes = element("dielectric_bsdf", "BSDF", "top", "{}" + mode("R")) +
                 element("dielectric_bsdf", "BSDF", "base", "{}" + mode("T")) + layer("top", "base"),
        .axes = facets,
        .has_inside = true,
-       // Measured: 1.075, and 0.05; transmission knows nothing of the film over it.
-       .most_energy = 1.1,
-       .albedo_error = 8e-2},
+       // Measured over 120 configurations: 1.037, and 0.059; films at 89.99 degrees.
+       .most_energy = 1.04,
+       .albedo_error = 6.5e-2},
       {.name = "gloss_over_sheen_over_paper",
        .nodes = element("dielectric_bsdf", "BSDF", "top", "{}" + mode("R")) +
                 element("sheen_bsdf", "BSDF", "sheen", value_of("mode", "string", "zeltner")) +
