@@ -41,9 +41,9 @@ struct FacetReflection {
   Float low_share = 0.5f;   ///< Part of the light that `low` stands for.
   Float dielectric = 0.0f;  ///< The mean of a dielectric's Fresnel factor, where light leaves it.
   Float summed = 0.0f;      ///< How far to trust `dielectric` rather than tables, in [0, 1].
-  /// Only under a film:
-  Color3 filmed = Color3(0.0f);  ///< The mean of the Fresnel factor, where light leaves.
-  Float filmed_share = 0.0f;     ///< How far to trust it.
+  /// Only of other curves than a dielectric's, where light leaves:
+  Color3 rest = Color3(0.0f);  ///< The mean of what they are more than that.
+  Float rest_share = 0.0f;     ///< How far to trust it rather than two cosines, in [0, 1].
 
   /// The mean of a Fresnel factor over the reflected light: f(Float) -> Float or Color3.
   template <class F>
@@ -58,7 +58,7 @@ template <class F>
 void visit(FacetReflection& reflection, F&& f) {
   f(reflection.albedo), f(reflection.low), f(reflection.high), f(reflection.low_share);
   f(reflection.dielectric), f(reflection.summed);
-  visit(reflection.filmed, f), f(reflection.filmed_share);
+  visit(reflection.rest, f), f(reflection.rest_share);
 }
 FacetReflection facet_reflection(Recorder& recorder, const FacetView& view);
 

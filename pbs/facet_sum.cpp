@@ -27,16 +27,30 @@ struct Lattice {
 struct Lattices {
   Lattice entering, leaving;
 };
-Lattices lattices(Accuracy accuracy) {
-  if (accuracy == Accuracy::fast) return {.entering = {34, 21}, .leaving = {144, 89}};
-  if (accuracy == Accuracy::standard) return {.entering = {89, 55}, .leaving = {987, 610}};
+
+/// Beckmann's facets are found by Newton's steps and cost ten times what GGX's do.
+Lattices lattices(Accuracy accuracy, FacetDistribution distribution) {
+  const bool is_dear = distribution == FacetDistribution::beckmann;
+  if (accuracy == Accuracy::fast) {
+    return {.entering = {34, 21}, .leaving = is_dear ? Lattice{89, 55} : Lattice{144, 89}};
+  }
+  if (accuracy == Accuracy::standard) {
+    return {.entering = {89, 55}, .leaving = is_dear ? Lattice{144, 89} : Lattice{987, 610}};
+  }
+  if (is_dear) return {.entering = {144, 89}, .leaving = {377, 233}};
   return {.entering = {377, 233}, .leaving = {2584, 1597}};
 }
 
 /// Fewer do for a mean over the reflected light.
-Lattices small_lattices(Accuracy accuracy) {
-  if (accuracy == Accuracy::fast) return {.entering = {21, 13}, .leaving = {89, 55}};
-  if (accuracy == Accuracy::standard) return {.entering = {34, 21}, .leaving = {377, 233}};
+Lattices small_lattices(Accuracy accuracy, FacetDistribution distribution) {
+  const bool is_dear = distribution == FacetDistribution::beckmann;
+  if (accuracy == Accuracy::fast) {
+    return {.entering = {21, 13}, .leaving = is_dear ? Lattice{34, 21} : Lattice{89, 55}};
+  }
+  if (accuracy == Accuracy::standard) {
+    return {.entering = {34, 21}, .leaving = is_dear ? Lattice{89, 55} : Lattice{377, 233}};
+  }
+  if (is_dear) return {.entering = {89, 55}, .leaving = {144, 89}};
   return {.entering = {144, 89}, .leaving = {987, 610}};
 }
 
@@ -166,14 +180,20 @@ struct Moments {
   }
 };
 
-struct FilmSum {
+struct RestSum {
   Float light;
-  Color3 reflected;
+  Color3 rest;
   template <class F>
-  friend void visit(FilmSum& sum, F&& f) {
-    f(sum.light), nacre::visit(sum.reflected, f);
+  friend void visit(RestSum& sum, F&& f) {
+    f(sum.light), nacre::visit(sum.rest, f);
   }
 };
+
+/// Null where there is no film.
+FacetFresnelPtr in_sums(const FacetFresnel& fresnel) {
+  const ThinFilm* const film = fresnel.film();
+  return film == nullptr || !film->exists() ? nullptr : fresnel.with_film(film->in_sums());
+}
 
 Float cosine_of(Float y) { return 1.0f - sqrt(sqrt(saturate(y))); }
 
@@ -196,7 +216,8 @@ FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const
   // the angle of total reflection, on either side.
   const Bool many = facets.isotropic ? Bool(true) : eta < 1.0f;
   const FacetSum all = over_facets(
-      recorder, in_lanes(lattices(accuracy), many), wo, facets, FacetSum{0.0f, 0.0f, 0.0f, 0.0f},
+      recorder, in_lanes(lattices(accuracy, facets.distribution), many), wo, facets,
+      FacetSum{0.0f, 0.0f, 0.0f, 0.0f},
       [&](const Facet& facet, const auto& unshadowed, Float share, FacetSum& sum) {
         const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
         const Float back = facet.back;
@@ -232,7 +253,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     table = for_dielectric(recorder, seen, table, max(index, 1.0f / index),
                            1.0f - fresnel.film_share());
   }
-  const Lattices few = small_lattices(accuracy);
+  const Lattices few = small_lattices(accuracy, facets.distribution);
   const Float eta = relative_index(fresnel.index(), inside);
   const auto mean_dielectric = [&](Bool leaving) {
     const Float2 light = over_facets(
@@ -242,19 +263,23 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
         });
     return light.y / max(light.x, 1e-20f);
   };
-  if (const Float film = fresnel.film_share(); fresnel.has_inside() && !film.is_constant(0.0f)) {
-    // What goes up and down with the cosine and then is total reflection has no two cosines.
-    const Bool leaving = eta < 1.0f;
-    table.filmed_share = select(leaving & !facets.delta, film, 0.0f);
-    table.filmed = if_any(table.filmed_share > 0.0f, Color3(0.0f), [&] {
-      const FilmSum sum = over_facets(
+  if (fresnel.has_inside() && !fresnel.is_dielectric()) {
+    // What goes up and down with the cosine, or bends up steeply, and then is total reflection has
+    // no two cosines. What it is more than a dielectric's curve has no step, and a small sum.
+    const Float share = fresnel.covers_dielectric() ? fresnel.film_share() : Float(1.0f);
+    const FacetFresnelPtr filmed = in_sums(fresnel);
+    const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
+    table.rest_share = select((eta < 1.0f) & !facets.delta, share, 0.0f);
+    table.rest = if_any(table.rest_share > 0.0f, Color3(0.0f), [&] {
+      const RestSum sum = over_facets(
           recorder, in_lanes(film_lattices(accuracy), Bool(true)), local.wo, facets,
-          FilmSum{0.0f, Color3(0.0f)}, [&](const Facet& facet, const auto&, Float, FilmSum& all) {
+          RestSum{0.0f, Color3(0.0f)}, [&](const Facet& facet, const auto&, Float, RestSum& all) {
+            const Float bare = fresnel_dielectric(facet.cosine, eta);
+            const Color3 rest = of_facets.at(facet.cosine, inside) - Color3(bare);
             all.light = all.light + facet.back;
-            all.reflected =
-                fma(fresnel.at(facet.cosine, inside), Color3(facet.back), all.reflected);
+            all.rest = fma(rest, Color3(facet.back), all.rest);
           });
-      return sum.reflected * Color3(1.0f / max(sum.light, 1e-20f));
+      return sum.rest * Color3(1.0f / max(sum.light, 1e-20f));
     });
   }
   if (facets.isotropic) {
@@ -304,8 +329,8 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
         .high = lerp(table.high, cosine_of(mean + min(far, near)), share),
         .low_share = lerp(0.5f, select(far_is_low, far_share, 1.0f - far_share), share),
         .summed = share,
-        .filmed = table.filmed,
-        .filmed_share = table.filmed_share};
+        .rest = table.rest,
+        .rest_share = table.rest_share};
     // Where total reflection sets in no two cosines stand for all.
     const Bool leaving = fresnel.has_inside() ? Bool(eta < 1.0f) : Bool(false);
     result.dielectric = if_any(leaving, Float(0.0f), [&] { return mean_dielectric(Bool(true)); });
@@ -316,12 +341,14 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                         const FacetFresnel& fresnel, Bool inside) {
   const Float eta = relative_index(fresnel.index(), inside);
+  const FacetFresnelPtr filmed = in_sums(fresnel);
+  const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
   return over_facets(recorder, in_lanes(film_lattices(accuracy), eta < 1.0f), wo, facets,
                      Color3(0.0f),
                      [&](const Facet& facet, const auto& unshadowed, Float share, Color3& sum) {
                        const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
                        const Float forth = unshadowed(bent.wi, bent.possible);
-                       const Color3 more = fresnel.at(facet.cosine, inside) -
+                       const Color3 more = of_facets.at(facet.cosine, inside) -
                                            Color3(fresnel_dielectric(facet.cosine, eta));
                        sum = fma(more, Color3((facet.back - forth) * share), sum);
                      });

@@ -102,29 +102,31 @@ Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
   const auto plain = [&] { return reflection.mean([&](Float c) { return at(c, inside); }); };
   if (!has_inside()) return plain();
   const bool has_sum = !reflection.summed.is_constant(0.0f);
-  // Of a dielectric whose mean is known the rest of a curve is smooth.
-  const auto with_rest = [&](Float dielectric, Float eta) {
-    if (is_dielectric()) return Color3(dielectric);
-    const Color3 rest = reflection.mean(
+  const bool has_rest = !reflection.rest_share.is_constant(0.0f);
+  // Of a dielectric whose mean is known the rest of a curve is smooth where light enters.
+  const auto with_rest = [&](Float dielectric, Float eta, bool leaves) {
+    if (is_dielectric()) return Color3(saturate(dielectric));
+    Color3 rest = reflection.mean(
         [&](Float c) { return at(c, inside) - Color3(fresnel_dielectric(c, eta)); });
+    if (leaves && has_rest) rest = fma(reflection.rest - rest, Color3(reflection.rest_share), rest);
     return saturate(Color3(dielectric) + rest);
   };
   // Where total reflection sets in no two cosines stand for all facets: a table has the mean.
   const auto leaving = [&] {
     const Float eta = min(index(), 1.0f / index());
     const Float table = facet_leaving(recorder, view, eta, reflection.albedo).fresnel;
-    return with_rest(has_sum ? lerp(table, reflection.dielectric, reflection.summed) : table, eta);
+    const Float dielectric =
+        has_sum ? lerp(table, reflection.dielectric, reflection.summed) : table;
+    return with_rest(dielectric, eta, true);
   };
   const auto entering = [&] {
     const Color3 two = plain();
     // Of unequal roughnesses the sum is of light that leaves.
     if (!has_sum || view.anisotropic || !covers_dielectric()) return two;
-    const Color3 all = with_rest(reflection.dielectric, max(index(), 1.0f / index()));
+    const Color3 all = with_rest(reflection.dielectric, max(index(), 1.0f / index()), false);
     return fma(all - two, Color3(reflection.summed), two);
   };
-  const Color3 found = choose(inside ^ (index() < 1.0f), leaving, entering);
-  if (reflection.filmed_share.is_constant(0.0f)) return found;
-  return fma(reflection.filmed - found, Color3(reflection.filmed_share), found);
+  return choose(inside ^ (index() < 1.0f), leaving, entering);
 }
 
 Color3 prepare_tint(Recorder& recorder, Color3 tint) {

@@ -90,8 +90,10 @@ class FacetFresnel {
   virtual bool is_dielectric() const { return false; }
   /// Whether it is that, or that under a film.
   virtual bool covers_dielectric() const { return is_dielectric(); }
-  /// How far it goes up and down with the cosine, as under a film: ThinFilm::share().
-  virtual Float film_share() const { return 0.0f; }
+  /// What it goes up and down with the cosine for, if there may be one.
+  virtual const ThinFilm* film() const { return nullptr; }
+  /// ThinFilm::share() of it.
+  Float film_share() const { return film() == nullptr ? Float(0.0f) : film()->share(); }
   /// The same under that film, which is kept, in place of one that it may have.
   virtual FacetFresnelPtr with_film(const ThinFilm& film) const = 0;
 };

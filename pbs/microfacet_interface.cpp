@@ -35,15 +35,14 @@ Bool MicrofacetInterface::separate(const View& view) const {
 
 /// One over what the facets return in all. The tables know dielectrics; another
 /// Fresnel factor moves light between what reflection and transmission return.
-Color3 MicrofacetInterface::joint_factor(const View& view) const {
+Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection& perfect,
+                                         Color3 fresnel) const {
   Recorder& recorder = *view.recorder;
   const LocalView local = facets_.look(view);
   const FacetView seen = facets_.table_view(local);
   const Float index = fresnel_->index();
   const Float dense = max(index, 1.0f / index);
   const Float rare = min(index, 1.0f / index);
-  const FacetReflection perfect =
-      reflection_of_facets(recorder, view.accuracy, facets_, local, *fresnel_, local.below);
   const FacetInterface both = choose(
       local.below ^ (index < 1.0f),
       [&] {
@@ -68,7 +67,6 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
   });
   Color3 total = Color3(light.total);
   if (!fresnel_->is_dielectric()) {
-    const Color3 fresnel = fresnel_->mean(recorder, perfect, seen, local.below);
     Color3 more = product(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed));
     // What a film does to the mean is not what it does to the facets that let light pass.
     const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
@@ -86,15 +84,19 @@ Color3 MicrofacetInterface::joint_factor(const View& view) const {
 }
 
 MicrofacetInterface::Terms MicrofacetInterface::compute(const View& view) const {
-  Color3 reflected = reflection_.reflected(view);
+  const FacetReflection perfect = reflection_.facets(view);
+  const Color3 fresnel = reflection_.mean_fresnel(view, perfect);
+  const MicrofacetReflection::Terms reflection = reflection_.compute(view, perfect, fresnel);
+  Color3 reflected = reflection.reflected;
   if (is_absent_where_straight()) reflected = select(straight_, Color3(0.0f), reflected);
   const Color3 passing = Color3(1.0f) - reflected;
   const Float back = grey(reflected);
   const Float forth = grey(passing);
   const Float probability = select(back + forth > 0.0f, back / (back + forth), 1.0f);
-  const Color3 factor =
-      choose(separate(view), [] { return Color3(1.0f); }, [&] { return joint_factor(view); });
-  return {factor, passing, probability};
+  const Color3 factor = choose(
+      separate(view), [] { return Color3(1.0f); },
+      [&] { return joint_factor(view, perfect, fresnel); });
+  return {factor, passing, probability, reflection};
 }
 
 MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {
@@ -102,9 +104,10 @@ MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {
 }
 
 void MicrofacetInterface::prepare(const View& view, Bool mask) const {
-  reflection_.prepare(view, mask);
+  facets_.look(view);  // At top level, so that lobes of one frame share it.
   transmission_.prepare(view, mask & separate(view));
   terms_.prepare(view, mask, [&] { return compute(view); });
+  reflection_.adopt(view, mask, terms(view).reflection);
 }
 
 Float3 MicrofacetInterface::turned(Float3 wi) const {

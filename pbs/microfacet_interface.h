@@ -38,15 +38,17 @@ class MicrofacetInterface final : public Lobe {
     Color3 factor;      ///< Of both, where facets divide the light.
     Color3 passing;     ///< Not reflected.
     Float probability;  ///< Of reflection, where lobes do and both sides are wanted.
+    MicrofacetReflection::Terms reflection;
     template <class F>
     friend void visit(Terms& terms, F&& f) {
       nacre::visit(terms.factor, f), nacre::visit(terms.passing, f);
-      f(terms.probability);
+      f(terms.probability), visit(terms.reflection, f);
     }
   };
   Terms terms(const View& view) const;
   Terms compute(const View& view) const;
-  Color3 joint_factor(const View& view) const;
+  /// By what perfect facets reflect, and the mean Fresnel factor of that.
+  Color3 joint_factor(const View& view, const FacetReflection& perfect, Color3 fresnel) const;
   Bool separate(const View& view) const;
   /// Glass that does not bend light does not reflect it: at grazing, where it could, not even its
   /// facets' mean is known.

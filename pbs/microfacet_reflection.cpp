@@ -4,17 +4,36 @@
 
 namespace nacre {
 
-MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) const {
+FacetReflection MicrofacetReflection::facets(const View& view) const {
   const LocalView local = facets_.look(view);
   const Bool inside = local.below & !view.thin_walled;
-  const FacetView seen = facets_.table_view(local);
-  const FacetReflection perfect =
-      reflection_of_facets(*view.recorder, view.accuracy, facets_, local, *fresnel_, inside);
-  const Color3 fresnel = fresnel_->mean(*view.recorder, perfect, seen, inside);
+  return reflection_of_facets(*view.recorder, view.accuracy, facets_, local, *fresnel_, inside);
+}
+
+Color3 MicrofacetReflection::mean_fresnel(const View& view, const FacetReflection& perfect) const {
+  const LocalView local = facets_.look(view);
+  const Bool inside = local.below & !view.thin_walled;
+  return fresnel_->mean(*view.recorder, perfect, facets_.table_view(local), inside);
+}
+
+MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view,
+                                                          const FacetReflection& perfect,
+                                                          Color3 fresnel) const {
   const Color3 factor = compensation(fresnel, perfect.albedo);
   const Color3 rough = saturate(fresnel * factor * Color3(perfect.albedo));
   if (facets_.delta.is_constant(false)) return {factor, rough};
+  const LocalView local = facets_.look(view);
+  const Bool inside = local.below & !view.thin_walled;
   return {factor, select(facets_.delta, fresnel_->at(local.wo.z, inside), rough)};
+}
+
+MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) const {
+  const FacetReflection perfect = facets(view);
+  return compute(view, perfect, mean_fresnel(view, perfect));
+}
+
+MicrofacetReflection::Terms MicrofacetReflection::terms(const View& view) const {
+  return terms_.get(view, [&] { return compute(view); });
 }
 
 LobePtr MicrofacetReflection::with_film(Recorder&, const ThinFilm& film) const {
@@ -26,6 +45,10 @@ void MicrofacetReflection::prepare(const View& view, Bool mask) const {
   terms_.prepare(view, mask, [&] { return compute(view); });
 }
 
+void MicrofacetReflection::adopt(const View& view, Bool mask, const Terms& terms) const {
+  terms_.prepare(view, mask, [&] { return terms; });
+}
+
 /// A lobe that is turned half round the normal sends light back.
 Float3 MicrofacetReflection::turned(Float3 wi) const {
   const Bool back = options_.retroreflective;
@@ -33,7 +56,7 @@ Float3 MicrofacetReflection::turned(Float3 wi) const {
 }
 
 LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) const {
-  const Terms terms = terms_.get(view, [&] { return compute(view); });
+  const Terms terms = this->terms(view);
   const LocalView local = facets_.look(view);
   const Float3 wo = local.wo;
   const Float3 wi = turned(local.frame.to_local(wi_world));
@@ -73,9 +96,7 @@ LobeSample MicrofacetReflection::sample(const View& view, Float3 u) const {
   return sample;
 }
 
-Color3 MicrofacetReflection::reflected(const View& view) const {
-  return terms_.get(view, [&] { return compute(view); }).reflected;
-}
+Color3 MicrofacetReflection::reflected(const View& view) const { return terms(view).reflected; }
 
 Color3 MicrofacetReflection::albedo(const View& view) const {
   return options_.tint * reflected(view);

@@ -31,10 +31,8 @@ class MicrofacetReflection final : public Lobe {
   Color3 throughput(const View& view) const override;
   /// The albedo before the tint.
   Color3 reflected(const View& view) const;
-  Float3 normal(const View&) const override { return facets_.normal; }
-  Float roughness(const View&) const override { return facets_.roughness(); }
 
- private:
+  /// What depends on the view alone.
   struct Terms {
     Color3 factor;  ///< Compensation.
     Color3 reflected;
@@ -43,7 +41,22 @@ class MicrofacetReflection final : public Lobe {
       nacre::visit(terms.factor, f), nacre::visit(terms.reflected, f);
     }
   };
+  /// For a lobe that this is a part of and that needs them as well: what perfect facets reflect,
+  /// the mean Fresnel factor of that light, the terms by both; and in place of prepare() the terms,
+  /// known in the lanes of `mask`.
+  /// @{
+  FacetReflection facets(const View& view) const;
+  Color3 mean_fresnel(const View& view, const FacetReflection& perfect) const;
+  Terms compute(const View& view, const FacetReflection& perfect, Color3 fresnel) const;
+  void adopt(const View& view, Bool mask, const Terms& terms) const;
+  /// @}
+
+  Float3 normal(const View&) const override { return facets_.normal; }
+  Float roughness(const View&) const override { return facets_.roughness(); }
+
+ private:
   Terms compute(const View& view) const;
+  Terms terms(const View& view) const;
   Float3 turned(Float3 wi) const;
 
   Facets facets_;

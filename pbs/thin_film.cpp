@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -292,6 +293,12 @@ ThinFilm::ThinFilm(Float thickness, Float index, Accuracy accuracy)
       terms_(accuracy == Accuracy::fast       ? 2
              : accuracy == Accuracy::standard ? 3
                                               : precise_terms) {}
+
+ThinFilm ThinFilm::in_sums() const {
+  ThinFilm film = *this;
+  film.terms_ = std::min(film.terms_, 5);
+  return film;
+}
 
 Color3 ThinFilm::reflectance(Float cosine, Float before, Color3 n, Color3 k, Color3 bare) const {
   Recorder* recorder = cosine.ref().recorder;

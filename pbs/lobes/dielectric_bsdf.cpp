@@ -31,7 +31,7 @@ class DielectricFresnel final : public FacetFresnel {
   bool has_inside() const override { return true; }
   bool is_dielectric() const override { return !film_.exists(); }
   bool covers_dielectric() const override { return true; }
-  Float film_share() const override { return film_.share(); }
+  const ThinFilm* film() const override { return &film_; }
   FacetFresnelPtr with_film(const ThinFilm& film) const override {
     auto other = std::make_shared<DielectricFresnel>(*this);
     other->film_ = film;

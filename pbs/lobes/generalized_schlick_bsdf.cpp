@@ -39,7 +39,7 @@ class SchlickFresnel final : public FacetFresnel {
 
   Float index() const override { return index_; }
   bool has_inside() const override { return !two_sided_; }
-  Float film_share() const override { return film_.share(); }
+  const ThinFilm* film() const override { return &film_; }
   FacetFresnelPtr with_film(const ThinFilm& film) const override {
     auto other = std::make_shared<SchlickFresnel>(*this);
     other->film_ = film;

@@ -1,10 +1,10 @@
 // T-FUZ: every closure and shader of the libraries with hostile inputs.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
+#include "runtime/program/cost.h"
 #include "tests/pbs/battery/closure_trial.h"
 
 namespace nacre {
@@ -55,6 +55,40 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) {
       return short_name(std::get<0>(instance.param)) + "_" + to_string(std::get<1>(instance.param));
     });
+
+/// Of a pass through the dearest kernel of a form. What a closure costs is in `begin`, or in those
+/// that go without it.
+double most_steps(const ClosureKernels& kernels) {
+  double most = 0;
+  const auto count = [&](const BoundKernel& kernel) {
+    most = std::max(most, function_costs(kernel.program()).front().most);
+  };
+  if (kernels.values) count(kernels.values->kernel);
+  if (kernels.material) {
+    const MaterialKernels& m = *kernels.material;
+    for (const auto* kernel : {&m.begin, &m.sample, &m.evaluate, &m.albedo, &m.shadow}) {
+      if (*kernel) count(**kernel);
+    }
+  }
+  return most;
+}
+
+class ClosureSteps : public testing::TestWithParam<ClosureCase> {};
+
+// Else a kernel that has nothing but what the libraries have ends in the middle of a batch.
+TEST_P(ClosureSteps, AreAsManyAsAPassMayTake) {
+  const ClosureWay way{
+      .accuracy = Accuracy::precise, .backend = Backend::interpreter, .asks_all = true};
+  for (const std::vector<Setting>& form : GetParam().forms) {
+    const ClosureKernels kernels = compile_closure(GetParam(), form, way);
+    ASSERT_TRUE(kernels.material || kernels.values) << kernels.diagnostics.to_string();
+    EXPECT_LT(most_steps(kernels), static_cast<double>(default_max_steps)) << to_string(form);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ClosureSteps,
+                         testing::ValuesIn(closure_cases().begin(), closure_cases().end()),
+                         [](const auto& instance) { return short_name(instance.param); });
 
 }  // namespace
 }  // namespace nacre

@@ -361,6 +361,17 @@ TEST(Furnace, SchlickInterfaceReturnsAllLight) {
   }
 }
 
+// Just before total reflection sets in the curve bends up steeply, as no dielectric's does: two
+// angles do not stand for it.
+TEST(Furnace, SchlickInterfaceReturnsAllLightToTheInside) {
+  for (const float alpha : {0.2f, 0.5f, 0.65f, 0.7f, 0.75f, 0.85f, 1.0f}) {
+    const Furnace joint([&](Recorder& r) { return schlick(r, "RT", 0.04f, 1.0f, alpha); });
+    for (const double angle : {180.0, 130.0, 110.0, 100.0, 97.0, 95.0, 93.0, 91.0}) {
+      EXPECT_NEAR(joint.light(angle), 1.0, 1e-2) << alpha << " angle " << angle;
+    }
+  }
+}
+
 // What a coloured layer reflects of a channel does not reach the base in that channel.
 TEST(Furnace, ColouredSchlickOverWhiteReturnsNoMoreThanArrives) {
   for (const float alpha : {0.0f, 0.3f, 1.0f}) {
