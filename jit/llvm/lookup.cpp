@@ -101,6 +101,14 @@ bool fits_registers(const Features& features, std::size_t entries, int lanes) {
   return cpu.lanes != 0 && entries <= most_pieces * static_cast<std::size_t>(cpu.entries);
 }
 
+bool ignores_high_bits(const Features& features, std::size_t entries, int lanes) {
+  const Permute cpu = permute_of(features, lanes);
+  // With half as many entries as lanes the other half is zeros.
+  const auto whole = static_cast<std::size_t>(cpu.entries),
+             half = static_cast<std::size_t>(cpu.lanes);
+  return cpu.lanes != 0 && (entries == whole || entries == half);
+}
+
 llvm::Value* look_up_in_registers(FunctionEmitter& e, const std::vector<float>& values,
                                   llvm::Value* index, int lanes) {
   return look_up_parts(e, values, index, lanes, permute_of(e.module().features(), lanes));

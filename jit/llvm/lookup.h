@@ -12,6 +12,10 @@ namespace nacre::codegen {
 /// On Zen 4 that takes a sixth of the time of loads.
 bool fits_registers(const Features& features, std::size_t entries, int lanes);
 
+/// Whether that is one instruction, which looks at the bits of an index that tell the entries
+/// apart and at no others.
+bool ignores_high_bits(const Features& features, std::size_t entries, int lanes);
+
 /// Entry `index` of a constant table that does, for each lane; the index is in range.
 llvm::Value* look_up_in_registers(FunctionEmitter& emitter, const std::vector<float>& values,
                                   llvm::Value* index, int lanes);

@@ -22,6 +22,21 @@ Value* clamp(FunctionEmitter& e, Value* index, std::int32_t low, std::uint32_t h
   return e.builder().CreateBinaryIntrinsic(llvm::Intrinsic::smin, index, e.i32(high, lanes));
 }
 
+/// Of an index x & mask, both for a mask below the number of entries: needs no clamp.
+struct MaskedIndex {
+  ValueId unmasked = no_value;
+  std::uint32_t mask = 0;
+};
+MaskedIndex masked_index(FunctionEmitter& e, ValueId index, std::uint32_t last) {
+  const Instruction& found = e.at(index);
+  if (found.op != Op::iand) return {};
+  for (const std::size_t k : {0, 1}) {
+    const Instruction& mask = e.at(found.operands[k]);
+    if (mask.op == Op::constant && mask.imm <= last) return {found.operands[1 - k], mask.imm};
+  }
+  return {};
+}
+
 /// The entries that follow each other from `index` on: one load a lane.
 void emit_run(FunctionEmitter& e, const std::vector<ValueId>& run, Value* index, int lanes) {
   Builder& b = e.builder();
@@ -50,17 +65,26 @@ Value* table(FunctionEmitter& e, ValueId id) {
   const Instruction& instruction = e.at(id);
   const int lanes = e.lanes_of(id);
   const auto& values = e.module().program().tables[instruction.imm].values;
-  Value* index = e.operand(instruction, 0, lanes);
   const auto last = static_cast<std::uint32_t>(values.size() - 1);
+  const MaskedIndex masked = masked_index(e, instruction.operands[0], last);
+  const bool is_whole = masked.unmasked != no_value;
+  Value* index = e.operand(instruction, 0, lanes);
   if (fits_registers(e.module().features(), values.size(), lanes)) {
-    return look_up_in_registers(e, values, clamp(e, index, 0, last, lanes), lanes);
+    if (is_whole && masked.mask == last &&
+        ignores_high_bits(e.module().features(), values.size(), lanes)) {
+      index = e.use(masked.unmasked, lanes);
+    } else if (!is_whole) {
+      index = clamp(e, index, 0, last, lanes);
+    }
+    return look_up_in_registers(e, values, index, lanes);
   }
   const auto run = lanes > 1 ? e.word_run(id) : std::vector<ValueId>{id};
   if (run.size() > 1) {
     emit_run(e, run, index, lanes);
     return nullptr;
   }
-  index = e.builder().CreateAdd(clamp(e, index, 0, last, lanes), e.i32(margin, lanes));
+  if (!is_whole) index = clamp(e, index, 0, last, lanes);
+  index = e.builder().CreateAdd(index, e.i32(margin, lanes));
   return gather(e, Scalar::f32, e.module().table_data(instruction.imm), index, lanes);
 }
 

@@ -36,12 +36,9 @@ void Block::load_input(Register& to, const Instruction& input) const {
 }
 
 void Block::load_table(Register& to, const Instruction& table, const Register& index) const {
-  const std::vector<float>& values = program.tables[table.imm].values;
-  const auto last = static_cast<std::int32_t>(values.size()) - 1;
-  for (int k = 0; k < block_lanes; ++k) {
-    const auto clamped = std::clamp(static_cast<std::int32_t>(index[k]), 0, last);
-    to[k] = flush_denormal(std::bit_cast<std::uint32_t>(values[static_cast<std::size_t>(clamped)]));
-  }
+  const std::vector<std::uint32_t>& words = tables[table.imm];
+  const auto last = static_cast<std::uint32_t>(words.size() - 1);
+  lane_ops()[static_cast<std::size_t>(Op::table)](to.data(), index.data(), words.data(), &last);
 }
 
 void Block::load_texel(Register& to, const Register& slot, const Register& word) const {

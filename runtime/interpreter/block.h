@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "runtime/interpreter/lanes.h"
 #include "runtime/kernel.h"
@@ -15,6 +16,7 @@ inline constexpr std::uint32_t all_ones = ~0u;
 /// reads and writes outside the registers, operation by operation.
 struct Block {
   const Program& program;
+  std::span<const std::vector<std::uint32_t>> tables;  ///< Words of the Program's, no denormals.
   const KernelArguments& arguments;
   std::uint64_t first = 0;
   int lanes = block_lanes;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <span>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "runtime/float_environment.h"
 #include "runtime/interpreter/block.h"
 #include "runtime/interpreter/prepared.h"
+#include "runtime/program/fold.h"
 
 namespace nacre {
 
@@ -22,9 +24,9 @@ bool any(const Register& mask) {
 /// The state of one run() on one thread.
 class Run {
  public:
-  Run(const Program& program, const std::vector<Prepared>& functions, const StepLimit& limit,
-      const KernelArguments& args)
-      : functions_(functions), limit_(limit), block_{program, args} {}
+  Run(const Program& program, std::span<const std::vector<std::uint32_t>> tables,
+      const std::vector<Prepared>& functions, const StepLimit& limit, const KernelArguments& args)
+      : functions_(functions), limit_(limit), block_{program, tables, args} {}
 
   RunStatus all_blocks() {
     const Prepared& entry = functions_.front();
@@ -249,14 +251,28 @@ class Run {
   double steps_left_ = 0;                  ///< Of the block; below zero: the run has failed.
 };
 
+std::vector<std::vector<std::uint32_t>> words_of_tables(const Program& program) {
+  std::vector<std::vector<std::uint32_t>> tables;
+  for (const auto& table : program.tables) {
+    std::vector<std::uint32_t>& words = tables.emplace_back();
+    for (const float value : table.values) {
+      words.push_back(flush_denormal(std::bit_cast<std::uint32_t>(value)));
+    }
+  }
+  return tables;
+}
+
 class Interpreter final : public Kernel {
  public:
   Interpreter(Program program, std::uint64_t max_steps)
-      : program_(std::move(program)), limit_(program_, max_steps), functions_(prepare(program_)) {}
+      : program_(std::move(program)),
+        limit_(program_, max_steps),
+        functions_(prepare(program_)),
+        tables_(words_of_tables(program_)) {}
 
   RunStatus run(const KernelArguments& arguments) const override {
     const ScopedFloatEnvironment environment;
-    return Run(program_, functions_, limit_, arguments).all_blocks();
+    return Run(program_, tables_, functions_, limit_, arguments).all_blocks();
   }
   const Program& program() const override { return program_; }
   int lanes() const override { return block_lanes; }
@@ -266,6 +282,7 @@ class Interpreter final : public Kernel {
   Program program_;
   StepLimit limit_;
   std::vector<Prepared> functions_;
+  std::vector<std::vector<std::uint32_t>> tables_;
 };
 
 }  // namespace

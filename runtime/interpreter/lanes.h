@@ -18,7 +18,8 @@ using Register = std::array<std::uint32_t, block_lanes>;
 using LaneOp = void (*)(std::uint32_t* d, const std::uint32_t* a, const std::uint32_t* b,
                         const std::uint32_t* c);
 
-/// One function an operation, null where the interpreter itself does the work.
+/// One function an operation, null where the interpreter itself does the work. Op::table, which
+/// has another operand in the Program, takes the index, the table's words and the last index.
 using LaneOps = std::array<LaneOp, op_count>;
 
 /// The functions for the widest vectors that this machine has.

@@ -77,6 +77,28 @@ struct Lanes {
     return xsimd::select(is_nan, I(0), xsimd::select(too_large, I(INT32_MAX), converted));
   }
 
+  /// Entries of a table by indices that are clamped to it.
+  static void look_up(std::uint32_t* d, const std::uint32_t* index, const std::uint32_t* table,
+                      std::int32_t last) {
+    const auto clamped = [&](std::size_t i) {
+      return xsimd::min(xsimd::max(load<I>(index + i), I(0)), I(last));
+    };
+    if constexpr (width == 16) {
+      if (last < 16) {
+        alignas(64) std::uint32_t entries[16] = {};
+        for (std::int32_t k = 0; k <= last; ++k) entries[k] = table[k];
+        const I all = load<I>(entries);
+        for (std::size_t i = 0; i < block_lanes; i += width) {
+          put(d + i, I(_mm512_permutexvar_epi32(clamped(i), all)));
+        }
+        return;
+      }
+    }
+    alignas(64) std::uint32_t at[block_lanes];
+    for (std::size_t i = 0; i < block_lanes; i += width) put(at + i, clamped(i));
+    for (std::size_t i = 0; i < block_lanes; ++i) d[i] = table[at[i]];
+  }
+
   static F from_unsigned(I x) {
     // Halves convert exactly, so the sum is the only rounding.
     const F high = xsimd::to_float((x >> 16) & I(0xffff));
@@ -176,6 +198,9 @@ LaneOps make_lane_ops() {
       L::put(d + i, xsimd::select(L::template load<I>(a + i) != I(0), L::template load<I>(b + i),
                                   L::template load<I>(c + i)));
     }
+  };
+  at(Op::table) = [](W* d, const W* a, const W* b, const W* c) {
+    L::look_up(d, a, b, static_cast<std::int32_t>(*c));
   };
   // Variable shifts and the high product: plain loops that the compiler vectorizes.
   at(Op::shl) = [](W* d, const W* a, const W* b, const W*) {
