@@ -16,27 +16,37 @@ Vec3 clean(Vec3 rgb) {
   return {f(rgb.x), f(rgb.y), f(rgb.z)};
 }
 
-/// Running sums of `weights`, scaled to end at exactly 1; all zero if they sum to 0.
-double to_cdf(const std::vector<double>& weights, float* cdf) {
-  double sum = 0;
-  for (const double w : weights) sum += w;
-  double running = 0;
-  cdf[0] = 0.f;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    running += weights[i];
-    cdf[i + 1] = sum > 0 ? static_cast<float>(running / sum) : 0.f;
+// Angles for where a direction is in an image need not be exact to the last bit, as the library's
+// are.
+
+/// In [0, pi], for x in [-1, 1]: Abramowitz and Stegun 1964, 4.4.46, off by at most 2e-8 for x >=
+/// 0.
+float arc_cosine(float x) {
+  const float a = std::min(std::abs(x), 1.f);
+  float sum = -0.0012624911f;
+  for (const float c : {0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f, 0.0889789874f,
+                        -0.2145988016f, 1.5707963050f}) {
+    sum = sum * a + c;
   }
-  if (sum > 0) cdf[weights.size()] = 1.f;
-  return sum;
+  const float angle = std::sqrt(1.f - a) * sum;
+  return x < 0.f ? pi - angle : angle;
 }
 
-/// The interval of a cdf with n intervals that holds u, and where in it u is.
-int find_interval(const float* cdf, int n, float u, float& within) {
-  const float* above = std::upper_bound(cdf, cdf + n + 1, u);
-  const int i = std::clamp(static_cast<int>(above - cdf) - 1, 0, n - 1);
-  const float span = cdf[i + 1] - cdf[i];
-  within = span > 0.f ? std::min((u - cdf[i]) / span, 0x1.fffffep-1f) : 0.5f;
-  return i;
+/// In [-pi, pi]; 0 of zeros: Abramowitz and Stegun 1964, 4.4.49, off by at most 2e-8.
+float arc_tangent(float y, float x) {
+  const float ax = std::abs(x), ay = std::abs(y);
+  const float larger = std::max(ax, ay);
+  if (!(larger > 0.f)) return 0.f;
+  const float ratio = std::min(ax, ay) / larger, square = ratio * ratio;
+  float sum = 0.0028662257f;
+  for (const float c : {-0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f,
+                        -0.1420889944f, 0.1999355085f, -0.3333314528f, 1.f}) {
+    sum = sum * square + c;
+  }
+  float angle = sum * ratio;
+  if (ay > ax) angle = 0.5f * pi - angle;
+  if (x < 0.f) angle = pi - angle;
+  return y < 0.f ? -angle : angle;
 }
 
 }  // namespace
@@ -65,10 +75,8 @@ float Environment::texel_solid_angle(int y) const {
 }
 
 void Environment::build_tables() {
-  const auto w = static_cast<std::size_t>(width_), h = static_cast<std::size_t>(height_);
-  row_cdf_.resize(h + 1);
-  column_cdf_.resize(h * (w + 1));
-  std::vector<double> rows(h), columns(w);
+  const auto w = static_cast<std::size_t>(width_);
+  std::vector<double> rows, columns(w);
   // The mean of a linear interpolation over its texel weighs neighbours 1:6:1 per axis.
   constexpr float share[3] = {0.125f, 0.75f, 0.125f};
   for (int y = 0; y < height_; ++y) {
@@ -81,36 +89,25 @@ void Environment::build_tables() {
       }
       columns[static_cast<std::size_t>(x)] = mean;
     }
-    const auto row = static_cast<std::size_t>(y);
-    rows[row] = to_cdf(columns, &column_cdf_[row * (w + 1)]) * texel_solid_angle(y);
+    columns_.emplace_back(columns);
+    rows.push_back(columns_.back().sum() * texel_solid_angle(y));
   }
-  mean_ = static_cast<float>(to_cdf(rows, row_cdf_.data()) / (4 * std::numbers::pi));
+  rows_ = Distribution(rows);
+  mean_ = static_cast<float>(rows_.sum() / (4 * std::numbers::pi));
+  for (int y = 0; y <= height_; ++y) {
+    latitudes_.push_back(std::cos(static_cast<float>(y) * pi / static_cast<float>(height_)));
+    if (y < height_) row_densities_.push_back(rows_.probability(y) / texel_solid_angle(y));
+  }
 }
 
 float Environment::texel_pdf(int x, int y) const {
-  const std::size_t i = static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1) +
-                        static_cast<std::size_t>(x);
-  const float row =
-      row_cdf_[static_cast<std::size_t>(y) + 1] - row_cdf_[static_cast<std::size_t>(y)];
-  return row * (column_cdf_[i + 1] - column_cdf_[i]) / texel_solid_angle(y);
+  const auto row = static_cast<std::size_t>(y);
+  return row_densities_[row] * columns_[row].probability(x);
 }
 
-namespace {
-
-/// Image position in texels: x in [0, width), y in [0, height).
-Vec2 to_image(Vec3 d, float rotation, int width, int height) {
-  float u = 0.5f + (std::atan2(d.x, -d.z) - rotation) / (2.f * pi);
-  u -= std::floor(u);
-  const float v = 0.5f - std::asin(std::clamp(d.y, -1.f, 1.f)) / pi;
-  return {std::min(u, 0x1.fffffep-1f) * static_cast<float>(width),
-          std::clamp(v, 0.f, 0x1.fffffep-1f) * static_cast<float>(height)};
-}
-
-}  // namespace
-
-Vec3 Environment::radiance(Vec3 direction) const {
-  if (texels_.size() == 1) return texels_[0];
-  const Vec2 p = to_image(direction, rotation_, width_, height_) - Vec2{0.5f, 0.5f};
+/// At a position in texels, in [0, width) and [0, height).
+Vec3 Environment::between_texels(Vec2 position) const {
+  const Vec2 p = position - Vec2{0.5f, 0.5f};
   const float fx = std::floor(p.x), fy = std::floor(p.y);
   const int x = static_cast<int>(fx), y = static_cast<int>(fy);
   const float s = p.x - fx, t = p.y - fy;
@@ -118,29 +115,33 @@ Vec3 Environment::radiance(Vec3 direction) const {
          t * ((1.f - s) * texel(x, y + 1) + s * texel(x + 1, y + 1));
 }
 
-float Environment::pdf(Vec3 direction) const {
-  const Vec2 p = to_image(direction, rotation_, width_, height_);
-  return texel_pdf(std::min(static_cast<int>(p.x), width_ - 1),
-                   std::min(static_cast<int>(p.y), height_ - 1));
+Environment::Light Environment::light(Vec3 direction) const {
+  if (texels_.size() == 1) return {texels_[0], texel_pdf(0, 0)};
+  float u = 0.5f + (arc_tangent(direction.x, -direction.z) - rotation_) / (2.f * pi);
+  u -= std::floor(u);
+  const float v = arc_cosine(direction.y) / pi;
+  const Vec2 p{std::min(u, 0x1.fffffep-1f) * static_cast<float>(width_),
+               std::clamp(v, 0.f, 0x1.fffffep-1f) * static_cast<float>(height_)};
+  const int x = std::min(static_cast<int>(p.x), width_ - 1);
+  const int y = std::min(static_cast<int>(p.y), height_ - 1);
+  return {between_texels(p), texel_pdf(x, y)};
 }
 
 Environment::Sample Environment::sample(Uniform2 u) const {
   if (!(mean_ > 0.f)) return {};
-  float s = 0.f, t = 0.f;
-  const int y = find_interval(row_cdf_.data(), height_, u.y, t);
-  const int x = find_interval(
-      &column_cdf_[static_cast<std::size_t>(y) * (static_cast<std::size_t>(width_) + 1)], width_,
-      u.x, s);
+  const auto [y, t] = rows_.choose(u.y);
+  const auto [x, s] = columns_[static_cast<std::size_t>(y)].choose(u.x);
   // Even in solid angle: even in the cosine between the latitudes of the row.
-  const float step = pi / static_cast<float>(height_);
-  const float above = std::cos(static_cast<float>(y) * step);
-  const float below = std::cos(static_cast<float>(y + 1) * step);
-  const float height = above + t * (below - above);
+  const auto row = static_cast<std::size_t>(y);
+  const float height = latitudes_[row] + t * (latitudes_[row + 1] - latitudes_[row]);
   const float radius = std::sqrt(std::max(0.f, 1.f - height * height));
-  const float angle =
-      2.f * pi * ((static_cast<float>(x) + s) / static_cast<float>(width_) - 0.5f) + rotation_;
+  const float column = static_cast<float>(x) + s;
+  const float angle = 2.f * pi * (column / static_cast<float>(width_) - 0.5f) + rotation_;
   const Vec3 wi = {radius * std::sin(angle), height, -radius * std::cos(angle)};
-  return {wi, radiance(wi), texel_pdf(x, y)};
+  if (texels_.size() == 1) return {wi, texels_[0], texel_pdf(0, 0)};
+  const float latitude = arc_cosine(height) / pi * static_cast<float>(height_);
+  const float most = static_cast<float>(height_) * 0x1.fffffep-1f;
+  return {wi, between_texels({column, std::min(latitude, most)}), texel_pdf(x, y)};
 }
 
 Environment Environment::studio(float scale, float rotation) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "examples/render/distribution.h"
 #include "examples/render/sampler.h"
 #include "examples/render/vec.h"
 #include "runtime/diagnostic.h"
@@ -36,20 +37,25 @@ class Environment {
                                          const ImageLimits& limits, Diagnostics& diagnostics,
                                          const Stop& stop = {});
 
+  struct Light {
+    Vec3 radiance;
+    float pdf;  ///< Of sample(), per solid angle.
+  };
   struct Sample {
     Vec3 wi;
     Vec3 radiance;
     float pdf = 0.f;  ///< Per solid angle; 0: a black environment, nothing drawn.
   };
 
-  Vec3 radiance(Vec3 direction) const;
-  float pdf(Vec3 direction) const;
+  /// Along a unit vector.
+  Light light(Vec3 direction) const;
   Sample sample(Uniform2 u) const;
   /// Mean luminance over the sphere.
   float mean_luminance() const { return mean_; }
 
  private:
   Vec3 texel(int x, int y) const;
+  Vec3 between_texels(Vec2 position) const;
   float texel_solid_angle(int y) const;
   float texel_pdf(int x, int y) const;
   void build_tables();
@@ -57,8 +63,10 @@ class Environment {
   int width_, height_;
   std::vector<Vec3> texels_;
   float rotation_;
-  std::vector<float> row_cdf_;     ///< height + 1
-  std::vector<float> column_cdf_;  ///< height * (width + 1)
+  Distribution rows_;
+  std::vector<Distribution> columns_;  ///< By row.
+  std::vector<float> latitudes_;       ///< Cosines to +y between the rows; height + 1.
+  std::vector<float> row_densities_;   ///< Of a row, by the solid angle of one of its texels.
   float mean_ = 0.f;
 };
 

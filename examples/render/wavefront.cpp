@@ -91,11 +91,9 @@ void Wavefront::add_environment() {
   for (const std::uint32_t i : active_) {
     Path& path = paths_[i];
     if (!hits_[i].missed() || path.unlit) continue;
-    const Vec3 direction = path.ray.direction;
-    const float light_pdf =
-        context_.lights.environment_chance() * context_.environment->pdf(direction);
-    path.radiance +=
-        hit_weight(path, light_pdf) * (path.throughput * context_.environment->radiance(direction));
+    const Environment::Light light = context_.environment->light(path.ray.direction);
+    const float light_pdf = context_.lights.environment_chance() * light.pdf;
+    path.radiance += hit_weight(path, light_pdf) * (path.throughput * light.radiance);
   }
 }
 

@@ -26,7 +26,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!std::isfinite(sample.pdf) || !std::isfinite(sample.radiance.x)) {
       fuzz::fail("an environment gives samples that are not finite");
     }
-    environment->radiance(sample.wi);
+    const auto light = environment->light(sample.wi);
+    if (!std::isfinite(light.pdf) || !std::isfinite(light.radiance.x)) {
+      fuzz::fail("an environment gives light that is not finite");
+    }
   }
   return 0;
 }
