@@ -49,8 +49,8 @@ class Emitter : public Edf {
   /// not look at view.wo.
   virtual Float3 sample(const View& view, Float3 u) const = 0;
   /// The density of view.wo, by solid angle; finite, at least 0, and more wherever there is
-  /// radiance |cos|. Radiance |cos| is at most a constant times it, whatever normal the cosine is to, so
-  /// that weights of samples are bounded.
+  /// radiance |cos|. Radiance |cos| is at most a constant times it, whatever normal the cosine is
+  /// to, so that weights of samples are bounded.
   virtual Float pdf(const View& view) const = 0;
 };
 

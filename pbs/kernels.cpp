@@ -36,6 +36,7 @@ class SurfaceRecorder {
              .accuracy = accuracy,
              .wo = view_direction(recorder),
              .thin_walled = surface.thin_walled,
+             .compensation = request.compensation,
              .follows_subsurface = wants(entry_subsurface),
              .left_out = &left_out_,
              .media = wants(entry_interior) ? &media_ : nullptr,
@@ -86,6 +87,9 @@ class SurfaceRecorder {
     const std::vector<WeightedLobe> lobes =
         flatten(surface_.bsdf, view, [this] { return may_go_on(); });
     const Color3 share = conserving_share(view, lobes);
+    const bool is_alone = std::ranges::count_if(lobes, [this](const WeightedLobe& each) {
+                            return (each.lobe->kinds() & request_.lobes) != 0;
+                          }) == 1;
     std::vector<Term> terms;
     Float total = 0.0f;
     for (const WeightedLobe& each : lobes) {
@@ -98,7 +102,9 @@ class SurfaceRecorder {
       if (request_.energy_conserving) term.weight = term.weight * share;
       const ScopedOrigin of_lobe(recorder_, each.origin);
       if (request_.lobe_mask) term.weight = masked(*each.lobe, term.weight);
-      term.probability = max_component(term.weight * each.lobe->albedo(view));
+      // What there is no choice of need not be weighed.
+      const Color3 part = is_alone ? each.lobe->presence(view) : each.lobe->albedo(view);
+      term.probability = max_component(term.weight * part);
       // A weight of NaN must not silence the other lobes.
       term.probability = select(term.probability > 0.0f, term.probability, 0.0f);
       total = total + term.probability;

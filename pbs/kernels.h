@@ -42,6 +42,7 @@ struct KernelRequest {
   /// No view gets more light than arrives, whatever the model says: what the lobes give together is
   /// divided by what of it exceeds 1, in each channel. As exact as their albedo.
   bool energy_conserving = false;
+  Compensation compensation = Compensation::all;
   bool by_lobe = false;  ///< What each lobe gives of f and weight as well.
   /// `sample` and `evaluate` read the channel "lobes_wanted": LobeKind bits of what scatters there,
   /// where glossy means rough and the delta kinds what is smooth. f is 0 of all others, and the

@@ -83,7 +83,10 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
   return Color3(1.0f) / max(total, Color3(0.005f));
 }
 
-MicrofacetInterface::Terms MicrofacetInterface::compute(const View& view) const {
+MicrofacetInterface::Terms MicrofacetInterface::compute(const View& from) const {
+  View view = from;
+  const bool is_scaled = view.compensation == Compensation::all;
+  if (!is_scaled) view.compensation = Compensation::nothing;  // Of its reflection, too.
   const FacetReflection perfect = reflection_.facets(view);
   const Color3 fresnel = reflection_.mean_fresnel(view, perfect);
   const MicrofacetReflection::Terms reflection = reflection_.compute(view, perfect, fresnel);
@@ -94,7 +97,7 @@ MicrofacetInterface::Terms MicrofacetInterface::compute(const View& view) const 
   const Float forth = grey(passing);
   const Float probability = select(back + forth > 0.0f, back / (back + forth), 1.0f);
   const Color3 factor = choose(
-      separate(view), [] { return Color3(1.0f); },
+      is_scaled ? separate(view) : Bool(true), [] { return Color3(1.0f); },
       [&] { return joint_factor(view, perfect, fresnel); });
   return {factor, passing, probability, reflection};
 }

@@ -6,6 +6,10 @@ namespace nacre {
 
 FacetReflection MicrofacetReflection::facets(const View& view) const {
   const LocalView local = facets_.look(view);
+  // What is not returned need not be known as well.
+  if (view.compensation == Compensation::nothing) {
+    return facet_reflection(*view.recorder, facets_.table_view(local));
+  }
   const Bool inside = local.below & !view.thin_walled;
   return reflection_of_facets(*view.recorder, view.accuracy, facets_, local, *fresnel_, inside);
 }
@@ -19,7 +23,8 @@ Color3 MicrofacetReflection::mean_fresnel(const View& view, const FacetReflectio
 MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view,
                                                           const FacetReflection& perfect,
                                                           Color3 fresnel) const {
-  const Color3 factor = compensation(fresnel, perfect.albedo);
+  const bool is_scaled = view.compensation != Compensation::nothing;
+  const Color3 factor = is_scaled ? compensation(fresnel, perfect.albedo) : Color3(1.0f);
   const Color3 rough = saturate(fresnel * factor * Color3(perfect.albedo));
   if (facets_.delta.is_constant(false)) return {factor, rough};
   const LocalView local = facets_.look(view);

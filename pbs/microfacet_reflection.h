@@ -28,6 +28,7 @@ class MicrofacetReflection final : public Lobe {
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;
+  Color3 presence(const View&) const override { return options_.tint; }
   Color3 throughput(const View& view) const override;
   /// The albedo before the tint.
   Color3 reflected(const View& view) const;

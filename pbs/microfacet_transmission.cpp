@@ -101,6 +101,7 @@ MicrofacetTransmission::Terms MicrofacetTransmission::thin(const View& view,
 }
 
 MicrofacetTransmission::Terms MicrofacetTransmission::compute(const View& view) const {
+  if (view.compensation != Compensation::all) return {1.0f, 0.0f};
   const LocalView local = facets_.look(view);
   return choose(
       view.thin_walled, [&] { return thin(view, local); }, [&] { return refracted(view, local); });

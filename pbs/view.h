@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,12 +40,21 @@ struct BySide {
   Bool transmission = true;
 };
 
+/// Whose light lobes of facets scale up for what several scatterings between facets bring back,
+/// which their formulas leave out.
+enum class Compensation : std::uint8_t {
+  all,         ///< What does not absorb returns all light.
+  reflection,  ///< But for what transmits: rough glass is darker.
+  nothing,     ///< Rough metals are darker, too: as many renderers have them.
+};
+
 /// From where a closure is looked at, while recording.
 struct View {
   Recorder* recorder = nullptr;            ///< Where closures record; never null.
   Accuracy accuracy = Accuracy::standard;  ///< What closures aim at.
   Float3 wo;                               ///< Unit, world space, from the point to the viewer.
   Bool thin_walled = false;                ///< Light that enters leaves at the same point.
+  Compensation compensation = Compensation::all;
   /// Light that enters below the surface is the host's to follow (SurfaceKernels::subsurface); else
   /// it leaves where it enters.
   bool follows_subsurface = false;

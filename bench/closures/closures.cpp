@@ -38,6 +38,7 @@ struct Form {
   std::string name;  ///< "dielectric_bsdf_RT_film".
   std::string mode;  ///< Of its input scatter_mode or mode; empty: it has none.
   bool isotropic = false, film = false, beckmann = false;
+  bool once = false;  ///< Without what comes back of several scatterings.
 };
 
 const char* mode_input(const NodeDef& def) {
@@ -45,7 +46,7 @@ const char* mode_input(const NodeDef& def) {
 }
 
 /// Where facets have a roughness for each axis, both differ from point to point and from each
-/// other, but in the forms that end in "isotropic".
+/// other, but in the forms that end in "isotropic" or "once".
 std::vector<Form> forms(const NodeDef& def) {
   std::vector<std::string> modes{""};
   if (const NodeDefInput* mode = def.input(mode_input(def))) {
@@ -59,6 +60,7 @@ std::vector<Form> forms(const NodeDef& def) {
     found.push_back({.name = name, .mode = mode});
     if (!has_axes) continue;
     found.push_back({.name = name + "_isotropic", .mode = mode, .isotropic = true});
+    found.push_back({.name = name + "_once", .mode = mode, .isotropic = true, .once = true});
     if (def.input("thinfilm_thickness") != nullptr && mode != "T") {
       found.push_back(
           {.name = name + "_film_isotropic", .mode = mode, .isotropic = true, .film = true});
@@ -113,7 +115,8 @@ void register_lobe(const NodeDef& def, const Form& form) {
                                           std::string& error) -> std::unique_ptr<KernelRun> {
       const auto graph = lobe_graph(def, form, error);
       if (graph == nullptr) return nullptr;
-      return run_material(*graph, ParameterMode::frozen, entry, options, error);
+      return run_material(*graph, ParameterMode::frozen, entry, options, error,
+                          form.once ? Compensation::nothing : Compensation::all);
     };
     register_kernel(fmt::format("closures/{}/{}", form.name, entry_name(entry)), all_variants(),
                     make, tolerance);

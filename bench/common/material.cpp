@@ -31,7 +31,8 @@ RecordedMaterial::RecordedMaterial()
 
 std::unique_ptr<RecordedMaterial> RecordedMaterial::record(const Graph& graph, Accuracy accuracy,
                                                            ParameterMode parameters,
-                                                           std::string& error) {
+                                                           std::string& error,
+                                                           Compensation compensation) {
   std::unique_ptr<RecordedMaterial> made(new RecordedMaterial());
   const RecordOptions options{.accuracy = accuracy,
                               .parameters = parameters,
@@ -48,7 +49,9 @@ std::unique_ptr<RecordedMaterial> RecordedMaterial::record(const Graph& graph, A
     error = "no surface; " + made->diagnostics_.to_string();
     return nullptr;
   }
-  made->kernels_ = record_kernels(made->recorder_, *surface, accuracy, {});
+  KernelRequest request;
+  request.compensation = compensation;
+  made->kernels_ = record_kernels(made->recorder_, *surface, accuracy, request);
   std::set<std::uint32_t> state;
   for (const Entry entry : {Entry::sample, Entry::evaluate}) {
     for (const std::uint32_t k : state_channels(made->program(entry))) state.insert(k);
@@ -69,9 +72,10 @@ Program RecordedMaterial::program(Entry entry) {
 }
 
 std::unique_ptr<KernelRun> run_material(const Graph& graph, ParameterMode parameters, Entry entry,
-                                        const CompileOptions& options, std::string& error) {
+                                        const CompileOptions& options, std::string& error,
+                                        Compensation compensation) {
   const std::shared_ptr<RecordedMaterial> material =
-      RecordedMaterial::record(graph, options.accuracy, parameters, error);
+      RecordedMaterial::record(graph, options.accuracy, parameters, error, compensation);
   if (material == nullptr) return nullptr;
   const auto make = [&](Entry wanted, const Columns& given) -> std::unique_ptr<KernelRun> {
     if (wanted == Entry::begin && material->state().empty()) {

@@ -31,7 +31,8 @@ class RecordedMaterial {
  public:
   /// Null, with the reason, where something has no body or is no surface.
   static std::unique_ptr<RecordedMaterial> record(const Graph& graph, Accuracy accuracy,
-                                                  ParameterMode parameters, std::string& error);
+                                                  ParameterMode parameters, std::string& error,
+                                                  Compensation compensation = Compensation::all);
 
   /// One entry point, cut at the state, for compile().
   Program program(Entry entry);
@@ -52,6 +53,7 @@ class RecordedMaterial {
 
 /// An entry point as a kernel; those that read the state get what `begin` stored.
 std::unique_ptr<KernelRun> run_material(const Graph& graph, ParameterMode parameters, Entry entry,
-                                        const CompileOptions& options, std::string& error);
+                                        const CompileOptions& options, std::string& error,
+                                        Compensation compensation = Compensation::all);
 
 }  // namespace nacre::bench

@@ -248,6 +248,7 @@ void add_inspect(CLI::App& app, int& status) {
   command.add_flag("--live", options->live, "Keep parameters changeable");
   command.add_flag("--json", options->json, "For programs to read");
   options->common.add_compile(command);
+  options->common.add_lobes(command);
   command.callback([options, &status] {
     status = guarded(options->common.file, [&] { return run(*options); });
   });

@@ -107,6 +107,19 @@ void CommonOptions::add_limits(CLI::App& command) {
   add_count("--max-tiles", texture_limits.tiles.max_tiles, "Files that a <UDIM> name stands for");
 }
 
+void CommonOptions::add_lobes(CLI::App& command) {
+  const std::map<std::string, Compensation> compensations{{"all", Compensation::all},
+                                                          {"nothing", Compensation::nothing},
+                                                          {"reflection", Compensation::reflection}};
+  command
+      .add_option("--compensation", compensation,
+                  "Light that several scatterings between facets bring back: all, of reflection "
+                  "alone (rough glass is darker), or nothing (rough metals too)")
+      ->transform(CLI::CheckedTransformer(compensations, CLI::ignore_case)
+                      .description("{all,nothing,reflection}"))
+      ->default_str("all");
+}
+
 void CommonOptions::add_compile(CLI::App& command) {
   command.add_option("--accuracy", accuracy, "Error promised for every function and closure")
       ->check(CLI::IsMember({"precise", "standard", "fast"}))
@@ -159,6 +172,7 @@ Backend CommonOptions::parsed_backend() const {
 ShaderOptions CommonOptions::shader_options() const {
   ShaderOptions options;
   options.compile.accuracy = parsed_accuracy();
+  options.kernels.compensation = compensation;
   options.compile.backend = parsed_backend();
   options.compile.lanes = lanes;
   options.compile.max_instructions = compile_limits.max_instructions;

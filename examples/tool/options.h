@@ -28,6 +28,7 @@ struct CommonOptions {
   bool allow_outside = false;  ///< Files that the document names may lie anywhere.
   MissingImages missing_images = MissingImages::error;
   std::string accuracy = "standard";
+  Compensation compensation = Compensation::all;
   std::string backend = "jit";
   std::optional<std::string> working_space;
   std::string ocio;  ///< A file, or "env".
@@ -48,6 +49,7 @@ struct CommonOptions {
 
   void add_document(CLI::App& command);
   void add_compile(CLI::App& command);
+  void add_lobes(CLI::App& command);
   /// For what can begin before all is compiled: it is interpreted until then.
   void add_waiting(CLI::App& command);
 

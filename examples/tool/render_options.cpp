@@ -126,6 +126,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(0, host::largest_coordinate));
   add_scene_limits(command, options.scene_limits);
   options.common.add_compile(command);
+  options.common.add_lobes(command);
   options.common.add_waiting(command);
 }
 

@@ -70,6 +70,7 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   options.kernels.lobes_wanted = asked.lobes_wanted != 0;
   options.kernels.transport = asked.transport != 0;
   options.kernels.energy_conserving = asked.energy_conserving != 0;
+  options.kernels.compensation = static_cast<Compensation>(asked.compensation);
   if (asked.entries != 0) options.kernels.entries = asked.entries;
   options.kernels.with_begin = texts_of(asked.with_begin, asked.with_begin_count);
   options.side = asked.side == NACRE_BACK ? Side::back : Side::front;
@@ -98,7 +99,7 @@ bool is_meant(const nacre_compile_options* given) {
   const nacre_compile_options asked = options_of(given);
   const auto is_one_of_three = [](int value) { return value >= 0 && value <= 2; };
   return is_one_of_three(asked.engine) && is_one_of_three(asked.accuracy) &&
-         is_one_of_three(asked.prefer);
+         is_one_of_three(asked.prefer) && is_one_of_three(asked.compensation);
 }
 
 }  // namespace

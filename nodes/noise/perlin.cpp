@@ -47,7 +47,9 @@ std::vector<float> components3(int axis, float zero) {
   return table;
 }
 
+/// `index` in range.
 Float entry(std::string_view name, const std::vector<float>& values, Int index) {
+  if (index.is_constant()) return values[static_cast<std::size_t>(index.constant())];
   const Ref at = index.ref();
   Recorder& recorder = *at.recorder;
   return Float(recorder.emit(Op::table, std::span(&at, 1), recorder.table(name, values)));

@@ -47,6 +47,7 @@ class BurleyDiffuse final : public CosineLobe {
   }
   /// The part above 1 is cut off.
   Color3 albedo(const View& view) const override { return saturate(light(view)); }
+  Color3 presence(const View&) const override { return color_; }
 
  private:
   Color3 color_;

@@ -99,6 +99,7 @@ class OrenNayar final : public CosineLobe {
     }
     return saturate(total);
   }
+  Color3 presence(const View&) const override { return color_; }
 
  private:
   Color3 color_;

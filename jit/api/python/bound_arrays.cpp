@@ -81,19 +81,23 @@ void BoundArrays::find_uses(const Shader& shader, nacre_entry entry) {
   std::vector<std::string> streamed;
   for (const Channel& each : shader.inputs(entry)) streamed.push_back(each.name);
   for (const Channel& each : shader.results(entry)) streamed.push_back(each.name);
-  std::vector<std::string> of_one_point;
+  // What is bound for NACRE_EVALUATE_AT and is neither is read of its one point, whether or not
+  // another entry reads it as well; but for what others store.
+  std::vector<std::string> stored;
   for (int i = 0; entry == NACRE_EVALUATE_AT && i < NACRE_ENTRY_COUNT; ++i) {
-    for (const Channel& each : shader.inputs(static_cast<nacre_entry>(i))) {
-      of_one_point.push_back(each.name);
+    for (const Channel& each : shader.results(static_cast<nacre_entry>(i))) {
+      if (each.role != NACRE_STATE) stored.push_back(each.name);
     }
   }
   for (std::size_t i = 0; i < placements_.size(); ++i) {
-    const auto is_covered = [&](const std::string& channel) {
-      return covers(placements_[i].name, channel);
+    const auto is_one_of = [&](const std::vector<std::string>& channels) {
+      return std::any_of(channels.begin(), channels.end(), [&](const std::string& channel) {
+        return covers(placements_[i].name, channel);
+      });
     };
-    const bool is_streamed = std::any_of(streamed.begin(), streamed.end(), is_covered);
+    const bool is_streamed = is_one_of(streamed);
     if (is_streamed) uses_[entry].push_back({i, false});
-    if (!is_streamed && std::any_of(of_one_point.begin(), of_one_point.end(), is_covered)) {
+    if (entry == NACRE_EVALUATE_AT && !is_streamed && !is_one_of(stored)) {
       uses_[entry].push_back({i, true});
     }
   }

@@ -71,6 +71,7 @@ void bind_system(nb::module_& module) {
       .def_rw("max_anisotropy", &CompileOptions::max_anisotropy)
       .def_rw("no_footprints", &CompileOptions::no_footprints)
       .def_rw("live_footprints", &CompileOptions::live_footprints)
+      .def_rw("compensation", &CompileOptions::compensation)
       .def_rw("search_paths", &CompileOptions::search_paths)
       .def_rw("files_anywhere", &CompileOptions::files_anywhere)
       .def_rw("missing_images_pass", &CompileOptions::missing_images_pass)

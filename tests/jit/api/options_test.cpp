@@ -129,7 +129,7 @@ TEST(ApiOptions, ChoicesThatThereAreNotAreRefused) {
   System system;
   for (int nacre_compile_options::* choice :
        {&nacre_compile_options::engine, &nacre_compile_options::accuracy,
-        &nacre_compile_options::prefer}) {
+        &nacre_compile_options::prefer, &nacre_compile_options::compensation}) {
     for (const int value : {-1, 3}) {
       nacre_compile_options options{};
       options.size = sizeof options;

@@ -168,6 +168,12 @@ enum {
 
 enum { NACRE_JIT = 0, NACRE_INTERPRETER = 1, NACRE_REFERENCE = 2 };
 enum { NACRE_STANDARD = 0, NACRE_PRECISE = 1, NACRE_FAST = 2 };
+
+/* Of facets, for light that is scattered between them several times, which their formulas leave
+ * out. ALL: what does not absorb returns all light. REFLECTION: but for what transmits, rough glass
+ * is darker. NOTHING: rough metals are darker, too, as many renderers have them. What is left out
+ * costs nothing. */
+enum { NACRE_COMPENSATE_ALL = 0, NACRE_COMPENSATE_REFLECTION = 1, NACRE_COMPENSATE_NOTHING = 2 };
 enum { NACRE_FRONT = 0, NACRE_BACK = 1 };
 enum { NACRE_BODY = 0, NACRE_GRAPH = 1, NACRE_TEXT = 2 };
 
@@ -261,6 +267,7 @@ typedef struct nacre_compile_options {
                           of them: footprint_scale, 1 unless set, multiplies the changes along them,
                           as dPdx; at 0 points have no extent. max_anisotropy, an int, bounds that
                           of images from 1 to the one above, which it is unless set. */
+  int compensation;    /* NACRE_COMPENSATE_ALL */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;

@@ -127,6 +127,7 @@ struct CompileOptions {
   bool lobes_wanted = false;     ///< A channel lobes_wanted, of sample and evaluate.
   bool transport = false;        ///< A channel transport, of sample and evaluate.
   bool live_footprints = false;  ///< Slots footprint_scale and max_anisotropy.
+  int compensation = NACRE_COMPENSATE_ALL;
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -327,6 +328,7 @@ class System {
     asked.lobes_wanted = options.lobes_wanted;
     asked.transport = options.transport;
     asked.live_footprints = options.live_footprints;
+    asked.compensation = options.compensation;
     call(asked);
   }
 

@@ -76,6 +76,9 @@ class CompileOptions(TypedDict, total=False):
     # Parameters change footprints later: footprint_scale multiplies them, max_anisotropy, an int, is
     # at most the one above.
     live_footprints: bool
+    # Of facets, for what several scatterings between them bring back: "all", of "reflection" alone
+    # (rough glass is darker), or "nothing" (rough metals too). What is left out costs nothing.
+    compensation: Literal["all", "reflection", "nothing"]
     search_paths: Iterable[str]  # Of images, after the document's own folder.
     files_anywhere: bool  # Images also from outside those folders.
     missing_images_pass: bool  # An image that cannot be had is a warning and no error.
@@ -94,6 +97,7 @@ _NAMED = {
     "engine": ("jit", "interpreter", "reference"),
     "accuracy": ("standard", "precise", "fast"),
     "side": ("front", "back"),
+    "compensation": ("all", "reflection", "nothing"),
 }
 _LISTS = ("live", "varying", "with_begin", "search_paths")
 

@@ -36,6 +36,18 @@ DOCUMENTS = {
       <surfacematerial name="M" type="material">
         <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
     </materialx>""",
+    # Gloss over paper: a choice of lobes hangs on the view.
+    "two_lobes": """<materialx version="1.39">
+      <dielectric_bsdf name="gloss" type="BSDF">
+        <input name="roughness" type="vector2" value="0.3, 0.3"/></dielectric_bsdf>
+      <oren_nayar_diffuse_bsdf name="paper" type="BSDF"/>
+      <layer name="both" type="BSDF"><input name="top" type="BSDF" nodename="gloss"/>
+        <input name="base" type="BSDF" nodename="paper"/></layer>
+      <surface name="S" type="surfaceshader">
+        <input name="bsdf" type="BSDF" nodename="both"/></surface>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+    </materialx>""",
     # One parameter of each kind: out = scale + offset.x where flag, else 0.
     "values": """<materialx version="1.39">
       <constant name="scale" type="float"><input name="value" type="float" value="3" uiname="Scale"

@@ -66,28 +66,44 @@ def test_one_point_and_many_directions(system, documents):
 
 
 def test_points_past_the_arrays_are_refused(system, documents):
+    """A lobe that is alone has no state: what is too short then is wo."""
     shader = system.compile_material(nacre.Document.parse(documents["lambert"]), "M",
                                      no_footprints=True, entries=[Entry.EVALUATE_AT])
+    assert shader.state_count == 0
     points = nacre.surface_points(numpy.zeros((3, 3), "float32"), N, WO[:3])
     with pytest.raises(nacre.Error) as caught:
         shader.run(points | {"wi": WI}, Entry.EVALUATE_AT, point=3)
     assert caught.value.diagnostics[0].code == "short-array"
-    state = numpy.zeros((3, shader.state_count), "float32")
-    binding = shader.bind(points | {"wi": WI, "state": state}, entries=[Entry.EVALUATE_AT])
+    binding = shader.bind(points | {"wi": WI}, entries=[Entry.EVALUATE_AT])
     binding.run(Entry.EVALUATE_AT, point=2)
     with pytest.raises(nacre.Error) as caught:
         binding.run(Entry.EVALUATE_AT, point=3)
     assert caught.value.diagnostics[0].code == "short-array"
 
 
-def test_the_state_is_the_callers_if_it_is_bound(lambert):
-    state = numpy.zeros((lambert.state_count, COUNT), "float32").T
+def test_the_state_is_the_callers_if_it_is_bound(system, documents):
+    two = system.compile_material(nacre.Document.parse(documents["two_lobes"]), "M",
+                                  no_footprints=True)
+    assert two.state_count > 0
+    state = numpy.zeros((two.state_count, COUNT), "float32").T
     f = numpy.zeros((COUNT, 3), "float32")
-    binding = lambert.bind(POINTS | {"wi": WI, "state": state, "f": f},
-                           entries=[Entry.BEGIN, Entry.EVALUATE])
+    binding = two.bind(POINTS | {"wi": WI, "state": state, "f": f},
+                       entries=[Entry.BEGIN, Entry.EVALUATE])
     binding.run(Entry.BEGIN)
     binding.run(Entry.EVALUATE)
-    assert numpy.array_equal(f, lambert.run(POINTS | {"wi": WI}, Entry.EVALUATE)["f"])
+    assert numpy.array_equal(f, two.run(POINTS | {"wi": WI}, Entry.EVALUATE)["f"])
+
+
+def test_points_past_the_state_are_refused(system, documents):
+    two = system.compile_material(nacre.Document.parse(documents["two_lobes"]), "M",
+                                  no_footprints=True, entries=[Entry.EVALUATE_AT])
+    points = nacre.surface_points((0.0, 0.0, 0.0), N, (0.0, 0.0, 1.0))
+    state = numpy.zeros((3, two.state_count), "float32")
+    binding = two.bind(points | {"wi": WI, "state": state}, entries=[Entry.EVALUATE_AT])
+    binding.run(Entry.EVALUATE_AT, point=2)
+    with pytest.raises(nacre.Error) as caught:
+        binding.run(Entry.EVALUATE_AT, point=3)
+    assert caught.value.diagnostics[0].code == "short-array"
 
 
 def test_results_into_structures(lambert):
@@ -121,6 +137,29 @@ def test_lobes_wanted_and_transport_come_with_points(system, documents):
     numpy.testing.assert_allclose(results["pdf"][1:], WI[1:, 2] / math.pi, rtol=1e-5)
     with pytest.raises(nacre.Error, match="lobes_wanted"):
         shader.run(POINTS | {"wi": WI, "transport": carried}, Entry.EVALUATE)
+
+
+def test_facets_may_lose_what_is_scattered_several_times(system):
+    """White metal returns all light, GGX facets of alpha 1 alone 1 - ln 2 of it, seen from above:
+    there h = cos(theta_h) has the density 2 h, wi the cosine w = 2 h^2 - 1, and of what goes up
+    G2 / G1 = 2 w / (1 + w) is seen."""
+    metal = nacre.Document.parse("""<materialx version="1.39">
+      <conductor_bsdf name="b" type="BSDF">
+        <input name="ior" type="color3" value="0, 0, 0"/>
+        <input name="extinction" type="color3" value="1, 1, 1"/>
+        <input name="roughness" type="vector2" value="1, 1"/></conductor_bsdf>
+      <surface name="S" type="surfaceshader">
+        <input name="bsdf" type="BSDF" nodename="b"/></surface>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+      </materialx>""")
+    above = POINTS | {"wo": (0, 0, 1)}
+    albedo = {kind: system.compile_material(metal, "M", no_footprints=True, compensation=kind)
+              .run(above, Entry.ALBEDO)["albedo"][0, 0] for kind in ("all", "reflection", "nothing")}
+    assert albedo["all"] == albedo["reflection"] == pytest.approx(1, abs=1e-6)
+    assert albedo["nothing"] == pytest.approx(1 - math.log(2), abs=3e-3)
+    with pytest.raises(ValueError, match="compensation"):
+        system.compile_material(metal, "M", compensation="some")
 
 
 def test_the_index_outside_comes_with_points(system):
