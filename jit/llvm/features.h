@@ -6,6 +6,7 @@ namespace nacre::codegen {
 
 /// The x86 features that the emitter asks about.
 struct Features {
+  bool ssse3 = false;
   bool avx = false;
   bool avx2 = false;
   bool f16c = false;

@@ -22,11 +22,15 @@ struct Permute {
 Permute permute_of(const Features& features, int lanes) {
   if (lanes == 1) return {};
   if (features.avx512) return lanes == 16 ? Permute{16, 32} : Permute{8, 16};
-  return features.avx2 ? Permute{8, 8} : Permute{};
+  if (features.avx2) return {8, 8};
+  return features.ssse3 ? Permute{4, 16} : Permute{};
 }
 
+/// By bytes, without AVX2.
+bool is_of_bytes(Permute cpu) { return cpu.lanes == 4; }
+
 /// Pieces of a table that are worth permuting and blending.
-constexpr std::size_t most_pieces = 4;
+std::size_t most_pieces(Permute cpu) { return is_of_bytes(cpu) ? 1 : 4; }
 
 /// Table entries first ... first + count - 1; beyond the end, zeros nobody asks for.
 Value* entries(FunctionEmitter& e, const std::vector<float>& values, std::size_t first, int count) {
@@ -56,9 +60,37 @@ Value* permute(FunctionEmitter& e, const std::vector<float>& values, std::size_t
   return b.CreateIntrinsic(both, {}, {low, index, high});
 }
 
+/// The same where only bytes can be permuted: a permutation for each byte of a word that is not the
+/// same zero in all entries.
+Value* permute_bytes(FunctionEmitter& e, const std::vector<float>& values, Value* index,
+                     Permute cpu) {
+  Builder& b = e.builder();
+  llvm::Type* bytes = llvm::FixedVectorType::get(b.getInt8Ty(), 16);
+  llvm::Type* words = index->getType();
+  Value* result = e.i32(0, cpu.lanes);
+  for (unsigned byte = 0; byte < 4; ++byte) {
+    std::vector<std::uint8_t> table;
+    for (const float value : values) {
+      const std::uint32_t word = flush_denormal(std::bit_cast<std::uint32_t>(value));
+      table.push_back(static_cast<std::uint8_t>(word >> (8 * byte)));
+    }
+    table.resize(16);
+    if (std::ranges::all_of(table, [](std::uint8_t part) { return part == 0; })) continue;
+    // A control byte of 0x80 gives 0.
+    Value* place = b.CreateShl(index, e.i32(8 * byte, cpu.lanes));
+    Value* control = b.CreateOr(place, e.i32(0x80808080u & ~(0x80u << (8 * byte)), cpu.lanes));
+    Value* part = b.CreateIntrinsic(
+        llvm::Intrinsic::x86_ssse3_pshuf_b_128, {},
+        {llvm::ConstantDataVector::get(b.getContext(), table), b.CreateBitCast(control, bytes)});
+    result = b.CreateOr(result, b.CreateBitCast(part, words));
+  }
+  return b.CreateBitCast(result, llvm::FixedVectorType::get(b.getFloatTy(), 4));
+}
+
 /// For as many lanes as the CPU permutes at once.
 Value* look_up_native(FunctionEmitter& e, const std::vector<float>& values, Value* index,
                       Permute cpu) {
+  if (is_of_bytes(cpu)) return permute_bytes(e, values, index, cpu);
   const auto step = static_cast<std::size_t>(cpu.entries);
   Value* result = permute(e, values, 0, index, cpu);
   for (std::size_t first = step; first < values.size(); first += step) {
@@ -98,15 +130,15 @@ Value* look_up_parts(FunctionEmitter& e, const std::vector<float>& values, Value
 
 bool fits_registers(const Features& features, std::size_t entries, int lanes) {
   const Permute cpu = permute_of(features, lanes);
-  return cpu.lanes != 0 && entries <= most_pieces * static_cast<std::size_t>(cpu.entries);
+  return cpu.lanes != 0 && entries <= most_pieces(cpu) * static_cast<std::size_t>(cpu.entries);
 }
 
 bool ignores_high_bits(const Features& features, std::size_t entries, int lanes) {
   const Permute cpu = permute_of(features, lanes);
-  // With half as many entries as lanes the other half is zeros.
-  const auto whole = static_cast<std::size_t>(cpu.entries),
-             half = static_cast<std::size_t>(cpu.lanes);
-  return cpu.lanes != 0 && (entries == whole || entries == half);
+  if (cpu.lanes == 0 || is_of_bytes(cpu)) return false;
+  // A table in one register, or in as many as one instruction reaches.
+  return entries == static_cast<std::size_t>(cpu.lanes) ||
+         entries == static_cast<std::size_t>(cpu.entries);
 }
 
 llvm::Value* look_up_in_registers(FunctionEmitter& e, const std::vector<float>& values,

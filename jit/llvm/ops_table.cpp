@@ -1,6 +1,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "jit/llvm/gather.h"
@@ -22,19 +23,22 @@ Value* clamp(FunctionEmitter& e, Value* index, std::int32_t low, std::uint32_t h
   return e.builder().CreateBinaryIntrinsic(llvm::Intrinsic::smin, index, e.i32(high, lanes));
 }
 
-/// Of an index x & mask, both for a mask below the number of entries: needs no clamp.
+/// An index x & mask that needs no clamp: the mask is below the number of entries.
 struct MaskedIndex {
-  ValueId unmasked = no_value;
-  std::uint32_t mask = 0;
+  ValueId unmasked;
+  std::uint32_t mask;
 };
-MaskedIndex masked_index(FunctionEmitter& e, ValueId index, std::uint32_t last) {
+std::optional<MaskedIndex> masked_index(const FunctionEmitter& e, ValueId index,
+                                        std::uint32_t last) {
   const Instruction& found = e.at(index);
-  if (found.op != Op::iand) return {};
+  if (found.op != Op::iand) return std::nullopt;
   for (const std::size_t k : {0, 1}) {
     const Instruction& mask = e.at(found.operands[k]);
-    if (mask.op == Op::constant && mask.imm <= last) return {found.operands[1 - k], mask.imm};
+    if (mask.op == Op::constant && mask.imm <= last) {
+      return MaskedIndex{found.operands[1 - k], mask.imm};
+    }
   }
-  return {};
+  return std::nullopt;
 }
 
 /// The entries that follow each other from `index` on: one load a lane.
@@ -66,15 +70,14 @@ Value* table(FunctionEmitter& e, ValueId id) {
   const int lanes = e.lanes_of(id);
   const auto& values = e.module().program().tables[instruction.imm].values;
   const auto last = static_cast<std::uint32_t>(values.size() - 1);
-  const MaskedIndex masked = masked_index(e, instruction.operands[0], last);
-  const bool is_whole = masked.unmasked != no_value;
+  const auto masked = masked_index(e, instruction.operands[0], last);
   Value* index = e.operand(instruction, 0, lanes);
   if (fits_registers(e.module().features(), values.size(), lanes)) {
-    if (is_whole && masked.mask == last &&
-        ignores_high_bits(e.module().features(), values.size(), lanes)) {
-      index = e.use(masked.unmasked, lanes);
-    } else if (!is_whole) {
+    if (!masked) {
       index = clamp(e, index, 0, last, lanes);
+    } else if (masked->mask == last &&
+               ignores_high_bits(e.module().features(), values.size(), lanes)) {
+      index = e.use(masked->unmasked, lanes);
     }
     return look_up_in_registers(e, values, index, lanes);
   }
@@ -83,7 +86,7 @@ Value* table(FunctionEmitter& e, ValueId id) {
     emit_run(e, run, index, lanes);
     return nullptr;
   }
-  if (!is_whole) index = clamp(e, index, 0, last, lanes);
+  if (!masked) index = clamp(e, index, 0, last, lanes);
   index = e.builder().CreateAdd(index, e.i32(margin, lanes));
   return gather(e, Scalar::f32, e.module().table_data(instruction.imm), index, lanes);
 }

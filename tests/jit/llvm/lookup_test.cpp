@@ -1,0 +1,82 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "runtime/program/fold.h"
+#include "runtime/program/slice.h"
+#include "runtime/value/value.h"
+#include "tests/jit/llvm/engine.h"
+#include "tests/support/run_kernel.h"
+
+namespace nacre {
+namespace {
+
+/// No two entries alike, nor any two bytes of the words in one place; one of them a denormal.
+std::vector<float> entries(int count) {
+  std::vector<float> table;
+  for (int i = 0; i < count; ++i) {
+    const auto n = static_cast<std::uint32_t>(i);
+    table.push_back(std::bit_cast<float>(0x3f800000u + n * 0x00010107u));
+  }
+  table[table.size() / 2] = std::bit_cast<float>(0x80000123u);
+  return table;
+}
+
+/// Entry `index`, and entry `index & mask`.
+Program look_up(const std::vector<float>& table, std::int32_t mask) {
+  Recorder recorder;
+  const Int index(recorder.input("index", Scalar::i32));
+  const auto entry = [&](Int at) {
+    const Ref ref = at.ref();
+    return recorder.emit(Op::table, std::span(&ref, 1), recorder.table("table", table));
+  };
+  const std::vector<SliceOutput> outputs{{"clamped", entry(index)},
+                                         {"masked", entry(index & Int(mask))}};
+  return slice(recorder.program(), "look_up", outputs);
+}
+
+// A table is permuted in registers, whole or by bytes, or loaded from memory, by CPU and size.
+TEST(LookUp, GivesTheEntryOnEveryCpu) {
+  // As floats that are whole: run() makes integers of them.
+  Columns in{{"index", {0.0f, -1.0f, -0x1p31f, 0x1.fffffep30f}}};
+  for (int i = 1; i < 300; ++i) {
+    in["index"].push_back(static_cast<float>(i % 3 == 0 ? -i * 4097 : i));
+  }
+  std::vector<std::int32_t> indices;
+  for (const float x : in["index"]) indices.push_back(static_cast<std::int32_t>(x));
+  for (const int count : {1, 3, 8, 9, 16, 17, 32, 33, 64, 65, 200}) {
+    const std::vector<float> table = entries(count);
+    for (const std::int32_t mask : {count - 1, 5, 7, 255}) {
+      const Program program = look_up(table, mask);
+      for (const int lanes : {1, 4, 8, 16}) {
+        for (const char* cpu : {"", "x86-64", "nehalem", "sandybridge", "haswell"}) {
+          if (std::string_view(cpu) == "haswell" && __builtin_cpu_supports("avx2") == 0) continue;
+          const Target target = *cpu == '\0' ? Target::host() : Target::named(cpu);
+          const auto kernel = compiled(program, {.lanes = lanes, .target = target});
+          ASSERT_NE(kernel, nullptr);
+          const Columns out = run(*kernel, in);
+          const auto expected = [&](std::int32_t index) {
+            const auto at = static_cast<std::size_t>(std::clamp(index, 0, count - 1));
+            return flush_denormal(std::bit_cast<std::uint32_t>(table[at]));
+          };
+          for (std::size_t i = 0; i < indices.size(); ++i) {
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(out.at("clamped")[i]), expected(indices[i]))
+                << count << " entries, W = " << lanes << ", " << cpu << ", " << indices[i];
+            ASSERT_EQ(std::bit_cast<std::uint32_t>(out.at("masked")[i]),
+                      expected(indices[i] & mask))
+                << count << " entries, & " << mask << ", W = " << lanes << ", " << cpu << ", "
+                << indices[i];
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nacre
