@@ -21,56 +21,61 @@ constexpr float scale3 = 0.9820f;
 /// 6 t^5 - 15 t^4 + 10 t^3, Perlin 2002, eq. for s(t).
 Float fade(Float t) { return t * t * t * fma(t, fma(t, 6.0f, -15.0f), 10.0f); }
 
-// A component of the vectors by the low bits of a hash: tables of so few entries are permuted in
-// a register, which takes half the time of compares and blends.
+/// A component of the vectors by the low bits of a hash. So few entries are permuted in registers,
+/// in place of compares and blends.
+struct Components {
+  std::string_view name;
+  std::vector<float> values;
 
-/// The eight vectors (+-1, +-2) and (+-2, +-1): bit 2 tells which, bits 0 and 1 the signs.
-std::vector<float> components2(int axis) {
-  std::vector<float> table;
+  Float at(Int hash) const {
+    const Int index = hash & Int(static_cast<int>(values.size()) - 1);
+    if (index.is_constant()) return values[static_cast<std::size_t>(index.constant())];
+    const Ref ref = index.ref();
+    Recorder& recorder = *ref.recorder;
+    return Float(recorder.emit(Op::table, std::span(&ref, 1), recorder.table(name, values)));
+  }
+};
+
+/// Of the eight vectors (+-1, +-2) and (+-2, +-1): bit 2 tells which, bits 0 and 1 the signs.
+Components of_plane(std::string_view name, int axis) {
+  Components made{name, {}};
   for (unsigned h = 0; h < 8; ++h) {
     const float one = (h & 1) != 0 ? -1.0f : 1.0f, two = (h & 2) != 0 ? -2.0f : 2.0f;
-    table.push_back(((h & 4) == 0) == (axis == 0) ? one : two);
+    made.values.push_back(((h & 4) == 0) == (axis == 0) ? one : two);
   }
-  return table;
+  return made;
 }
 
-/// The vectors to the edges of the cube, four of them twice: Perlin 2002. A component of 0 has the
-/// sign `zero`.
-std::vector<float> components3(int axis, float zero) {
-  std::vector<float> table;
+/// Of the vectors to the edges of the cube, four of them twice: Perlin 2002. A component of 0 has
+/// the sign of `zero`.
+Components of_cube(std::string_view name, int axis, float zero) {
+  Components made{name, {}};
   for (unsigned h = 0; h < 16; ++h) {
     const int first = h < 8 ? 0 : 1;
     const int second = h < 4 ? 1 : h == 12 || h == 14 ? 0 : 2;
     const float u = (h & 1) != 0 ? -1.0f : 1.0f, v = (h & 2) != 0 ? -1.0f : 1.0f;
-    table.push_back(axis == first ? u : axis == second ? v : zero);
+    made.values.push_back(axis == first ? u : axis == second ? v : zero);
   }
-  return table;
-}
-
-/// `index` in range.
-Float entry(std::string_view name, const std::vector<float>& values, Int index) {
-  if (index.is_constant()) return values[static_cast<std::size_t>(index.constant())];
-  const Ref at = index.ref();
-  Recorder& recorder = *at.recorder;
-  return Float(recorder.emit(Op::table, std::span(&at, 1), recorder.table(name, values)));
+  return made;
 }
 
 /// p times the vector; `far`: by axis, whether p is as seen from the cell's farther corner.
 Float gradient(Int hash, Float2 p, std::array<bool, 2> /*far*/) {
-  const Int h = hash & Int(7);
-  return fma(entry("perlin2d.x", components2(0), h), p.x,
-             entry("perlin2d.y", components2(1), h) * p.y);
+  static const Components x = of_plane("perlin2d.x", 0), y = of_plane("perlin2d.y", 1);
+  return fma(x.at(hash), p.x, y.at(hash) * p.y);
 }
 
 /// What is not there is -0, which a sum keeps: p is at least 0 as seen from the nearer corner, and
 /// less from the farther one.
 Float gradient(Int hash, Float3 p, std::array<bool, 3> far) {
-  const Int h = hash & Int(15);
-  const auto component = [&](int axis) {
-    constexpr std::string_view names[] = {"perlin3d.x",     "perlin3d.y",     "perlin3d.z",
-                                          "perlin3d.far_x", "perlin3d.far_y", "perlin3d.far_z"};
-    const auto i = static_cast<std::size_t>(axis);
-    return entry(names[far[i] ? i + 3 : i], components3(axis, far[i] ? 0.0f : -0.0f), h);
+  static const std::array near_corner{of_cube("perlin3d.x", 0, -0.0f),
+                                      of_cube("perlin3d.y", 1, -0.0f),
+                                      of_cube("perlin3d.z", 2, -0.0f)};
+  static const std::array far_corner{of_cube("perlin3d.far_x", 0, 0.0f),
+                                     of_cube("perlin3d.far_y", 1, 0.0f),
+                                     of_cube("perlin3d.far_z", 2, 0.0f)};
+  const auto component = [&](std::size_t axis) {
+    return (far[axis] ? far_corner : near_corner)[axis].at(hash);
   };
   return fma(component(0), p.x, fma(component(1), p.y, component(2) * p.z));
 }

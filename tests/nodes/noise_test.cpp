@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "jit/passes/derive.h"
+#include "nodes/noise/perlin.h"
 #include "runtime/interpreter/interpreter.h"
 #include "tests/nodes/independent/scalar_noise.h"
 #include "tests/nodes/node_runner.h"
@@ -102,6 +104,31 @@ TEST(Perlin, AgreesWithTheScalarStatementIn3d) {
     EXPECT_NEAR(one.at("out")[i], reference::perlin(v), 1e-9);
     EXPECT_NEAR(two.at("out.x")[i], reference::perlin(v, 0), 1e-9);
     EXPECT_NEAR(two.at("out.y")[i], reference::perlin(v, 1), 1e-9);
+  }
+}
+
+/// A number that is known while recording; NaN where it is not.
+float literal(Float x) {
+  return x.is_constant() ? std::bit_cast<float>(x.ref().id) : std::nanf("");
+}
+
+// Of places that are constants nothing is recorded.
+TEST(Perlin, IsTheSameWhereThePlaceIsKnown) {
+  for (int i = 0; i < 50; ++i) {
+    const float x = 0.37f * static_cast<float>(i) - 9.0f, y = 4.0f - 0.61f * static_cast<float>(i),
+                z = 0.13f * static_cast<float>(i);
+    Recorder recorder;
+    const float amplitude = 1.0f, pivot = 0.0f;
+    const std::vector<Arg> rest{{"amplitude", Type::float_, {amplitude}},
+                                {"pivot", Type::float_, {pivot}}};
+    std::vector<Arg> plane = rest, space = rest;
+    plane.push_back({"texcoord", Type::vector2, {x, y}});
+    space.push_back({"position", Type::vector3, {x, y, z}});
+    EXPECT_NEAR(literal(perlin(recorder, Float2{x, y})),
+                call_node("noise2d", plane, Type::float_)[0], 1e-6);
+    EXPECT_NEAR(literal(perlin(recorder, Float3{x, y, z})),
+                call_node("noise3d", space, Type::float_)[0], 1e-6);
+    EXPECT_TRUE(recorder.program().entry().code.empty());
   }
 }
 
