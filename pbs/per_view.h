@@ -8,14 +8,6 @@
 
 namespace nacre {
 
-inline bool same_value(Ref a, Ref b) {
-  return a.recorder == b.recorder && a.id == b.id && a.type == b.type;
-}
-inline bool same_value(Float3 a, Float3 b) {
-  return same_value(a.x.ref(), b.x.ref()) && same_value(a.y.ref(), b.y.ref()) &&
-         same_value(a.z.ref(), b.z.ref());
-}
-
 /// What a lobe works out once for a view: a structure with visit(). Recorded at
 /// top level, as Lobe::prepare is, it serves every later use; seen from the viewer
 /// it is kept too, so that `begin` computes it and the other kernels load it. Lives

@@ -10,22 +10,18 @@ Float3 perpendicular(Float3 b, Float3 a) { return normalize(b - Float3(dot(b, a)
 
 /// n, unit; the host's own is that already.
 Float3 unit(Recorder& recorder, Float3 n) {
-  const Float3 host = normal(recorder, Space::world);
-  const auto same = [](Float a, Float b) {
-    return a.ref().recorder == b.ref().recorder && a.ref().id == b.ref().id;
-  };
-  return same(n.x, host.x) && same(n.y, host.y) && same(n.z, host.z) ? n : normalize(n);
+  return same_value(n, normal(recorder, Space::world)) ? n : normalize(n);
 }
 
 }  // namespace
 
 /// A normal encoded in [0, 1] and given in the frame (tangent, bitangent, normal), in the space of
-/// the frame. MaterialX 1.39 Standard Nodes, "normalmap". The frame is made orthonormal first, as in
-/// the Open Shading Language implementation: interpolated tangents aren't quite. An encoded zero (no
-/// texel) is the frame's normal; and so is, unit, one that leans to no side, so that what shades by
-/// it costs no more than without. A tangent or bitangent with nothing left adds nothing, and what
-/// decodes to zero stays zero. Else NaN for NaN, for infinities, and for frames so far from unit
-/// that products overflow.
+/// the frame. MaterialX 1.39 Standard Nodes, "normalmap". The frame is made orthonormal first, as
+/// in the Open Shading Language implementation: interpolated tangents aren't quite. An encoded zero
+/// (no texel) is the frame's normal; and so is, unit, one that leans to no side, so that what
+/// shades by it costs no more than without. A tangent or bitangent with nothing left adds nothing,
+/// and what decodes to zero stays zero. Else NaN for NaN, for infinities, and for frames so far
+/// from unit that products overflow.
 void record_normalmap(NodeCall& call) {
   const Float3 encoded = call.vector3("in");
   const Float3 n = call.vector3("normal");

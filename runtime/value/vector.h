@@ -134,6 +134,14 @@ inline Float average(Float3 a) { return (a.x + a.y + a.z) * Float(1.0f / 3.0f); 
 inline bool is_zero(Float3 a) {
   return a.x.is_constant(0.0f) && a.y.is_constant(0.0f) && a.z.is_constant(0.0f);
 }
+/// Whether both are one recorded value or literal: the same without a look at any number.
+inline bool same_value(Ref a, Ref b) {
+  return a.recorder == b.recorder && a.id == b.id && a.type == b.type;
+}
+inline bool same_value(Float3 a, Float3 b) {
+  return same_value(a.x.ref(), b.x.ref()) && same_value(a.y.ref(), b.y.ref()) &&
+         same_value(a.z.ref(), b.z.ref());
+}
 /// s a, but nothing at all where s is a literal 0 (a weight that is off skips
 /// what it weighs, infinities included).
 inline Float3 weigh(Float s, Float3 a) {
