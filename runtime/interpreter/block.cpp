@@ -37,8 +37,8 @@ void Block::load_input(Register& to, const Instruction& input) const {
 
 void Block::load_table(Register& to, const Instruction& table, const Register& index) const {
   const std::vector<std::uint32_t>& words = tables[table.imm];
-  const auto last = static_cast<std::uint32_t>(words.size() - 1);
-  lane_ops()[static_cast<std::size_t>(Op::table)](to.data(), index.data(), words.data(), &last);
+  const auto last = static_cast<std::int32_t>(words.size() - 1);
+  lane_ops().look_up(to.data(), index.data(), words.data(), last);
 }
 
 void Block::load_texel(Register& to, const Register& slot, const Register& word) const {

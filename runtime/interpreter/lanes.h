@@ -18,9 +18,15 @@ using Register = std::array<std::uint32_t, block_lanes>;
 using LaneOp = void (*)(std::uint32_t* d, const std::uint32_t* a, const std::uint32_t* b,
                         const std::uint32_t* c);
 
-/// One function an operation, null where the interpreter itself does the work. Op::table, which
-/// has another operand in the Program, takes the index, the table's words and the last index.
-using LaneOps = std::array<LaneOp, op_count>;
+/// d = table[index], the index clamped to [0, last], over all lanes.
+using LookUp = void (*)(std::uint32_t* d, const std::uint32_t* index, const std::uint32_t* table,
+                        std::int32_t last);
+
+struct LaneOps {
+  /// By operation; null where the interpreter itself does the work.
+  std::array<LaneOp, op_count> of{};
+  LookUp look_up = nullptr;
+};
 
 /// The functions for the widest vectors that this machine has.
 const LaneOps& lane_ops();

@@ -77,7 +77,6 @@ struct Lanes {
     return xsimd::select(is_nan, I(0), xsimd::select(too_large, I(INT32_MAX), converted));
   }
 
-  /// Entries of a table by indices that are clamped to it.
   static void look_up(std::uint32_t* d, const std::uint32_t* index, const std::uint32_t* table,
                       std::int32_t last) {
     const auto clamped = [&](std::size_t i) {
@@ -137,7 +136,7 @@ LaneOps make_lane_ops() {
   using I = typename L::I;
   using W = std::uint32_t;
   LaneOps ops{};
-  const auto at = [&](Op op) -> LaneOp& { return ops[static_cast<std::size_t>(op)]; };
+  const auto at = [&](Op op) -> LaneOp& { return ops.of[static_cast<std::size_t>(op)]; };
 
 #define NACRE_UNARY(op, V, ...)                                  \
   at(op) = [](W* d, const W* a, const W*, const W*) {            \
@@ -199,9 +198,7 @@ LaneOps make_lane_ops() {
                                   L::template load<I>(c + i)));
     }
   };
-  at(Op::table) = [](W* d, const W* a, const W* b, const W* c) {
-    L::look_up(d, a, b, static_cast<std::int32_t>(*c));
-  };
+  ops.look_up = L::look_up;
   // Variable shifts and the high product: plain loops that the compiler vectorizes.
   at(Op::shl) = [](W* d, const W* a, const W* b, const W*) {
     for (int i = 0; i < block_lanes; ++i) d[i] = a[i] << (b[i] & 31u);

@@ -38,8 +38,7 @@ std::vector<Step> steps_of(const Function& function, const std::vector<bool>& on
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Instruction& instruction = function.code[i];
     Step& step = steps[i];
-    const bool reads_table = instruction.op == Op::table;
-    step.run = reads_table ? nullptr : ops[static_cast<std::size_t>(instruction.op)];
+    step.run = ops.of[static_cast<std::size_t>(instruction.op)];
     step.turn = instruction.op == Op::constant ? Turn::never : once[i] ? Turn::once : Turn::each;
     step.registers[0] = register_of(static_cast<ValueId>(i));
     for (std::size_t k = 0; k < instruction.count; ++k) {
