@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "pbs/fresnel.h"
 #include "pbs/microfacet.h"
@@ -14,51 +15,42 @@ namespace nacre {
 
 namespace {
 
-/// Points of a rank-1 lattice with a Fibonacci number of them, the best there is of that kind in
-/// two dimensions: Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods", 1992,
-/// section 5.1. One coordinate is an azimuth, in which the sum is periodic.
-struct Lattice {
-  int points;
-  int step;  ///< The Fibonacci number before.
+/// Facets of a sum: points of a rank-1 lattice with a Fibonacci number of them, the best there is
+/// of that kind in two dimensions: Niederreiter, "Random Number Generation and Quasi-Monte Carlo
+/// Methods", 1992, section 5.1. One coordinate is an azimuth, in which the sum is periodic. Where
+/// light is totally reflected from some angle on, and views see hardly any that passes, it takes
+/// many more than where light enters, for the same error.
+struct Points {
+  int entering, leaving;
 };
 
-/// Where light is totally reflected from some angle on, and views see hardly any that passes, it
-/// takes many more facets than where light enters, for the same error.
-struct Lattices {
-  Lattice entering, leaving;
-};
-
-/// Beckmann's facets are found by Newton's steps and cost ten times what GGX's do.
-Lattices lattices(Accuracy accuracy, FacetDistribution distribution) {
+/// Beckmann's facets are found by Newton's steps, each many times as dear as one of GGX's.
+Points points_of(Accuracy accuracy, FacetDistribution distribution) {
   const bool is_dear = distribution == FacetDistribution::beckmann;
-  if (accuracy == Accuracy::fast) {
-    return {.entering = {34, 21}, .leaving = is_dear ? Lattice{89, 55} : Lattice{144, 89}};
-  }
-  if (accuracy == Accuracy::standard) {
-    return {.entering = {89, 55}, .leaving = is_dear ? Lattice{144, 89} : Lattice{987, 610}};
-  }
-  if (is_dear) return {.entering = {144, 89}, .leaving = {377, 233}};
-  return {.entering = {377, 233}, .leaving = {2584, 1597}};
+  if (accuracy == Accuracy::fast) return {34, is_dear ? 89 : 144};
+  if (accuracy == Accuracy::standard) return {89, is_dear ? 144 : 987};
+  return is_dear ? Points{144, 377} : Points{377, 2584};
 }
 
 /// Fewer do for a mean over the reflected light.
-Lattices small_lattices(Accuracy accuracy, FacetDistribution distribution) {
+Points points_of_mean(Accuracy accuracy, FacetDistribution distribution) {
   const bool is_dear = distribution == FacetDistribution::beckmann;
-  if (accuracy == Accuracy::fast) {
-    return {.entering = {21, 13}, .leaving = is_dear ? Lattice{34, 21} : Lattice{89, 55}};
-  }
-  if (accuracy == Accuracy::standard) {
-    return {.entering = {34, 21}, .leaving = is_dear ? Lattice{89, 55} : Lattice{377, 233}};
-  }
-  if (is_dear) return {.entering = {89, 55}, .leaving = {144, 89}};
-  return {.entering = {144, 89}, .leaving = {987, 610}};
+  if (accuracy == Accuracy::fast) return {21, is_dear ? 34 : 89};
+  if (accuracy == Accuracy::standard) return {34, is_dear ? 89 : 377};
+  return is_dear ? Points{89, 144} : Points{144, 987};
 }
 
-/// Fewer still where each facet's Fresnel factor is dear.
-Lattices film_lattices(Accuracy accuracy) {
-  if (accuracy == Accuracy::fast) return {.entering = {21, 13}, .leaving = {34, 21}};
-  if (accuracy == Accuracy::standard) return {.entering = {34, 21}, .leaving = {144, 89}};
-  return {.entering = {89, 55}, .leaving = {144, 89}};
+/// Fewer still where each facet's Fresnel factor is dear, as under a film.
+Points points_of_film(Accuracy accuracy) {
+  if (accuracy == Accuracy::fast) return {21, 34};
+  return {accuracy == Accuracy::standard ? 34 : 89, 144};
+}
+
+/// The Fibonacci number before: what a lattice of so many points steps by.
+int fibonacci_before(int points) {
+  int before = 1, at = 1;
+  while (at < points) before = std::exchange(at, at + before);
+  return before;
 }
 
 /// That of each lane.
@@ -69,19 +61,19 @@ struct LaneLattice {
   Float across;  ///< From a point to the next, of the unit square's second side.
   Float2 turn;   ///< The same around the view: cosine and sine.
 };
-LaneLattice in_lanes(const Lattices& lattices, Bool leaving) {
-  const auto [few, many] = lattices;
+LaneLattice in_lanes(Points points, Bool leaving) {
   const auto either = [&](auto&& number) {
-    return select(leaving, Float(static_cast<float>(number(many))),
-                  Float(static_cast<float>(number(few))));
+    return select(leaving, Float(static_cast<float>(number(points.leaving))),
+                  Float(static_cast<float>(number(points.entering))));
   };
-  const auto turn = [](Lattice l) { return 2.0 * std::numbers::pi * l.step / l.points; };
-  return {.most = std::max(few.points, many.points),
-          .points = select(leaving, Int(many.points), Int(few.points)),
-          .share = either([](Lattice l) { return 1.0 / l.points; }),
-          .across = either([](Lattice l) { return static_cast<double>(l.step) / l.points; }),
-          .turn = {either([&](Lattice l) { return std::cos(turn(l)); }),
-                   either([&](Lattice l) { return std::sin(turn(l)); })}};
+  const auto across = [](int n) { return static_cast<double>(fibonacci_before(n)) / n; };
+  const auto turn = [&](int n) { return 2.0 * std::numbers::pi * across(n); };
+  return {.most = std::max(points.entering, points.leaving),
+          .points = select(leaving, Int(points.leaving), Int(points.entering)),
+          .share = either([](int n) { return 1.0 / n; }),
+          .across = either(across),
+          .turn = {either([&](int n) { return std::cos(turn(n)); }),
+                   either([&](int n) { return std::sin(turn(n)); })}};
 }
 
 template <class Sum>
@@ -216,7 +208,7 @@ FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const
   // the angle of total reflection, on either side.
   const Bool many = facets.isotropic ? Bool(true) : eta < 1.0f;
   const FacetSum all = over_facets(
-      recorder, in_lanes(lattices(accuracy, facets.distribution), many), wo, facets,
+      recorder, in_lanes(points_of(accuracy, facets.distribution), many), wo, facets,
       FacetSum{0.0f, 0.0f, 0.0f, 0.0f},
       [&](const Facet& facet, const auto& unshadowed, Float share, FacetSum& sum) {
         const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
@@ -253,7 +245,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     table = for_dielectric(recorder, seen, table, max(index, 1.0f / index),
                            1.0f - fresnel.film_share());
   }
-  const Lattices few = small_lattices(accuracy, facets.distribution);
+  const Points few = points_of_mean(accuracy, facets.distribution);
   const Float eta = relative_index(fresnel.index(), inside);
   const auto mean_dielectric = [&](Bool leaving) {
     const Float2 light = over_facets(
@@ -272,7 +264,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     table.rest_share = select((eta < 1.0f) & !facets.delta, share, 0.0f);
     table.rest = if_any(table.rest_share > 0.0f, Color3(0.0f), [&] {
       const RestSum sum = over_facets(
-          recorder, in_lanes(film_lattices(accuracy), Bool(true)), local.wo, facets,
+          recorder, in_lanes(points_of_film(accuracy), Bool(true)), local.wo, facets,
           RestSum{0.0f, Color3(0.0f)}, [&](const Facet& facet, const auto&, Float, RestSum& all) {
             const Float bare = fresnel_dielectric(facet.cosine, eta);
             const Color3 rest = of_facets.at(facet.cosine, inside) - Color3(bare);
@@ -343,7 +335,7 @@ Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const 
   const Float eta = relative_index(fresnel.index(), inside);
   const FacetFresnelPtr filmed = in_sums(fresnel);
   const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
-  return over_facets(recorder, in_lanes(film_lattices(accuracy), eta < 1.0f), wo, facets,
+  return over_facets(recorder, in_lanes(points_of_film(accuracy), eta < 1.0f), wo, facets,
                      Color3(0.0f),
                      [&](const Facet& facet, const auto& unshadowed, Float share, Color3& sum) {
                        const Refraction bent = refract(wo, facet.h, facet.cosine, eta);

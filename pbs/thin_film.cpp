@@ -296,7 +296,7 @@ ThinFilm::ThinFilm(Float thickness, Float index, Accuracy accuracy)
 
 ThinFilm ThinFilm::in_sums() const {
   ThinFilm film = *this;
-  film.terms_ = std::min(film.terms_, 5);
+  film.terms_ = std::min(film.terms_, most_terms_in_sums);
   return film;
 }
 

@@ -34,9 +34,10 @@ class ThinFilm {
   /// literal 0 where there is none.
   Float share() const { return exists() ? saturate(thickness_ * (1.0f / 30.0f)) : Float(0.0f); }
 
-  /// The same for a sum over many cosines, in which what higher orders add cancels: few orders,
-  /// and no wave numbers one by one.
+  /// The same for a sum over many cosines, in which what higher orders add cancels: no more orders
+  /// than these, and no wave numbers one by one.
   ThinFilm in_sums() const;
+  static constexpr int most_terms_in_sums = 5;
 
   /// Reflectance in [0, 1]. cosine: of the ray in the medium of index `before`
   /// (at least 0.02); n + ik: index of the substrate, as `before` relative to vacuum,
