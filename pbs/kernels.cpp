@@ -48,9 +48,11 @@ class SurfaceRecorder {
     view_.left_out = view_.unseen = nullptr;
     view_.media = nullptr;
     kernels_.not_modelled = left_out_.lines();
-    kernels_.manifest = kernels_.not_modelled;
-    kernels_.manifest.insert(kernels_.manifest.end(), unseen_.lines().begin(),
-                             unseen_.lines().end());
+    // After what select_lobes() has put there.
+    for (const LeftOut* lines : {&left_out_, &unseen_}) {
+      kernels_.manifest.insert(kernels_.manifest.end(), lines->lines().begin(),
+                               lines->lines().end());
+    }
     for (const Term& term : terms_) {
       kernels_.lobes.push_back({std::string(term.lobe->name()),
                                 recorder_.program().origins[term.origin], term.lobe->kinds()});
@@ -98,6 +100,9 @@ class SurfaceRecorder {
         if (from_viewer) note(*each.lobe, "of a kind that was not requested");
         continue;
       }
+      if (from_viewer && is_darker(*each.lobe)) {
+        note(*each.lobe, "without what several scatterings between facets bring back");
+      }
       Term term{each.lobe, max(each.weight, Color3(0.0f)), Float(0.0f), each.origin, {}};
       if (request_.energy_conserving) term.weight = term.weight * share;
       const ScopedOrigin of_lobe(recorder_, each.origin);
@@ -136,6 +141,13 @@ class SurfaceRecorder {
   Color3 masked(const Lobe& lobe, Color3 weight) {
     const Int mask(recorder_.parameter("lobe_mask", Scalar::i32, lobe_all));
     return select((mask & Int(lobe.kinds())) == Int(0), Color3(0.0f), weight);
+  }
+
+  /// By what the request leaves out of its facets.
+  bool is_darker(const Lobe& lobe) const {
+    if (!lobe.is_of_facets() || request_.compensation == Compensation::all) return false;
+    const bool transmits = (lobe.kinds() & lobe_glossy_transmission) != 0;
+    return transmits || request_.compensation == Compensation::nothing;
   }
 
   void note(const Lobe& lobe, std::string_view reason) {

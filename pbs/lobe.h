@@ -110,6 +110,9 @@ class Lobe {
   /// does not ask sample().
   virtual Color3 straight(const View& view) const { return (void)view, Color3(0.0f); }
 
+  /// Whether it is of facets, which lose what View::compensation brings back.
+  virtual bool is_of_facets() const { return false; }
+
   // For AOVs, and not for what scatters.
   /// Unit, world space, on either side.
   virtual Float3 normal(const View& view) const = 0;

@@ -29,6 +29,7 @@ class MicrofacetInterface final : public Lobe {
   Color3 albedo(const View& view) const override;
   Color3 throughput(const View& view) const override { return reflection_.throughput(view); }
   Color3 straight(const View& view) const override;
+  bool is_of_facets() const override { return true; }
   Float3 normal(const View&) const override { return facets_.normal; }
   Float roughness(const View&) const override { return facets_.roughness(); }
   const Float* interior_index() const override { return transmission_.interior_index(); }

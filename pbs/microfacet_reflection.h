@@ -52,6 +52,7 @@ class MicrofacetReflection final : public Lobe {
   void adopt(const View& view, Bool mask, const Terms& terms) const;
   /// @}
 
+  bool is_of_facets() const override { return true; }
   Float3 normal(const View&) const override { return facets_.normal; }
   Float roughness(const View&) const override { return facets_.roughness(); }
 

@@ -60,6 +60,7 @@ class MicrofacetTransmission final : public Lobe {
   /// All light is taken.
   Color3 throughput(const View&) const override { return Color3(0.0f); }
   Color3 straight(const View& view) const override;
+  bool is_of_facets() const override { return true; }
   Float3 normal(const View&) const override { return facets_.normal; }
   Float roughness(const View&) const override { return facets_.roughness(); }
   const Float* interior_index() const override { return &index_; }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,7 +41,7 @@ struct BySide {
 
 /// Whose light lobes of facets scale up for what several scatterings between facets bring back,
 /// which their formulas leave out.
-enum class Compensation : std::uint8_t {
+enum class Compensation {
   all,         ///< What does not absorb returns all light.
   reflection,  ///< But for what transmits: rough glass is darker.
   nothing,     ///< Rough metals are darker, too: as many renderers have them.

@@ -79,6 +79,20 @@ TEST_F(NotRendered, MediaInsideAreSaidWhereTheyCount) {
   EXPECT_NE(text_of(file("stdout")).find("subsurface_bsdf: radius"), std::string::npos);
 }
 
+TEST_F(NotRendered, WhatFacetsAreNotGivenBackIsInTheManifest) {
+  const std::string gold = std::string(head) +
+                           material("standard_surface", input("metalness", "float", "1")) +
+                           "</materialx>";
+  const auto says_so = [&](const std::string& options) {
+    EXPECT_EQ(run("inspect --no-cache " + options + write("gold.mtlx", gold)), 0) << errors_;
+    return printed_.find("several scatterings between facets") != printed_.npos;
+  };
+  EXPECT_FALSE(says_so(""));
+  EXPECT_FALSE(says_so("--compensation reflection "));
+  EXPECT_TRUE(says_so("--compensation nothing "));
+  EXPECT_NE(run("inspect --compensation some " + file("gold.mtlx")), 0);
+}
+
 // Light below a surface is followed where there is a below, if that is asked for.
 TEST_F(NotRendered, SubsurfaceOfWhatIsNoSolid) {
   const std::string flesh = material("open_pbr_surface", input("subsurface_weight", "float", "1"));

@@ -114,6 +114,27 @@ TEST(Closures, TheManifestNamesEachLobeThatIsNotThere) {
   }
 }
 
+TEST(Closures, TheManifestNamesWhatWasNotRequested) {
+  const auto says = [](const ShaderOptions& options, const std::string& what) {
+    Diagnostics diagnostics;
+    const auto kernels =
+        compile(R"(<standard_surface name="s" type="surfaceshader"/>)" + material("s"), diagnostics,
+                options);
+    if (kernels == nullptr) return ADD_FAILURE() << diagnostics.to_string(), false;
+    return std::ranges::count(kernels->manifest, what) == 1;
+  };
+  const std::string kind = "dielectric_bsdf: of a kind that was not requested";
+  const std::string once =
+      "dielectric_bsdf: without what several scatterings between facets bring back";
+  ShaderOptions options = interpreted();
+  EXPECT_FALSE(says(options, kind) || says(options, once));
+  options.kernels.lobes = lobe_diffuse_reflection;
+  EXPECT_TRUE(says(options, kind));
+  options.kernels.lobes = lobe_all;
+  options.kernels.compensation = Compensation::nothing;
+  EXPECT_TRUE(says(options, once));
+}
+
 TEST(Closures, AnInterfaceThatIsNoneHasNoLobe) {
   const auto open_pbr = [](const char* weight) {
     return R"(<open_pbr_surface name="s" type="surfaceshader">

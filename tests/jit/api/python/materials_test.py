@@ -139,20 +139,11 @@ def test_lobes_wanted_and_transport_come_with_points(system, documents):
         shader.run(POINTS | {"wi": WI, "transport": carried}, Entry.EVALUATE)
 
 
-def test_facets_may_lose_what_is_scattered_several_times(system):
+def test_facets_may_lose_what_is_scattered_several_times(system, documents):
     """White metal returns all light, GGX facets of alpha 1 alone 1 - ln 2 of it, seen from above:
     there h = cos(theta_h) has the density 2 h, wi the cosine w = 2 h^2 - 1, and of what goes up
     G2 / G1 = 2 w / (1 + w) is seen."""
-    metal = nacre.Document.parse("""<materialx version="1.39">
-      <conductor_bsdf name="b" type="BSDF">
-        <input name="ior" type="color3" value="0, 0, 0"/>
-        <input name="extinction" type="color3" value="1, 1, 1"/>
-        <input name="roughness" type="vector2" value="1, 1"/></conductor_bsdf>
-      <surface name="S" type="surfaceshader">
-        <input name="bsdf" type="BSDF" nodename="b"/></surface>
-      <surfacematerial name="M" type="material">
-        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
-      </materialx>""")
+    metal = nacre.Document.parse(documents["white_metal"])
     above = POINTS | {"wo": (0, 0, 1)}
     albedo = {kind: system.compile_material(metal, "M", no_footprints=True, compensation=kind)
               .run(above, Entry.ALBEDO)["albedo"][0, 0] for kind in ("all", "reflection", "nothing")}
@@ -162,17 +153,8 @@ def test_facets_may_lose_what_is_scattered_several_times(system):
         system.compile_material(metal, "M", compensation="some")
 
 
-def test_the_index_outside_comes_with_points(system):
-    glass = nacre.Document.parse("""<materialx version="1.39">
-      <dielectric_bsdf name="b" type="BSDF">
-        <input name="scatter_mode" type="string" value="RT"/>
-        <input name="roughness" type="vector2" value="0, 0"/>
-        <input name="ior" type="float" value="1.5"/></dielectric_bsdf>
-      <surface name="S" type="surfaceshader">
-        <input name="bsdf" type="BSDF" nodename="b"/></surface>
-      <surfacematerial name="M" type="material">
-        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
-      </materialx>""")
+def test_the_index_outside_comes_with_points(system, documents):
+    glass = nacre.Document.parse(documents["glass"])
     shader = system.compile_material(glass, "M", no_footprints=True, varying=["exterior_index"])
     outside = numpy.linspace(1, 1.49, COUNT, dtype="float32")  # Nearer light goes straight on.
     u = numpy.full((COUNT, 3), 0.99, "float32")
