@@ -19,8 +19,8 @@ Vec3 clean(Vec3 rgb) {
 // Angles for where a direction is in an image need not be exact to the last bit, as the library's
 // are.
 
-/// In [0, pi], for x in [-1, 1]: Abramowitz and Stegun 1964, 4.4.46, off by at most 2e-8 for x >=
-/// 0.
+/// In [0, pi], for x in [-1, 1]: Abramowitz and Stegun 1964, 4.4.46, off by at most 2e-8 before
+/// rounding.
 float arc_cosine(float x) {
   const float a = std::min(std::abs(x), 1.f);
   float sum = -0.0012624911f;
@@ -32,7 +32,8 @@ float arc_cosine(float x) {
   return x < 0.f ? pi - angle : angle;
 }
 
-/// In [-pi, pi]; 0 of zeros: Abramowitz and Stegun 1964, 4.4.49, off by at most 2e-8.
+/// In [-pi, pi]; 0 of zeros: Abramowitz and Stegun 1964, 4.4.49, off by at most 2e-8 before
+/// rounding.
 float arc_tangent(float y, float x) {
   const float ax = std::abs(x), ay = std::abs(y);
   const float larger = std::max(ax, ay);
@@ -107,6 +108,7 @@ float Environment::texel_pdf(int x, int y) const {
 
 /// At a position in texels, in [0, width) and [0, height).
 Vec3 Environment::between_texels(Vec2 position) const {
+  if (texels_.size() == 1) return texels_[0];  // To the bit.
   const Vec2 p = position - Vec2{0.5f, 0.5f};
   const float fx = std::floor(p.x), fy = std::floor(p.y);
   const int x = static_cast<int>(fx), y = static_cast<int>(fy);
@@ -115,13 +117,15 @@ Vec3 Environment::between_texels(Vec2 position) const {
          t * ((1.f - s) * texel(x, y + 1) + s * texel(x + 1, y + 1));
 }
 
+/// The position in rows, in [0, height), by the cosine to +y.
+float Environment::row_at(float cosine) const {
+  return std::min(arc_cosine(cosine) / pi, 0x1.fffffep-1f) * static_cast<float>(height_);
+}
+
 Environment::Light Environment::light(Vec3 direction) const {
-  if (texels_.size() == 1) return {texels_[0], texel_pdf(0, 0)};
   float u = 0.5f + (arc_tangent(direction.x, -direction.z) - rotation_) / (2.f * pi);
   u -= std::floor(u);
-  const float v = arc_cosine(direction.y) / pi;
-  const Vec2 p{std::min(u, 0x1.fffffep-1f) * static_cast<float>(width_),
-               std::clamp(v, 0.f, 0x1.fffffep-1f) * static_cast<float>(height_)};
+  const Vec2 p{std::min(u, 0x1.fffffep-1f) * static_cast<float>(width_), row_at(direction.y)};
   const int x = std::min(static_cast<int>(p.x), width_ - 1);
   const int y = std::min(static_cast<int>(p.y), height_ - 1);
   return {between_texels(p), texel_pdf(x, y)};
@@ -138,10 +142,7 @@ Environment::Sample Environment::sample(Uniform2 u) const {
   const float column = static_cast<float>(x) + s;
   const float angle = 2.f * pi * (column / static_cast<float>(width_) - 0.5f) + rotation_;
   const Vec3 wi = {radius * std::sin(angle), height, -radius * std::cos(angle)};
-  if (texels_.size() == 1) return {wi, texels_[0], texel_pdf(0, 0)};
-  const float latitude = arc_cosine(height) / pi * static_cast<float>(height_);
-  const float most = static_cast<float>(height_) * 0x1.fffffep-1f;
-  return {wi, between_texels({column, std::min(latitude, most)}), texel_pdf(x, y)};
+  return {wi, between_texels({column, row_at(height)}), texel_pdf(x, y)};
 }
 
 Environment Environment::studio(float scale, float rotation) {

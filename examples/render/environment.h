@@ -56,6 +56,7 @@ class Environment {
  private:
   Vec3 texel(int x, int y) const;
   Vec3 between_texels(Vec2 position) const;
+  float row_at(float cosine) const;
   float texel_solid_angle(int y) const;
   float texel_pdf(int x, int y) const;
   void build_tables();

@@ -108,6 +108,7 @@ TEST(Environment, SampleAgreesWithRadianceAndDensity) {
   for (int i = 0; i < 10000; ++i) {
     const Environment::Sample s = e.sample({u(random), u(random)});
     const Vec3 l = e.light(s.wi).radiance;
+    // The sample knows its place in the image; that of the direction is as exact as angles are.
     EXPECT_NEAR(l.y, s.radiance.y, 1e-4f * (1.f + l.y));
     // Rounding may carry a direction over the edge of its texel, seldom.
     differ += std::abs(e.light(s.wi).pdf - s.pdf) > 1e-4f * s.pdf;
