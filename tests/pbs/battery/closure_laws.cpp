@@ -12,27 +12,44 @@ namespace nacre {
 
 namespace {
 
-/// A kernel's outputs as numbers.
-class Results {
+/// A number of each point.
+template <class T>
+class Column {
  public:
-  explicit Results(Arrays arrays) : arrays_(std::move(arrays)) {}
+  explicit Column(const std::vector<std::uint32_t>& words) : words_(words.data()) {}
 
-  bool has(std::string_view name) const { return arrays_.find(name) != arrays_.end(); }
-  float number(std::string_view name, std::size_t i) const {
-    return std::bit_cast<float>(word(name, i));
-  }
-  std::int32_t whole(std::string_view name, std::size_t i) const {
-    return static_cast<std::int32_t>(word(name, i));
-  }
-  const Arrays& arrays() const { return arrays_; }
+  T operator[](std::size_t i) const { return std::bit_cast<T>(words_[i]); }
 
  private:
-  std::uint32_t word(std::string_view name, std::size_t i) const {
-    return arrays_.find(name)->second[i];
-  }
-
-  Arrays arrays_;
+  const std::uint32_t* words_;
 };
+
+/// A vector or colour of each point.
+struct Columns {
+  Column<float> x, y, z;
+
+  float largest(std::size_t i) const { return std::max({x[i], y[i], z[i]}); }
+};
+
+double dot(const Columns& a, const Columns& b, std::size_t i) {
+  return double(a.x[i]) * double(b.x[i]) + double(a.y[i]) * double(b.y[i]) +
+         double(a.z[i]) * double(b.z[i]);
+}
+
+/// As a kernel takes it.
+bool is_unit(const Columns& w, std::size_t i) { return std::abs(dot(w, w, i) - 1.0) < 0.9e-3; }
+
+Column<float> numbers(const Arrays& arrays, std::string_view name) {
+  return Column<float>(arrays.find(name)->second);
+}
+
+Column<std::int32_t> wholes(const Arrays& arrays, std::string_view name) {
+  return Column<std::int32_t>(arrays.find(name)->second);
+}
+
+Columns vectors(const Arrays& arrays, const std::string& name) {
+  return {numbers(arrays, name + ".x"), numbers(arrays, name + ".y"), numbers(arrays, name + ".z")};
+}
 
 constexpr float largest = 3.4028235e38f;
 
@@ -55,7 +72,7 @@ class Trial {
 
   std::vector<ClosureFault> run() {
     if (kernels_.material) try_material(*kernels_.material);
-    if (kernels_.values) try_channels(Results(nacre::run(kernels_.values->kernel, in_, count_)));
+    if (kernels_.values) try_channels(run(kernels_.values->kernel));
     return std::move(faults_);
   }
 
@@ -73,9 +90,9 @@ class Trial {
     }
   }
 
-  void expect_all(const Results& results, std::string_view prefix, bool (*holds)(float),
+  void expect_all(const Arrays& results, std::string_view prefix, bool (*holds)(float),
                   std::string_view law) {
-    for (const auto& [name, column] : results.arrays()) {
+    for (const auto& [name, column] : results) {
       if (name != prefix && !name.starts_with(std::string(prefix) + ".")) continue;
       for (std::size_t i = 0; i < count_; ++i) {
         const float x = std::bit_cast<float>(column[i]);
@@ -84,24 +101,28 @@ class Trial {
     }
   }
 
-  void expect_unit(const Results& results, const std::string& name, bool zero_too,
+  void expect_unit(const Arrays& results, const std::string& name, bool zero_too,
                    std::string_view law) {
-    if (!results.has(name + ".x")) return;
+    if (!results.contains(name + ".x")) return;
+    const Columns v = vectors(results, name);
     for (std::size_t i = 0; i < count_; ++i) {
-      const double x = results.number(name + ".x", i), y = results.number(name + ".y", i),
-                   z = results.number(name + ".z", i);
-      const double length2 = x * x + y * y + z * z;
+      const double length2 = dot(v, v, i);
       expect(std::abs(length2 - 1.0) <= 2e-5 || (zero_too && length2 == 0.0), law, i,
-             [&] { return fmt::format("{} = ({}, {}, {})", name, x, y, z); });
+             [&] { return fmt::format("{} = ({}, {}, {})", name, v.x[i], v.y[i], v.z[i]); });
     }
   }
 
-  Results run(const BoundKernel& kernel) { return Results(nacre::run(kernel, in_, count_)); }
+  Arrays run(const BoundKernel& kernel) { return nacre::run(kernel, in_, count_); }
+
+  /// What a kernel found is what the next ones are given.
+  void pass_on(const Arrays& results, const std::string& name, const std::string& as) {
+    for (const char* k : {".x", ".y", ".z"}) in_[as + k] = results.find(name + k)->second;
+  }
 
   void try_material(const MaterialKernels& material) {
     if (material.begin) {
-      const Results begun = run(*material.begin);
-      for (const auto& [name, column] : begun.arrays()) in_[name] = column;
+      const Arrays begun = run(*material.begin);
+      for (const auto& [name, column] : begun) in_[name] = column;
       expect_unit(begun, "normal", false, "the mean normal is unit");
       expect_all(begun, "roughness", is_share, "roughness is in [0, 1]");
     }
@@ -116,141 +137,124 @@ class Trial {
     if (material.subsurface) try_channels(run(*material.subsurface));
   }
 
-  void try_evaluate(const Results& e) {
+  void try_evaluate(const Arrays& e) {
     expect_all(e, "f", sane, "f is finite and not negative");
     expect_all(e, "pdf", sane, "pdf is finite and not negative");
     expect_all(e, "pdf_reverse", sane, "pdf_reverse is finite and not negative");
+    const Columns f = vectors(e, "f");
+    const Column<float> pdf = numbers(e, "pdf");
     for (std::size_t i = 0; i < count_; ++i) {
-      const float light = std::max({e.number("f.x", i), e.number("f.y", i), e.number("f.z", i)});
-      expect(!(light > 0.0f) || e.number("pdf", i) > 0.0f, "f > 0 needs pdf > 0", i,
-             [&] { return fmt::format("f = {}, pdf = {}", light, e.number("pdf", i)); });
+      const float light = f.largest(i);
+      expect(!(light > 0.0f) || pdf[i] > 0.0f, "f > 0 needs pdf > 0", i,
+             [&] { return fmt::format("f = {}, pdf = {}", light, pdf[i]); });
     }
   }
 
-  void try_sample(const MaterialKernels& material, const Results& s) {
+  void try_sample(const MaterialKernels& material, const Arrays& s) {
     expect_all(s, "weight", sane, "weight is finite and not negative");
     expect_all(s, "pdf", sane, "a sample's pdf is finite and not negative");
     expect_all(s, "pdf_reverse", sane, "a sample's pdf_reverse is finite and not negative");
-    for (std::size_t i = 0; i < count_; ++i) try_direction(material, s, i);
-    for (const char* name : {"wi.x", "wi.y", "wi.z"}) in_[name] = s.arrays().find(name)->second;
-    in_["of_lobe"] = s.arrays().find("lobe")->second;
-    if (!material.evaluate) return;
-    const Results e = run(*material.evaluate);
-    for (std::size_t i = 0; i < count_; ++i) compare(s, e, i);
+    try_directions(material, s);
+    pass_on(s, "wi", "wi");
+    in_["of_lobe"] = s.find("lobe")->second;
+    if (material.evaluate) compare(s, run(*material.evaluate));
   }
 
-  void try_direction(const MaterialKernels& material, const Results& s, std::size_t i) {
-    const double x = s.number("wi.x", i), y = s.number("wi.y", i), z = s.number("wi.z", i);
-    const float light =
-        std::max({s.number("weight.x", i), s.number("weight.y", i), s.number("weight.z", i)});
-    const float pdf = s.number("pdf", i);
-    if ((s.whole("flags", i) & sample_valid) == 0) {
-      expect(light == 0.0f && pdf == 0.0f, "a lost sample has no light", i,
-             [&] { return fmt::format("weight = {}, pdf = {}", light, pdf); });
-      return;
-    }
-    expect(pdf > 0.0f, "a valid sample has a pdf", i, [&] { return fmt::format("pdf = {}", pdf); });
-    expect(std::abs(x * x + y * y + z * z - 1.0) <= 2e-5, "wi is unit", i,
-           [&] { return fmt::format("wi = ({}, {}, {})", x, y, z); });
+  void try_directions(const MaterialKernels& material, const Arrays& s) {
+    const Columns wi = vectors(s, "wi"), weight = vectors(s, "weight");
+    const Column<float> pdf = numbers(s, "pdf");
+    const Column<std::int32_t> flags = wholes(s, "flags"), lobe = wholes(s, "lobe");
     const auto lobes = static_cast<std::int32_t>(material.lobes.size());
-    const std::int32_t lobe = s.whole("lobe", i);
-    expect(lobe >= 0 && lobe < lobes, "a sample's lobe exists", i,
-           [&] { return fmt::format("lobe {} of {}", lobe, lobes); });
-  }
-
-  void compare(const Results& s, const Results& e, std::size_t i) {
-    const std::int32_t flags = s.whole("flags", i);
-    if ((flags & sample_valid) == 0 || (flags & sample_delta) != 0) return;
-    const double pdf = s.number("pdf", i), again = e.number("pdf", i);
-    // For `fast` LLVM may order sums as it likes, in two kernels differently.
-    const bool is_fast = kernels_.way.accuracy == Accuracy::fast;
-    expect(is_fast ? agree(pdf, again, 1e-4, smallest) : pdf == again,
-           "evaluate has the sample's pdf", i,
-           [&] { return fmt::format("sample {}, evaluate {}", pdf, again); });
-    for (const char* k : {"x", "y", "z"}) {
-      const double weight = s.number(std::string("weight.") + k, i);
-      const double f = e.number(std::string("f.") + k, i);
-      expect(
-          agree(weight * pdf, f, 1e-4, smallest * std::max(1.0, pdf)), "weight pdf is f", i,
-          [&] { return fmt::format("weight {} pdf {} = {}, f {}", weight, pdf, weight * pdf, f); });
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((flags[i] & sample_valid) == 0) {
+        const float light = weight.largest(i);
+        expect(light == 0.0f && pdf[i] == 0.0f, "a lost sample has no light", i,
+               [&] { return fmt::format("weight = {}, pdf = {}", light, pdf[i]); });
+        continue;
+      }
+      expect(pdf[i] > 0.0f, "a valid sample has a pdf", i,
+             [&] { return fmt::format("pdf = {}", pdf[i]); });
+      expect(std::abs(dot(wi, wi, i) - 1.0) <= 2e-5, "wi is unit", i,
+             [&] { return fmt::format("wi = ({}, {}, {})", wi.x[i], wi.y[i], wi.z[i]); });
+      expect(lobe[i] >= 0 && lobe[i] < lobes, "a sample's lobe exists", i,
+             [&] { return fmt::format("lobe {} of {}", lobe[i], lobes); });
     }
   }
 
-  void try_emission(const Results& r) {
+  void compare(const Arrays& s, const Arrays& e) {
+    const Columns weight = vectors(s, "weight"), f = vectors(e, "f");
+    const Column<float> pdf = numbers(s, "pdf"), again = numbers(e, "pdf");
+    const Column<std::int32_t> flags = wholes(s, "flags");
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((flags[i] & sample_valid) == 0 || (flags[i] & sample_delta) != 0) continue;
+      // For `fast` LLVM may order sums as it likes, in two kernels differently.
+      expect(is_fast() ? agree(pdf[i], again[i], 1e-4, smallest) : pdf[i] == again[i],
+             "evaluate has the sample's pdf", i,
+             [&] { return fmt::format("sample {}, evaluate {}", pdf[i], again[i]); });
+      for (const auto part : {&Columns::x, &Columns::y, &Columns::z}) {
+        const double w = (weight.*part)[i], p = pdf[i], found = (f.*part)[i];
+        expect(agree(w * p, found, 1e-4, smallest * std::max(1.0, p)), "weight pdf is f", i,
+               [&] { return fmt::format("weight {} pdf {} = {}, f {}", w, p, w * p, found); });
+      }
+    }
+  }
+
+  void try_emission(const Arrays& r) {
     expect_all(r, "emission", sane, "emission is finite and not negative");
     expect_all(r, "pdf", sane, "the pdf of emission is finite and not negative");
-    const Results point(in_);
+    const Columns emission = vectors(r, "emission"), wo = vectors(in_, "wo"),
+                  ng = vectors(in_, "Ng");
+    const Column<float> pdf = numbers(r, "pdf");
     for (std::size_t i = 0; i < count_; ++i) {
-      const double light = brightest(r, "emission", i), pdf = r.number("pdf", i);
+      const float light = emission.largest(i);
       // What the rounding of a cosine is larger than carries no light.
-      const bool leaves =
-          light > 0.0 && is_unit(point, "wo", i) && std::abs(cosine(point, "wo", i)) > 1e-6;
-      expect(!leaves || pdf > 0.0, "emission needs a pdf", i,
-             [&] { return fmt::format("emission = {}, pdf = {}", light, pdf); });
+      const bool leaves = light > 0.0f && is_unit(wo, i) && std::abs(dot(wo, ng, i)) > 1e-6;
+      expect(!leaves || pdf[i] > 0.0f, "emission needs a pdf", i,
+             [&] { return fmt::format("emission = {}, pdf = {}", light, pdf[i]); });
     }
   }
 
   /// Changes wo.
-  void try_emit(const MaterialKernels& material, const Results& s) {
+  void try_emit(const MaterialKernels& material, const Arrays& s) {
     expect_unit(s, "emitted", false, "emitted is unit");
     expect_all(s, "weight", sane, "the weight of emitted light is finite and not negative");
     expect_all(s, "pdf", sane, "the pdf of emitted light is finite and not negative");
-    for (const char* k : {".x", ".y", ".z"}) {
-      in_[std::string("wo") + k] = s.arrays().find(std::string("emitted") + k)->second;
-    }
-    const Results e = run(*material.emission);
-    const Results point(in_);
+    pass_on(s, "emitted", "wo");
+    const Columns weight = vectors(s, "weight");
+    const Column<float> pdf = numbers(s, "pdf");
     for (std::size_t i = 0; i < count_; ++i) {
-      const float pdf = s.number("pdf", i), weight = brightest(s, "weight", i);
-      expect(pdf > 0.0f || weight == 0.0f, "emitted light has a pdf", i,
-             [&] { return fmt::format("weight = {}, pdf = {}", weight, pdf); });
-      if (pdf > 0.0f) compare_emitted(s, e, point, i);
+      const float light = weight.largest(i);
+      expect(pdf[i] > 0.0f || light == 0.0f, "emitted light has a pdf", i,
+             [&] { return fmt::format("weight = {}, pdf = {}", light, pdf[i]); });
     }
+    compare_emitted(s, run(*material.emission));
   }
 
-  void compare_emitted(const Results& s, const Results& e, const Results& point, std::size_t i) {
-    const double pdf = s.number("pdf", i), again = e.number("pdf", i);
-    const bool is_fast = kernels_.way.accuracy == Accuracy::fast;
-    expect(is_fast ? agree(pdf, again, 1e-3, smallest) : pdf == again,
-           "emission has the pdf of emitted light", i,
-           [&] { return fmt::format("emit {}, emission {}", pdf, again); });
-    for (const char* k : {".x", ".y", ".z"}) {
-      const double weight = s.number(std::string("weight") + k, i);
-      const double emission = e.number(std::string("emission") + k, i);
-      const double light = emission * std::abs(cosine(point, "wo", i));
-      // A cosine of floats has so many digits.
-      const double rounding = 1e-6 * emission;
-      expect(weight == largest ||
-                 agree(weight * pdf, light, 1e-3, rounding + smallest * std::max(1.0, pdf)),
-             "weight pdf is emission cos", i, [&] {
-               return fmt::format("weight {} pdf {} = {}, emission cos {}", weight, pdf,
-                                  weight * pdf, light);
-             });
+  void compare_emitted(const Arrays& s, const Arrays& e) {
+    const Columns weight = vectors(s, "weight"), emission = vectors(e, "emission");
+    const Columns wo = vectors(in_, "wo"), ng = vectors(in_, "Ng");
+    const Column<float> pdf = numbers(s, "pdf"), again = numbers(e, "pdf");
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!(pdf[i] > 0.0f)) continue;
+      expect(is_fast() ? agree(pdf[i], again[i], 1e-3, smallest) : pdf[i] == again[i],
+             "emission has the pdf of emitted light", i,
+             [&] { return fmt::format("emit {}, emission {}", pdf[i], again[i]); });
+      const double cosine = std::abs(dot(wo, ng, i)), p = pdf[i];
+      for (const auto part : {&Columns::x, &Columns::y, &Columns::z}) {
+        const double w = (weight.*part)[i], radiance = (emission.*part)[i];
+        // A cosine of floats has so many digits.
+        const double lost = 1e-6 * radiance + smallest * std::max(1.0, p);
+        expect(w == largest || agree(w * p, radiance * cosine, 1e-3, lost),
+               "weight pdf is emission cos", i, [&] {
+                 return fmt::format("weight {} pdf {} = {}, emission cos {}", w, p, w * p,
+                                    radiance * cosine);
+               });
+      }
     }
-  }
-
-  /// To Ng.
-  static double cosine(const Results& point, const std::string& w, std::size_t i) {
-    double sum = 0.0;
-    for (const char* k : {".x", ".y", ".z"}) {
-      sum += double(point.number(w + k, i)) * double(point.number(std::string("Ng") + k, i));
-    }
-    return sum;
-  }
-
-  /// As a kernel takes it.
-  static bool is_unit(const Results& point, const std::string& w, std::size_t i) {
-    double sum = 0.0;
-    for (const char* k : {".x", ".y", ".z"}) sum += std::pow(double(point.number(w + k, i)), 2.0);
-    return std::abs(sum - 1.0) < 0.9e-3;
-  }
-
-  static float brightest(const Results& r, const std::string& name, std::size_t i) {
-    return std::max({r.number(name + ".x", i), r.number(name + ".y", i), r.number(name + ".z", i)});
   }
 
   /// What other entries give, by name.
-  void try_channels(const Results& r) {
+  void try_channels(const Arrays& r) {
     for (const char* name : {"albedo", "opacity", "presence", "opacity_color"}) {
       expect_all(r, name, is_share, std::string(name) + " is in [0, 1]");
     }
@@ -267,10 +271,10 @@ class Trial {
       expect_all(r, name, is_finite, std::string(name) + " is finite");
     }
     // Of one infinitely far away it is the document's.
-    if (r.has("out.distance")) {
+    if (r.contains("out.distance")) {
       expect_unit(r, "out.direction", true, "the direction to a light is unit");
     }
-    for (const auto& [name, column] : r.arrays()) is_known(name);
+    for (const auto& [name, column] : r) is_known(name);
   }
 
   void is_known(const std::string& name) {
@@ -283,6 +287,8 @@ class Trial {
     expect(std::ranges::find(known, group) != std::end(known), "every result has a law", 0,
            [&] { return name; });
   }
+
+  bool is_fast() const { return kernels_.way.accuracy == Accuracy::fast; }
 
   const ClosureKernels& kernels_;
   Arrays in_;

@@ -93,26 +93,34 @@ class Drawing {
     }
   }
 
-  void set(const std::string& name, std::size_t i, const float (&v)[3]) {
-    for (int k = 0; k < 3; ++k) arrays_.find(channel_text(name, k))->second[i] = bits(v[k]);
-  }
+  /// The components' arrays.
+  struct Vectors {
+    std::vector<std::uint32_t>&x, &y, &z;
 
-  void make(const std::string& name) {
-    for (int k = 0; k < 3; ++k) array(channel_text(name, k));
+    void set(std::size_t i, const float (&v)[3]) {
+      x[i] = bits(v[0]);
+      y[i] = bits(v[1]);
+      z[i] = bits(v[2]);
+    }
+  };
+
+  Vectors vectors(const std::string& name) {
+    return {array(channel_text(name, 0)), array(channel_text(name, 1)),
+            array(channel_text(name, 2))};
   }
 
   void add_direction(const std::string& name, int axis, double along) {
-    make(name);
+    Vectors out = vectors(name);
     for (std::size_t i = 0; i < hostility_.size(); ++i) {
       float v[3];
       hostile_direction(random_, hostility_[i], axis, along, v);
-      set(name, i, v);
+      out.set(i, v);
     }
   }
 
   /// Normals are unit, whatever else is not; tangents may be anything where meshes have none.
   void add_frame(const std::string& name, int axis) {
-    make(name);
+    Vectors out = vectors(name);
     for (std::size_t i = 0; i < hostility_.size(); ++i) {
       float v[3] = {};
       v[axis] = 1.0f;
@@ -120,26 +128,27 @@ class Drawing {
         const Hostility hostility = axis == 2 ? Hostility::plausible : hostility_[i];
         hostile_direction(random_, hostility, axis, 0.0, v);
       }
-      set(name, i, v);
+      out.set(i, v);
     }
   }
 
   void add_wi() {
-    make("wi");
+    const Vectors wo = vectors("wo");
+    Vectors wi = vectors("wi");
     for (std::size_t i = 0; i < hostility_.size(); ++i) {
       float v[3];
       hostile_direction(random_, hostility_[i], 2, 0.0, v);
       const std::uint32_t kind = random_.below(12);
       if (kind < 4) {
-        for (int k = 0; k < 3; ++k) {
-          v[k] = std::bit_cast<float>(arrays_.find(channel_text("wo", k))->second[i]);
-        }
+        v[0] = std::bit_cast<float>(wo.x[i]);
+        v[1] = std::bit_cast<float>(wo.y[i]);
+        v[2] = std::bit_cast<float>(wo.z[i]);
         if (kind != 3) v[0] = -v[0], v[1] = -v[1];
         if (kind == 1) v[2] = -v[2];
         // Near the mirror direction.
         if (kind == 2) v[0] += 1e-3f * (hostile_unit(random_) - 0.5f);
       }
-      set("wi", i, v);
+      wi.set(i, v);
     }
   }
 
