@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "jit/api/python/errors.h"
+#include "jit/api/python/image_view.h"
 #include "jit/api/python/module.h"
 
 namespace nacre::python {
@@ -46,7 +47,22 @@ void bind_system(nb::module_& module) {
             return diagnostics_of(said);
           },
           nb::arg("document"), nb::arg("options"),
-          nb::sig("def _check(self, document: Document, options: CompileOptions) -> list"));
+          nb::sig("def _check(self, document: Document, options: CompileOptions) -> list"))
+      .def(
+          "set_image",
+          [](System& self, const std::string& name, nb::handle pixels) {
+            const ImageView view(pixels, name);
+            const nb::gil_scoped_release others_run;
+            self.set_image(name, view.image());
+          },
+          nb::arg("name"), nb::arg("pixels"),
+          nb::sig("def set_image(self, name: str, pixels: object) -> None"),
+          "An image in memory in place of a file of that name, replaced in all shaders that have "
+          "it.\n\npixels  (height, width) or (height, width, channels), row 0 on top, of uint8, "
+          "uint16, float16 or float32; copied")
+      .def("remove_image", &System::remove_image, nb::arg("name"),
+           "Forgets an image of set_image(); shaders that have it keep it.")
+      .def("drop_textures", &System::drop_textures, "Forgets textures that no shader has.");
 
   nb::class_<CompileOptions>(module, "CompileOptions")
       .def(nb::init<>())

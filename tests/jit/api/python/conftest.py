@@ -22,32 +22,42 @@ def lambert(system):
     return system.compile_material(document, "M", no_footprints=True)
 
 
+def material(lobe):
+    """A document whose material M is a surface of the BSDF "lobe"."""
+    return f"""<materialx version="1.39">{lobe}
+      <surface name="S" type="surfaceshader">
+        <input name="bsdf" type="BSDF" nodename="lobe"/></surface>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+    </materialx>"""
+
+
 DOCUMENTS = {
     "twice": """<materialx version="1.39">
       <texcoord name="uv" type="vector2"/>
       <multiply name="twice" type="vector2"><input name="in1" type="vector2" nodename="uv"/>
         <input name="in2" type="float" value="2"/></multiply>
       <output name="out" type="vector2" nodename="twice"/></materialx>""",
-    "lambert": """<materialx version="1.39">
-      <oren_nayar_diffuse_bsdf name="lobe" type="BSDF">
-        <input name="color" type="color3" value="0.25, 0.5, 0.75"/></oren_nayar_diffuse_bsdf>
-      <surface name="S" type="surfaceshader">
-        <input name="bsdf" type="BSDF" nodename="lobe"/></surface>
-      <surfacematerial name="M" type="material">
-        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
-    </materialx>""",
+    "lambert": material("""<oren_nayar_diffuse_bsdf name="lobe" type="BSDF">
+      <input name="color" type="color3" value="0.25, 0.5, 0.75"/></oren_nayar_diffuse_bsdf>"""),
     # Gloss over paper: a choice of lobes hangs on the view.
-    "two_lobes": """<materialx version="1.39">
-      <dielectric_bsdf name="gloss" type="BSDF">
+    "two_lobes": material("""<dielectric_bsdf name="gloss" type="BSDF">
         <input name="roughness" type="vector2" value="0.3, 0.3"/></dielectric_bsdf>
       <oren_nayar_diffuse_bsdf name="paper" type="BSDF"/>
-      <layer name="both" type="BSDF"><input name="top" type="BSDF" nodename="gloss"/>
-        <input name="base" type="BSDF" nodename="paper"/></layer>
-      <surface name="S" type="surfaceshader">
-        <input name="bsdf" type="BSDF" nodename="both"/></surface>
-      <surfacematerial name="M" type="material">
-        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
-    </materialx>""",
+      <layer name="lobe" type="BSDF"><input name="top" type="BSDF" nodename="gloss"/>
+        <input name="base" type="BSDF" nodename="paper"/></layer>"""),
+    "white_metal": material("""<conductor_bsdf name="lobe" type="BSDF">
+      <input name="ior" type="color3" value="0, 0, 0"/>
+      <input name="extinction" type="color3" value="1, 1, 1"/>
+      <input name="roughness" type="vector2" value="1, 1"/></conductor_bsdf>"""),
+    "glass": material("""<dielectric_bsdf name="lobe" type="BSDF">
+      <input name="scatter_mode" type="string" value="RT"/>
+      <input name="roughness" type="vector2" value="0, 0"/>
+      <input name="ior" type="float" value="1.5"/></dielectric_bsdf>"""),
+    "painted": """<materialx version="1.39"><image name="i" type="color3">
+      <input name="file" type="filename" value="painted"/>
+      <input name="filtertype" type="string" value="closest"/></image>
+      <output name="out" type="color3" nodename="i"/></materialx>""",
     # One parameter of each kind: out = scale + offset.x where flag, else 0.
     "values": """<materialx version="1.39">
       <constant name="scale" type="float"><input name="value" type="float" value="3" uiname="Scale"
