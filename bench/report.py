@@ -193,7 +193,7 @@ def growth(run: results.Run) -> str:
 def hosts(run: results.Run) -> str:
     entries = ("begin", "sample", "evaluate", "albedo")
     rows = []
-    for case in ("columns/all", "columns/half", "columns/half_in_any_order",
+    for case in ("columns/all", "columns/a_page_apart", "columns/half", "columns/half_in_any_order",
                  "columns/half_of_state", "structures/all", "structures/half", "instances/all"):
         rows.append([case] + [cell(run.get(f"hosts/{entry}/{case}")) for entry in entries])
     ways = [[name.replace("_", " "), cell(run.get(f"hosts/point/{name}"))]

@@ -33,9 +33,11 @@ struct Case {
   enum { every, half_in_order, half_in_any_order } list;
   bool varying = false;         ///< base_color and roughness by instances.
   bool state_by_place = false;  ///< Else an element for each point, listed or not.
+  bool a_page_apart = false;    ///< Columns lie as many whole pages from each other.
 };
 constexpr Case cases[] = {
     {"columns/all", false, Case::every},
+    {"columns/a_page_apart", false, Case::every, false, false, true},
     {"columns/half", false, Case::half_in_order, false, true},
     {"columns/half_in_any_order", false, Case::half_in_any_order, false, true},
     {"columns/half_of_state", false, Case::half_in_order},
@@ -114,7 +116,7 @@ bool is_right(const Case& host, nacre_entry entry) {
 
 void run_case(benchmark::State& state, const Case& host, nacre_entry entry) {
   if (!is_right(host, entry)) return state.SkipWithError("another result than of plain columns");
-  Points points(host.structures, host.state_by_place);
+  Points points(host.structures, host.state_by_place, host.a_page_apart ? all : apart);
   const Binding binding = points.bind(shader(host.varying));
   const std::vector<std::uint32_t> list = list_of(host);
   const Batch batch = batch_of(host, list, points);

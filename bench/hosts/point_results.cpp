@@ -76,8 +76,8 @@ class Bound {
         names_.push_back(channel.name);
       }
     }
-    columns_.resize(names_.size() * all);
-    for (std::size_t k = 0; k < names_.size(); ++k) arrays_.push_back(columns_.data() + k * all);
+    columns_.resize(names_.size() * apart);
+    for (std::size_t k = 0; k < names_.size(); ++k) arrays_.push_back(columns_.data() + k * apart);
     binding_.emplace(binder, shader_);
   }
 
@@ -93,8 +93,8 @@ class Bound {
       if (found == other.names_.end()) continue;
       const auto at = static_cast<std::size_t>(found - other.names_.begin());
       for (std::size_t i = 0; i < all; ++i) {
-        const float expected = other.columns_[at * all + i];
-        const float error = std::abs(columns_[k * all + i] - expected);
+        const float expected = other.columns_[at * apart + i];
+        const float error = std::abs(columns_[k * apart + i] - expected);
         if (!(error <= 2e-5f * std::abs(expected) + 1e-6f)) return false;
       }
     }

@@ -16,6 +16,11 @@ namespace nacre::bench {
 constexpr std::size_t all = 4096;
 constexpr std::size_t numbers_a_point = 21;
 
+/// From one column to the next, in numbers: not a multiple of a page, for a store then waits for
+/// loads of the columns that lie alike (aliasing at 4 KiB; Agner Fog, "The microarchitecture of
+/// Intel, AMD and VIA CPUs"). What that costs is a row of its own.
+constexpr std::size_t apart = all + 80;
+
 inline System& host_system() {
   static System system;
   return system;
@@ -24,9 +29,9 @@ inline System& host_system() {
 /// Named groups of numbers, every one an array of its own or all in structures.
 class Points {
  public:
-  /// `state_by_place`: an element for each point of the list that is shaded.
-  explicit Points(bool structures, bool state_by_place = false)
-      : structures_(structures), state_by_place_(state_by_place) {
+  /// `state_by_place`: an element for each point of the list that is shaded. `stride`: of columns.
+  explicit Points(bool structures, bool state_by_place = false, std::size_t stride = apart)
+      : structures_(structures), state_by_place_(state_by_place), stride_(stride) {
     std::mt19937 random(1);
     const auto number = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
     for (std::size_t i = 0; i < all; ++i) {
@@ -42,10 +47,10 @@ class Points {
       }
     }
     if (!structures_) {
-      std::vector<float> columns(numbers_.size());
+      std::vector<float> columns(numbers_a_point * stride_);
       for (std::size_t i = 0; i < all; ++i) {
         for (std::size_t k = 0; k < numbers_a_point; ++k) {
-          columns[k * all + i] = numbers_[numbers_a_point * i + k];
+          columns[k * stride_ + i] = numbers_[numbers_a_point * i + k];
         }
       }
       numbers_ = std::move(columns);
@@ -59,12 +64,13 @@ class Points {
 
   /// Of everything but results of other names than the usual.
   Binder binder(const Shader& shader) {
-    state_.resize(std::max<std::size_t>(shader.state_count(), 1) * all);
+    state_.resize(std::max<std::size_t>(shader.state_count(), 1) * stride_);
+    const auto column = static_cast<std::ptrdiff_t>(4 * stride_);
     Binder binder;
     const auto group = [&](std::initializer_list<const char*> names, std::ptrdiff_t first) {
       for (const char* name : names) {
         binder.array(name, structures_ ? Layout{0, 4 * first, 4 * numbers_a_point}
-                                       : Layout{0, 4 * first * std::ptrdiff_t(all), 4, 4 * all});
+                                       : Layout{0, first * column, 4, column});
       }
     };
     group({"P", "Po"}, 0);
@@ -74,11 +80,11 @@ class Points {
     group({"wo"}, 12);
     group({"u"}, 15);
     group({"wi"}, 18);
-    binder.array("state", {1, 0, 4, 4 * all, state_by_place_ ? NACRE_OF_PLACE : NACRE_OF_POINT});
-    results_.resize(12 * all);
+    binder.array("state", {1, 0, 4, column, state_by_place_ ? NACRE_OF_PLACE : NACRE_OF_POINT});
+    results_.resize(12 * stride_);
     const auto result = [&](const char* name, std::ptrdiff_t first) {
-      binder.array(name, structures_ ? Layout{2, 4 * first, 48}
-                                     : Layout{2, 4 * first * std::ptrdiff_t(all), 4, 4 * all});
+      binder.array(name,
+                   structures_ ? Layout{2, 4 * first, 48} : Layout{2, first * column, 4, column});
     };
     result("f", 0), result("weight", 3), result("pdf", 6);
     result("flags", 7), result("lobe", 8), result("albedo", 9);
@@ -100,12 +106,12 @@ class Points {
         {"f", 0}, {"weight", 3}, {"pdf", 6}, {"flags", 7}, {"lobe", 8}, {"albedo", 9}};
     const auto component = static_cast<std::size_t>(std::max(channel.component, 0));
     const std::string group = channel.name.substr(0, channel.name.find('.'));
-    if (group == "state") return state_.data() + component * all;
+    if (group == "state") return state_.data() + component * stride_;
     for (const auto& [name, first] : groups) {
-      if (group == name) return numbers_.data() + (first + component) * all;
+      if (group == name) return numbers_.data() + (first + component) * stride_;
     }
     for (const auto& [name, first] : results) {
-      if (group == name) return results_.data() + (first + component) * all;
+      if (group == name) return results_.data() + (first + component) * stride_;
     }
     spare_.resize(all);
     return spare_.data();
@@ -113,11 +119,12 @@ class Points {
   const std::uint32_t* instances() const { return instances_.data(); }
   /// Result number `k` of a point.
   float result(std::size_t i, std::size_t k) const {
-    return structures_ ? results_[12 * i + k] : results_[k * all + i];
+    return structures_ ? results_[12 * i + k] : results_[k * stride_ + i];
   }
 
  private:
   bool structures_, state_by_place_;
+  std::size_t stride_;
   std::vector<float> numbers_, state_, results_, looks_, spare_;
   std::vector<std::uint32_t> instances_;
 };

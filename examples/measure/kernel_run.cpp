@@ -6,7 +6,7 @@
 #include <new>
 #include <utility>
 
-#include "examples/measure/points.h"
+#include "jit/tune/points.h"
 
 namespace nacre::measure {
 
@@ -44,7 +44,8 @@ KernelRun::KernelRun(BoundKernel kernel, const Columns& given, std::shared_ptr<c
   float* next = block_.get();
   for (const Channel& channel : program().inputs) {
     const auto found = given.find(channel.name);
-    std::ranges::copy(found != given.end() ? found->second : shading_points(channel), next);
+    std::ranges::copy(found != given.end() ? found->second : shading_points(channel, batch_points),
+                      next);
     inputs_.push_back(next);
     next += stride;
   }

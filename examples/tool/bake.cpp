@@ -108,6 +108,7 @@ std::vector<Piece> pieces(const BakeOptions& options, const Opened& opened,
 void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& piece,
                 host::BakeSettings settings, const std::vector<UdimTile>& tiles,
                 ShaderOptions shader, PlaneReads& reads, Diagnostics& diagnostics) {
+  shader = with_profile(opened, piece.name, false, std::move(shader), diagnostics);
   shader.compile.stop = stop_from_now(shader.compile);
   const auto graph = build_graph(*opened.document, opened.system->library(),
                                  {.outputs = {piece.name}, .material = {}},
@@ -253,6 +254,7 @@ void add_bake(CLI::App& app, int& status) {
       "(1, 0, 0), bitangent (0, 1, 0) and a viewer straight above; vertex colours are 0, "
       "properties have their defaults. What reads more than uv is named in a warning.");
   options->common.add_compile(command);
+  options->common.add_profile(command);
   options->common.add_waiting(command);
   command.callback([options, &status] {
     status = guarded(options->common.file, [&] { return run(*options); });

@@ -96,7 +96,7 @@ class MaterialBaker {
     texture.encoding.is_direction = !job.frame.empty();
     texture.encoding.encodes_vectors = false;  // The document reads them as they are.
     texture.encoding.is_tile = !options_.tiles.empty();
-    ShaderOptions shader = options_.shader;
+    ShaderOptions shader = with_profile(opened_, job.request, false, options_.shader, diagnostics_);
     shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
     shader.compile.stop = stop_from_now(shader.compile);
     const auto graph = build_graph(*opened_.document, opened_.system->library(),

@@ -210,7 +210,9 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& material : materials) {
-    add(inspect_material(opened, material, shader, for_cost.get(), diagnostics));
+    add(inspect_material(opened, material,
+                         with_profile(opened, material, true, shader, diagnostics), for_cost.get(),
+                         diagnostics));
   }
   std::vector<std::string> outputs = options.outputs;
   if (everything) {
@@ -219,7 +221,8 @@ int run(const InspectOptions& options) {
     }
   }
   for (const std::string& output : outputs) {
-    add(inspect_output(opened, output, shader, for_cost.get(), diagnostics));
+    add(inspect_output(opened, output, with_profile(opened, output, false, shader, diagnostics),
+                       for_cost.get(), diagnostics));
   }
   if (options.json) {
     // Names come from documents, which may hold bytes that are no UTF-8.
@@ -249,6 +252,7 @@ void add_inspect(CLI::App& app, int& status) {
   command.add_flag("--json", options->json, "For programs to read");
   options->common.add_compile(command);
   options->common.add_lobes(command);
+  options->common.add_profile(command);
   command.callback([options, &status] {
     status = guarded(options->common.file, [&] { return run(*options); });
   });

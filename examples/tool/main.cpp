@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   nacre::tool::add_convert(app, status);
   nacre::tool::add_inspect(app, status);
   nacre::tool::add_render(app, status);
+  nacre::tool::add_tune(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -14,6 +14,7 @@
 #include "examples/tool/stop.h"
 #include "jit/cache/kernel_cache.h"
 #include "jit/document/read.h"
+#include "runtime/read_file.h"
 
 namespace nacre::tool {
 
@@ -148,6 +149,17 @@ void CommonOptions::add_compile(CLI::App& command) {
                    "Compile in this process, which a fault of LLVM's ends; else in others");
 }
 
+void CommonOptions::add_profile(CLI::App& command) {
+  CLI::Option* const option =
+      command
+          .add_option("--profile", profile,
+                      "What `nacre tune` chose for the materials and outputs of this document")
+          ->type_name("FILE.json");
+  for (const char* chosen : {"--accuracy", "--anisotropy", "--compensation"}) {
+    if (CLI::Option* const other = command.get_option_no_throw(chosen)) option->excludes(other);
+  }
+}
+
 std::unique_ptr<Compiler> CommonOptions::compiler() const {
   const fs::path worker = compile_here ? fs::path() : find_worker();
   return worker.empty() ? make_compiler_here() : make_compiler_apart(worker);
@@ -213,10 +225,22 @@ std::optional<fs::path> ocio_config(const std::string& option, Diagnostics& diag
   return std::nullopt;
 }
 
+/// Beyond that it is another file.
+constexpr std::uint64_t most_profile_bytes = 64 << 20;
+
+std::optional<Profile> read_profile(const std::string& file, Diagnostics& diagnostics) {
+  const std::optional<std::string> text = read_file(file, most_profile_bytes, diagnostics);
+  return text ? Profile::parse(*text, file, diagnostics) : std::nullopt;
+}
+
 }  // namespace
 
 Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   Opened opened;
+  if (!options.profile.empty()) {
+    opened.profile = read_profile(options.profile, diagnostics);
+    if (!opened.profile) return opened;
+  }
   for (const std::string& path : options.search_paths) {
     std::error_code error;
     if (fs::is_directory(path, error)) continue;
@@ -246,6 +270,20 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   if (opened.system == nullptr) return opened;
   opened.document = read_document(options.file, options.read_options(), diagnostics);
   return opened;
+}
+
+ShaderOptions with_profile(const Opened& opened, const std::string& name, bool is_material,
+                           ShaderOptions options, Diagnostics& diagnostics) {
+  if (!opened.profile) return options;
+  if (const Choices* const choices = opened.profile->find(name, is_material)) {
+    apply_choices(*choices, options);
+  } else {
+    diagnostics.warning("not-in-profile", {.file = {}, .path = name},
+                        "the profile says nothing of this, which is compiled as without one",
+                        is_material ? "a material of the profile" : "an output of the profile",
+                        name);
+  }
+  return options;
 }
 
 void report_texels(ShadingSystem& system, Diagnostics& diagnostics) {

@@ -8,6 +8,7 @@
 #include "jit/document/document.h"
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
+#include "jit/tune/profile.h"
 #include "jit/worker/compiler.h"
 
 namespace CLI {
@@ -28,6 +29,7 @@ struct CommonOptions {
   bool allow_outside = false;  ///< Files that the document names may lie anywhere.
   MissingImages missing_images = MissingImages::error;
   std::string accuracy = "standard";
+  std::string profile;  ///< A file that `nacre tune` wrote; then that says the accuracy.
   Compensation compensation = Compensation::all;
   std::string backend = "jit";
   std::optional<std::string> working_space;
@@ -49,6 +51,8 @@ struct CommonOptions {
 
   void add_document(CLI::App& command);
   void add_compile(CLI::App& command);
+  /// After add_compile() and add_lobes(), whose choices a profile makes.
+  void add_profile(CLI::App& command);
   void add_lobes(CLI::App& command);
   /// For what can begin before all is compiled: it is interpreted until then.
   void add_waiting(CLI::App& command);
@@ -68,9 +72,15 @@ struct CommonOptions {
 struct Opened {
   std::unique_ptr<ShadingSystem> system;
   std::unique_ptr<Document> document;
+  std::optional<Profile> profile;  ///< Of --profile.
   explicit operator bool() const { return system != nullptr && document != nullptr; }
 };
 Opened open(const CommonOptions& options, Diagnostics& diagnostics);
+
+/// How a material, or else an output, is compiled: as the profile says, if there is one. One that
+/// says nothing of it is warned of.
+ShaderOptions with_profile(const Opened& opened, const std::string& name, bool is_material,
+                           ShaderOptions options, Diagnostics& diagnostics);
 
 /// Says what was taken for 0 in images that could be had: numbers that are none, and what
 /// could no longer be read while it was looked up.
@@ -102,5 +112,6 @@ void add_check(CLI::App& app, int& status);
 void add_convert(CLI::App& app, int& status);
 void add_inspect(CLI::App& app, int& status);
 void add_render(CLI::App& app, int& status);
+void add_tune(CLI::App& app, int& status);
 
 }  // namespace nacre::tool

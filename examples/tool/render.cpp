@@ -105,7 +105,8 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
   NotRendered not_rendered(opened, diagnostics);
   for (const MeshAssignment& assignment : assignments) {
     if (assignment.material.empty() || shaders.contains(assignment.key())) continue;
-    ShaderOptions shader = options.common.shader_options();
+    ShaderOptions shader = with_profile(opened, assignment.material, true,
+                                        options.common.shader_options(), diagnostics);
     shader.graph.frame = static_cast<int>(std::floor(options.settings.frame));
     shader.graph.variants = assignment.variants;
     shader.graph.geometry_tokens = assignment.tokens;

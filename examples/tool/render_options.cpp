@@ -127,6 +127,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   add_scene_limits(command, options.scene_limits);
   options.common.add_compile(command);
   options.common.add_lobes(command);
+  options.common.add_profile(command);
   options.common.add_waiting(command);
 }
 

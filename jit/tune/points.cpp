@@ -1,4 +1,4 @@
-#include "examples/measure/points.h"
+#include "jit/tune/points.h"
 
 #include <array>
 #include <bit>
@@ -9,18 +9,16 @@
 #include <string>
 #include <string_view>
 
-#include "examples/measure/kernel_run.h"
-
-namespace nacre::measure {
+namespace nacre {
 
 namespace {
 
 using Vector = std::array<float, 3>;
 
-/// Numbers in [0, 1) that depend on the name alone.
+/// Numbers in [0, 1) that depend on the name and the set alone.
 class Numbers {
  public:
-  explicit Numbers(std::string_view name) : generator_(seed(name)) {}
+  Numbers(std::string_view name, std::uint32_t set) : generator_(seed(name) + set) {}
   float next(float low = 0.0f, float high = 1.0f) {
     return low + (high - low) * static_cast<float>(generator_() >> 8) * 0x1p-24f;
   }
@@ -80,17 +78,17 @@ std::function<float()> group(std::string_view name, std::size_t i, Numbers& numb
 
 }  // namespace
 
-std::vector<float> shading_points(const Channel& channel) {
+std::vector<float> shading_points(const Channel& channel, std::size_t count, std::uint32_t set) {
   const std::size_t dot = channel.name.rfind('.');
   const std::string name = channel.name.substr(0, dot);
   const std::size_t component =
       dot == std::string::npos ? 0 : std::string_view("xyzw").find(channel.name[dot + 1]);
   // All components of a group from one sequence, the frame's three vectors from one too.
-  Numbers whole(name == "B" || name == "Bo" || name == "To" ? "T" : std::string_view(name));
-  Numbers own(channel.name);
+  Numbers whole(name == "B" || name == "Bo" || name == "To" ? "T" : std::string_view(name), set);
+  Numbers own(channel.name, set);
   auto next = group(name, component, whole);
   if (!next) next = [&own] { return own.next(0.05f, 0.95f); };
-  std::vector<float> values(batch_points);
+  std::vector<float> values(count);
   for (float& value : values) {
     value = next();
     if (channel.type == Scalar::i32) value = std::bit_cast<float>(std::int32_t(16.0f * value));
@@ -99,4 +97,4 @@ std::vector<float> shading_points(const Channel& channel) {
   return values;
 }
 
-}  // namespace nacre::measure
+}  // namespace nacre

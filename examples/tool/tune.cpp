@@ -1,0 +1,193 @@
+#include "jit/tune/tune.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "examples/common/atomic_file.h"
+#include "examples/tool/number_range.h"
+#include "examples/tool/options.h"
+#include "examples/tool/process.h"
+#include "examples/tool/stop.h"
+#include "jit/graph/find.h"
+#include "jit/tune/json.h"
+
+namespace nacre::tool {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ToolOptions {
+  CommonOptions common;
+  std::vector<std::string> materials;
+  std::vector<std::string> outputs;
+  std::string out;
+  TuneOptions tune;
+  bool has_times = true;
+  bool json = false;
+};
+
+Json as_json(const Candidate& candidate) {
+  Json json{{"choices", nacre::as_json(candidate.choices)},
+            {"cost", candidate.cost},
+            {"error", nacre::as_json(candidate.error)},
+            {"worst", candidate.error.worst}};
+  if (candidate.unseen_error) json["unseen_error"] = nacre::as_json(*candidate.unseen_error);
+  if (candidate.nanoseconds > 0) json["nanoseconds"] = candidate.nanoseconds;
+  return json;
+}
+
+Json as_json(const TuneSubject& subject, const Tuned& tuned) {
+  Json front = Json::array();
+  for (const Candidate& each : tuned.front) front.push_back(as_json(each));
+  return {{subject.is_material ? "material" : "output", subject.name},
+          {"front", std::move(front)},
+          {"standard", as_json(tuned.standard)},
+          {"chosen", as_json(tuned.chosen)}};
+}
+
+void print_candidate(const char* mark, const Candidate& candidate) {
+  const std::string time =
+      candidate.nanoseconds > 0 ? fmt::format("{:.2f}", candidate.nanoseconds) : "";
+  fmt::print("  {:1} {:>8} {:>8.0f} {:>9.2g} {:>9.2g}  {}\n", mark, time, candidate.cost,
+             candidate.error.p999, candidate.error.maximum, to_string(candidate.choices));
+}
+
+void print_tuned(const TuneSubject& subject, const Tuned& tuned, const TuneOptions& options) {
+  fmt::print("{} {}\n", subject.is_material ? "material" : "output", subject.name);
+  fmt::print("  {:1} {:>8} {:>8} {:>9} {:>9}  {}\n", "", "ns", "cost", "p99.9", "maximum",
+             "choices");
+  for (const Candidate& each : tuned.front) {
+    print_candidate(each.choices == tuned.chosen.choices ? "*" : "", each);
+  }
+  const auto is_chosen = [&](const Candidate& each) {
+    return each.choices == tuned.chosen.choices;
+  };
+  if (std::ranges::none_of(tuned.front, is_chosen)) print_candidate("*", tuned.chosen);
+  const Error& unseen = *tuned.chosen.unseen_error;
+  fmt::print("  * for an error of {:g}: {:.2f} of the cost of standard", options.max_error,
+             tuned.chosen.cost / tuned.standard.cost);
+  if (tuned.chosen.nanoseconds > 0) {
+    fmt::print(", {:.2f} of its time", tuned.chosen.nanoseconds / tuned.standard.nanoseconds);
+  }
+  fmt::print("; at other points {:.2g}, at most {:.2g}\n", unseen.p999, unseen.maximum);
+}
+
+std::vector<TuneSubject> subjects(const ToolOptions& options, const Opened& opened) {
+  std::vector<TuneSubject> all;
+  const auto add = [&](const std::string& name, bool is_material) {
+    const auto is_it = [&](const TuneSubject& each) {
+      return each.name == name && each.is_material == is_material;
+    };
+    if (std::ranges::any_of(all, is_it)) return;
+    all.push_back({opened.system.get(), opened.document.get(), name, is_material});
+  };
+  for (const std::string& name : options.materials) add(name, true);
+  for (const std::string& name : options.outputs) add(name, false);
+  if (!options.materials.empty() || !options.outputs.empty()) return all;
+  for (const FoundMaterial& found : find_materials(*opened.document)) add(found.name, true);
+  for (const FoundOutput& found : find_outputs(*opened.document)) {
+    if (is_numeric(found.type)) add(found.name, false);
+  }
+  return all;
+}
+
+int run(ToolOptions& options) {
+  Diagnostics diagnostics;
+  if (!options.out.empty()) {
+    promise_files({options.out});
+    if (!host::prepare_output(options.out, diagnostics)) return report(diagnostics);
+  }
+  const Opened opened = open(options.common, diagnostics);
+  if (!opened) return report(diagnostics);
+  TuneOptions& tuning = options.tune;
+  tuning.shader = options.common.shader_options();
+  if (!options.has_times) tuning.seconds_a_kernel = 0;
+  const std::vector<TuneSubject> all = subjects(options, opened);
+  if (all.empty()) {
+    diagnostics.error("nothing-to-tune", {options.common.file, 0, 0, {}},
+                      "the document has neither a material nor a numeric output");
+  }
+  ProfileWriter profile;
+  Json results = Json::array();
+  for (const TuneSubject& subject : all) {
+    std::optional<Tuned> tuned;
+    {
+      ProgressLine line(subject.name, options.common.quiet);
+      tuning.progress = [&](double share) { line.update(share); };
+      tuned = tune(subject, tuning, diagnostics);
+    }
+    if (stop().is_due()) break;
+    if (!tuned) continue;
+    profile.add(subject.name, subject.is_material, *tuned, tuning.max_error, tuning.metric);
+    if (options.json) results.push_back(as_json(subject, *tuned));
+    if (!options.json) print_tuned(subject, *tuned, tuning);
+  }
+  if (options.json) {
+    // Names come from documents, which may hold bytes that are no UTF-8.
+    fmt::print("{}\n", results.dump(2, ' ', false, Json::error_handler_t::replace));
+  }
+  // Half a profile would leave the rest to chance.
+  if (!options.out.empty() && !diagnostics.has_errors() && !stop().is_due() &&
+      host::write_text_atomically(options.out, profile.text(), diagnostics)) {
+    file_is_written(options.out, options.common.quiet || options.json);
+  }
+  return report(diagnostics);
+}
+
+}  // namespace
+
+void add_tune(CLI::App& app, int& status) {
+  auto options = std::make_shared<ToolOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "tune", "Find the cheapest kernels that keep an error, and what more exact ones cost");
+  options->common.add_document(command);
+  command
+      .add_option("--material", options->materials, "A material; may be repeated (default: all)")
+      ->type_name("NAME");
+  command
+      .add_option("--output", options->outputs, "A graph output; may be repeated (default: all)")
+      ->type_name("NAME");
+  command
+      .add_option("--max-error", options->tune.max_error,
+                  "What all numbers but one of a thousand are off by at most, and each by three "
+                  "times that, measured against double precision with everything exact")
+      ->check(number_within(0))
+      ->capture_default_str()
+      ->type_name("X");
+  const std::map<std::string, bool> metrics{{"relative", true}, {"absolute", false}};
+  command
+      .add_option("--metric", options->tune.metric.is_relative,
+                  "Whether an error is a share of the number, or of --floor times the largest "
+                  "number where it is less than that; or the difference")
+      ->transform(
+          CLI::CheckedTransformer(metrics, CLI::ignore_case).description("{relative,absolute}"))
+      ->default_str("relative")
+      ->type_name("METRIC");
+  command.add_option("--floor", options->tune.metric.floor, "See --metric")
+      ->check(number_within(0, 1))
+      ->capture_default_str();
+  command.add_option("--points", options->tune.points, "At how many points errors are measured")
+      ->check(CLI::Range(std::size_t{1000}, std::size_t{1000000}))
+      ->capture_default_str();
+  command
+      .add_option("--profile", options->out,
+                  "Write what was chosen, for --profile of bake, inspect and render")
+      ->type_name("OUT.json");
+  command.add_flag("!--no-times", options->has_times,
+                   "Do not compile and run what was found to say how long it takes");
+  command.add_flag("--json", options->json, "For programs to read");
+  options->common.add_compile(command);
+  for (const char* chosen : {"--accuracy", "--anisotropy", "--backend"}) {
+    command.remove_option(command.get_option(chosen));
+  }
+  command.callback([options, &status] {
+    status = guarded(options->common.file, [&] { return run(*options); });
+  });
+}
+
+}  // namespace nacre::tool

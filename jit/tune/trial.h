@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "jit/shading/shading_system.h"
+#include "jit/tune/error.h"
+#include "runtime/digest.h"
+
+namespace nacre {
+
+/// A material, or an output of a graph.
+struct TuneSubject {
+  ShadingSystem* system = nullptr;
+  const Document* document = nullptr;
+  std::string name;
+  bool is_material = false;
+};
+
+/// Points that kernels are run at: those of shading_points(), but for the channels that are given.
+struct TunePoints {
+  std::uint32_t set = 0;
+  std::size_t count = 0;
+  Columns given;
+};
+
+/// A subject, compiled in one way.
+class TuneTrial {
+ public:
+  /// Null, with diagnostics, where it cannot be.
+  static std::unique_ptr<TuneTrial> compile(const TuneSubject& subject,
+                                            const ShaderOptions& options, Diagnostics& diagnostics);
+
+  /// Of all its Programs: trials of the same have the same results.
+  const Digest& digest() const { return digest_; }
+  /// estimated_cost() of what a renderer runs where a path meets it: all but the albedo.
+  double cost() const;
+
+  /// What it is: of a material f, albedo, emission, opacity and transmission, and what a medium,
+  /// displacement or light is; of an output its channels. Not the densities of directions: they
+  /// have no exact values but those that `sample` keeps. Empty where a kernel did not run to its
+  /// end.
+  Columns results(const TunePoints& points) const;
+
+  /// Directions to evaluate a material at: every second of those that it samples, where it does,
+  /// the others anywhere on the sphere.
+  Columns directions(const TunePoints& points) const;
+
+  /// The fastest of the runs that fit into so many seconds, a point, of what cost() counts.
+  double nanoseconds(const TunePoints& points, double seconds) const;
+
+ private:
+  using Named = std::pair<std::string_view, const BoundKernel*>;
+
+  TuneTrial() = default;
+  std::vector<Named> kernels() const;
+
+  std::unique_ptr<MaterialKernels> material_;
+  std::unique_ptr<OutputKernel> outputs_;
+  Digest digest_{};
+};
+
+}  // namespace nacre

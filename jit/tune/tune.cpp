@@ -1,0 +1,228 @@
+#include "jit/tune/tune.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "jit/tune/dimension.h"
+
+namespace nacre {
+
+namespace {
+
+/// Of one that exceeds `max_error` this is still allowed.
+constexpr double most_at_a_point = 3;
+
+/// Points, and what is right there.
+struct Examination {
+  TunePoints points;
+  Columns exact;
+};
+
+std::size_t steps(const Choices& choices) {
+  return std::accumulate(choices.begin(), choices.end(), std::size_t{0});
+}
+
+/// What is cheaper comes first; of two that cost the same the one that asks for less.
+bool is_cheaper(const Candidate& a, const Candidate& b) {
+  if (a.cost != b.cost) return a.cost < b.cost;
+  return steps(a.choices) > steps(b.choices);
+}
+
+class Tuner {
+ public:
+  Tuner(const TuneSubject& subject, const TuneOptions& options, Diagnostics& diagnostics)
+      : subject_(subject), options_(options), diagnostics_(diagnostics) {}
+
+  std::optional<Tuned> run() {
+    if (!examine(0, seen_) || !examine(1, unseen_) || !measure_all()) return std::nullopt;
+    Tuned tuned;
+    tuned.front = front();
+    tuned.standard = *measured(standard_choices());
+    if (!verify(tuned.standard) || !choose(tuned)) return std::nullopt;
+    if (options_.seconds_a_kernel > 0 && !time(tuned)) return std::nullopt;
+    report(1);
+    return tuned;
+  }
+
+ private:
+  std::unique_ptr<TuneTrial> compile(const Choices& choices, Backend backend) {
+    if (options_.shader.compile.stop.is_due()) return nullptr;
+    ShaderOptions options = options_.shader;
+    apply_choices(choices, options);
+    options.compile.backend = backend;
+    options.compile.asynchronous = false;
+    // What is said of the document is said of each trial; once is enough.
+    Diagnostics said;
+    auto trial = TuneTrial::compile(subject_, options, said);
+    if (trial == nullptr || std::exchange(has_said_, true) == false) {
+      for (const Diagnostic& each : said.all()) diagnostics_.add(each);
+    }
+    return trial;
+  }
+
+  bool examine(std::uint32_t set, Examination& made) {
+    const auto oracle = compile(exact_choices(), Backend::reference);
+    if (oracle == nullptr) return false;
+    made.points.set = set;
+    made.points.count = options_.points;
+    made.points.given = oracle->directions(made.points);
+    made.exact = oracle->results(made.points);
+    if (!made.exact.empty()) return true;
+    diagnostics_.error("not-tuned", {.file = {}, .path = subject_.name},
+                       "there is nothing to compare", "results at every point",
+                       "none, or a kernel that takes too many steps");
+    return false;
+  }
+
+  /// What a trial of these choices gives; null where it cannot be compiled.
+  const Candidate* measured(const Choices& choices) {
+    if (const auto known = candidates_.find(choices); known != candidates_.end()) {
+      return &known->second;
+    }
+    // Interpreted: the same bits as compiled, at once.
+    const auto trial = compile(choices, Backend::interpreter);
+    if (trial == nullptr) return nullptr;
+    Candidate made;
+    made.choices = choices;
+    made.cost = trial->cost();
+    const auto same = by_digest_.find(trial->digest());
+    made.error = same != by_digest_.end() ? same->second : error_at(*trial, seen_);
+    by_digest_.emplace(trial->digest(), made.error);
+    digests_[choices] = trial->digest();
+    return &candidates_.emplace(choices, std::move(made)).first->second;
+  }
+
+  Error error_at(const TuneTrial& trial, const Examination& at) const {
+    return error_of(trial.results(at.points), at.exact, options_.metric);
+  }
+
+  /// From what is exact, always the step that costs the least exactness, to what is cheapest.
+  bool measure_all() {
+    Choices at = exact_choices();
+    if (measured(at) == nullptr || measured(standard_choices()) == nullptr) return false;
+    const std::vector<std::size_t> useful = useful_dimensions();
+    const auto all = static_cast<double>(steps(cheapest(useful)));
+    while (true) {
+      const Candidate* best = nullptr;
+      for (const std::size_t i : useful) {
+        if (at[i] + 1 == dimensions()[i].settings.size()) continue;
+        Choices next = at;
+        ++next[i];
+        const Candidate* const candidate = measured(next);
+        if (candidate == nullptr) return false;
+        if (best == nullptr || candidate->error.p999 < best->error.p999) best = candidate;
+      }
+      if (best == nullptr) return true;
+      at = best->choices;
+      report(0.8 * static_cast<double>(steps(at)) / all);
+    }
+  }
+
+  /// Those that change what is computed at all.
+  std::vector<std::size_t> useful_dimensions() {
+    std::vector<std::size_t> useful;
+    for (std::size_t i = 0; i < dimensions().size(); ++i) {
+      Choices choices = exact_choices();
+      choices[i] = dimensions()[i].settings.size() - 1;
+      if (measured(choices) == nullptr) continue;
+      if (digests_[choices] != digests_[exact_choices()]) useful.push_back(i);
+    }
+    return useful;
+  }
+
+  static Choices cheapest(const std::vector<std::size_t>& useful) {
+    Choices choices = exact_choices();
+    for (const std::size_t i : useful) choices[i] = dimensions()[i].settings.size() - 1;
+    return choices;
+  }
+
+  std::vector<Candidate> front() const {
+    std::vector<Candidate> all;
+    for (const auto& [choices, candidate] : candidates_) all.push_back(candidate);
+    std::ranges::stable_sort(all, is_cheaper);
+    std::vector<Candidate> front;
+    for (const Candidate& each : all) {
+      if (front.empty() || each.error.p999 < front.back().error.p999) front.push_back(each);
+    }
+    std::ranges::reverse(front);
+    return front;
+  }
+
+  bool keeps(const Error& error) const {
+    return error.p999 <= options_.max_error &&
+           error.maximum <= most_at_a_point * options_.max_error;
+  }
+
+  bool verify(Candidate& candidate) {
+    const auto trial = compile(candidate.choices, Backend::interpreter);
+    if (trial == nullptr) return false;
+    candidate.unseen_error = error_at(*trial, unseen_);
+    return true;
+  }
+
+  bool choose(Tuned& tuned) {
+    std::vector<Candidate> kept;
+    for (const auto& [choices, candidate] : candidates_) {
+      if (keeps(candidate.error)) kept.push_back(candidate);
+    }
+    std::ranges::stable_sort(kept, is_cheaper);
+    for (Candidate& each : kept) {
+      if (!verify(each)) return false;
+      if (!keeps(*each.unseen_error)) continue;
+      tuned.chosen = each;
+      return true;
+    }
+    const Error& least = measured(exact_choices())->error;
+    diagnostics_.error("no-such-error", {.file = {}, .path = subject_.name},
+                       "no way to compile this is so exact",
+                       fmt::format("an error of {}", options_.max_error),
+                       fmt::format("{:.3g}, at most {:.3g} (in {} at point {})", least.p999,
+                                   least.maximum, least.worst, least.worst_point));
+    return false;
+  }
+
+  bool time(Tuned& tuned) {
+    std::vector<Candidate*> all;
+    for (Candidate& each : tuned.front) all.push_back(&each);
+    all.push_back(&tuned.chosen);
+    all.push_back(&tuned.standard);
+    std::map<Digest, double> known;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      report(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(all.size()));
+      double& found = known[digests_[all[i]->choices]];
+      if (found == 0) {
+        const auto trial = compile(all[i]->choices, Backend::jit);
+        if (trial == nullptr) return false;
+        found = trial->nanoseconds(seen_.points, options_.seconds_a_kernel);
+      }
+      all[i]->nanoseconds = found;
+    }
+    return true;
+  }
+
+  void report(double share) const {
+    if (options_.progress) options_.progress(share);
+  }
+
+  const TuneSubject& subject_;
+  const TuneOptions& options_;
+  Diagnostics& diagnostics_;
+  bool has_said_ = false;
+  Examination seen_, unseen_;
+  std::map<Choices, Candidate> candidates_;
+  std::map<Choices, Digest> digests_;
+  std::map<Digest, Error> by_digest_;
+};
+
+}  // namespace
+
+std::optional<Tuned> tune(const TuneSubject& subject, const TuneOptions& options,
+                          Diagnostics& diagnostics) {
+  return Tuner(subject, options, diagnostics).run();
+}
+
+}  // namespace nacre
