@@ -69,10 +69,12 @@ void print_tuned(const TuneSubject& subject, const Tuned& tuned, const TuneOptio
   };
   if (std::ranges::none_of(tuned.front, is_chosen)) print_candidate("*", tuned.chosen);
   const Error& unseen = *tuned.chosen.unseen_error;
+  // What costs nothing is not cheaper than nothing.
+  const auto share = [](double of, double whole) { return whole > 0 ? of / whole : 1; };
   fmt::print("  * for an error of {:g}: {:.2f} of the cost of standard", options.max_error,
-             tuned.chosen.cost / tuned.standard.cost);
+             share(tuned.chosen.cost, tuned.standard.cost));
   if (tuned.chosen.nanoseconds > 0) {
-    fmt::print(", {:.2f} of its time", tuned.chosen.nanoseconds / tuned.standard.nanoseconds);
+    fmt::print(", {:.2f} of its time", share(tuned.chosen.nanoseconds, tuned.standard.nanoseconds));
   }
   fmt::print("; at other points {:.2g}, at most {:.2g}\n", unseen.p999, unseen.maximum);
 }

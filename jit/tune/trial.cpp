@@ -90,6 +90,7 @@ std::unique_ptr<TuneTrial> TuneTrial::compile(const TuneSubject& subject,
         subject.system->compile_outputs(*subject.document, {subject.name}, options, diagnostics);
   }
   if (made->material_ == nullptr && made->outputs_ == nullptr) return nullptr;
+  if (diagnostics.has_errors()) return nullptr;
   std::string all;
   for (const auto& [name, kernel] : made->kernels()) {
     all += std::string(name) + to_hex(nacre::digest(kernel->program()));

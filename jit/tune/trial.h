@@ -30,7 +30,8 @@ struct TunePoints {
 /// A subject, compiled in one way.
 class TuneTrial {
  public:
-  /// Null, with diagnostics, where it cannot be.
+  /// Null, with diagnostics, where it cannot be, or not as the document says: kernels with another
+  /// image than the one asked for have other errors.
   static std::unique_ptr<TuneTrial> compile(const TuneSubject& subject,
                                             const ShaderOptions& options, Diagnostics& diagnostics);
 

@@ -3,42 +3,78 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace nacre {
 
-/// Part of a list of indices, prepared to pick the elements of many arrays: an ascending list
-/// falls into runs that lie within eight elements, and a run is one load, one permutation and
-/// one store where the CPU has AVX2. Any list gives the right elements; one that jumps about
-/// takes a load for each.
+/// Part of a list of indices, prepared to pick the elements of many arrays, and to put them back:
+/// an ascending list falls into runs of elements that lie next to each other, and a run is a few
+/// instructions where the CPU has AVX-512 (16 elements; also put back so) or AVX2 (8). Any list
+/// gives the right elements; one that jumps about takes a load and a store for each.
 class IndexRuns {
  public:
   /// Indices of one part: what a kernel computes once a call is spread over as many points, and a
   /// column of the copies still is but a few kilobytes.
   static constexpr std::size_t most = 1024;
-  static constexpr std::size_t slack = 8;  ///< Words behind the last that `gather` writes, too.
+  /// Words behind the last that `gather` writes and `scatter` reads, too.
+  static constexpr std::size_t slack = 16;
+
+  /// What a CPU picks by.
+  enum class Vectors : std::uint8_t { none, avx2, avx512 };
+  /// The widest of this machine.
+  static Vectors widest();
+
+  /// `vectors`: no wider than widest().
+  explicit IndexRuns(Vectors vectors = widest()) : vectors_(vectors) {}
 
   /// Prepares `count` indices, at most `most`.
   void prepare(const std::uint32_t* indices, std::size_t count);
   std::size_t count() const { return count_; }
   std::uint32_t operator[](std::size_t i) const { return indices_[i]; }
 
-  /// to[i] is the word at from + stride * index i, in bytes; room for count() + slack words.
-  void gather(const void* from, std::ptrdiff_t stride, std::uint32_t* to) const;
-  /// The word at to + stride * index i becomes from[i]; of equal indices the last one's.
-  void scatter(const std::uint32_t* from, void* to, std::ptrdiff_t stride) const;
+  /// An array of a host's, an element every `stride` bytes, and the copy of what the list picks of
+  /// it: count() + slack words.
+  struct Copy {
+    std::byte* array;
+    std::ptrdiff_t stride;
+    std::uint32_t* words;
+  };
+  /// Copies that are best made together.
+  static constexpr std::size_t together = 4;
+
+  /// words[i] becomes the element of index i: at most `together` copies.
+  void gather(std::span<const Copy> copies) const;
+  /// The element of index i becomes words[i]; of equal indices the last one's.
+  void scatter(std::span<const Copy> copies) const;
 
  private:
-  /// Indices from `first` on, up to the next run's, are in [base, base + 8).
+  /// Indices from `first` on, up to the next run's, are in [base, base + width).
   struct Run {
     std::uint32_t base;
-    std::uint32_t first;
+    std::uint16_t first;
+    std::uint16_t mask;  ///< AVX-512: bit k for base + k.
   };
-  void gather_runs(const std::uint32_t* from, std::uint32_t* to) const;
+  /// Whether all are columns that AVX-512 makes at once.
+  bool are_together(std::span<const Copy> copies) const;
+  void find_runs_avx2();
+  void find_runs_avx512();
+  // By value: what is written could else be taken for a part of it.
+  void gather_one(Copy copy) const;
+  void gather_avx2(Copy copy) const;
+  void scatter_one(Copy copy) const;
+  /// Of columns, `stride` 4.
+  /// @{
+  template <std::size_t n>
+  void gather_avx512(std::span<const Copy, n> copies) const;
+  template <std::size_t n>
+  void scatter_avx512(std::span<const Copy, n> copies) const;
+  /// @}
 
+  Vectors vectors_;
   std::array<std::uint32_t, most + slack> indices_;
   std::array<Run, most> runs_;
   std::size_t count_ = 0;
-  std::size_t run_count_ = 0;  ///< 0: not worth it, or no AVX2.
+  std::size_t run_count_ = 0;  ///< 0: not worth it, or no vectors.
 };
 
 }  // namespace nacre

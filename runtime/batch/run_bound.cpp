@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <span>
+#include <utility>
 
 #include "runtime/batch/index_runs.h"
 #include "runtime/batch/words.h"
@@ -33,6 +35,29 @@ class Room {
  private:
   std::array<T, usual> stack_;
   std::unique_ptr<T[]> heap_;
+};
+
+/// Collects what a list picks, until there is enough to be copied together.
+template <class Make>
+class Copies {
+ public:
+  /// make(list, copies)
+  explicit Copies(Make make) : make_(std::move(make)) {}
+  void add(const IndexRuns& list, const IndexRuns::Copy& copy) {
+    if (count_ == IndexRuns::together || (count_ > 0 && list_ != &list)) flush();
+    list_ = &list;
+    pending_[count_++] = copy;
+  }
+  void flush() {
+    if (count_ > 0) make_(*list_, std::span<const IndexRuns::Copy>(pending_.data(), count_));
+    count_ = 0;
+  }
+
+ private:
+  Make make_;
+  const IndexRuns* list_ = nullptr;
+  std::array<IndexRuns::Copy, IndexRuns::together> pending_;
+  std::size_t count_ = 0;
 };
 
 /// How the arrays of a batch are read and written.
@@ -129,6 +154,7 @@ class Stage {
 
   void read(std::uint64_t first, std::size_t count) {
     prepare_lists(first, count);
+    Copies picked([](const IndexRuns& list, auto copies) { list.gather(copies); });
     void** row = rows_;
     for (const ChannelLayout& input : inputs()) {
       auto* to = static_cast<std::uint32_t*>(*row);
@@ -137,7 +163,7 @@ class Stage {
       } else if (!access_.needs_copy(input)) {
         *row = access_.element(input, first);
       } else if (access_.is_listed(input)) {
-        list_of(input).gather(access_.element(input, 0), input.stride, to);
+        picked.add(list_of(input), {access_.element(input, 0), input.stride, to});
       } else {
         const std::byte* from = access_.element(input, first);
         gather_words(count, to, [&](std::size_t i) {
@@ -146,6 +172,7 @@ class Stage {
       }
       ++row;
     }
+    picked.flush();
     for (const ChannelLayout& output : outputs()) {
       if (!access_.needs_copy(output)) *row = access_.element(output, first);
       ++row;
@@ -153,12 +180,13 @@ class Stage {
   }
 
   void write(std::uint64_t first, std::size_t count) const {
+    Copies picked([](const IndexRuns& list, auto copies) { list.scatter(copies); });
     void* const* row = outputs_;
     for (const ChannelLayout& output : outputs()) {
-      const auto* from = static_cast<const std::uint32_t*>(*row++);
+      auto* const from = static_cast<std::uint32_t*>(*row++);
       if (output.array == discarded || !access_.needs_copy(output)) continue;
       if (access_.is_listed(output)) {
-        list_of(output).scatter(from, access_.element(output, 0), output.stride);
+        picked.add(list_of(output), {access_.element(output, 0), output.stride, from});
         continue;
       }
       std::byte* to = access_.element(output, first);
@@ -166,6 +194,7 @@ class Stage {
         return to + output.stride * static_cast<std::ptrdiff_t>(i);
       });
     }
+    picked.flush();
   }
 
   const Access access_;

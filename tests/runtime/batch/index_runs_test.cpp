@@ -4,7 +4,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
+#include <memory>
 #include <random>
 #include <span>
 #include <vector>
@@ -42,13 +44,61 @@ class WordsBeforeNothing {
   void* memory_ = nullptr;
 };
 
-void expect_picked(std::span<const std::uint32_t> list, const std::uint32_t* words) {
-  IndexRuns runs;
-  runs.prepare(list.data(), list.size());
-  std::vector<std::uint32_t> picked(list.size() + IndexRuns::slack);
-  runs.gather(words, 4, picked.data());
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    ASSERT_EQ(picked[i], words[list[i]]) << i << " of " << list.size();
+/// Those of this machine.
+std::vector<IndexRuns::Vectors> all_vectors() {
+  std::vector<IndexRuns::Vectors> all;
+  for (const auto each :
+       {IndexRuns::Vectors::none, IndexRuns::Vectors::avx2, IndexRuns::Vectors::avx512}) {
+    if (each <= IndexRuns::widest()) all.push_back(each);
+  }
+  return all;
+}
+
+IndexRuns::Copy column(std::uint32_t* array, std::vector<std::uint32_t>& words) {
+  return {reinterpret_cast<std::byte*>(array), 4, words.data()};
+}
+
+void expect_picked(std::span<const std::uint32_t> list, std::uint32_t* words) {
+  for (const IndexRuns::Vectors vectors : all_vectors()) {
+    IndexRuns runs(vectors);
+    runs.prepare(list.data(), list.size());
+    for (std::size_t copies = 1; copies <= IndexRuns::together; ++copies) {
+      std::vector<std::vector<std::uint32_t>> picked(
+          copies, std::vector<std::uint32_t>(list.size() + IndexRuns::slack));
+      std::vector<IndexRuns::Copy> all;
+      for (std::vector<std::uint32_t>& each : picked) all.push_back(column(words, each));
+      runs.gather(all);
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        ASSERT_EQ(picked[0][i], words[list[i]]) << i << " of " << list.size();
+        for (const auto& each : picked) ASSERT_EQ(each[i], picked[0][i]);
+      }
+    }
+  }
+}
+
+/// Against one store after another; nothing else of the array changes, nor is anything behind it
+/// touched.
+void expect_put(std::span<const std::uint32_t> list, std::size_t size) {
+  std::vector<std::uint32_t> given(list.size() + IndexRuns::slack);
+  for (std::size_t i = 0; i < given.size(); ++i) given[i] = static_cast<std::uint32_t>(i + 1);
+  std::vector<std::uint32_t> expected(size, 0);
+  for (std::size_t i = 0; i < list.size(); ++i) expected[list[i]] = given[i];
+  for (const IndexRuns::Vectors vectors : all_vectors()) {
+    IndexRuns runs(vectors);
+    runs.prepare(list.data(), list.size());
+    for (std::size_t copies = 1; copies <= IndexRuns::together; ++copies) {
+      std::vector<std::unique_ptr<WordsBeforeNothing>> arrays;
+      std::vector<IndexRuns::Copy> all;
+      for (std::size_t k = 0; k < copies; ++k) {
+        arrays.push_back(std::make_unique<WordsBeforeNothing>(size));
+        std::fill_n(arrays[k]->data(), size, 0u);
+        all.push_back(column(arrays[k]->data(), given));
+      }
+      runs.scatter(all);
+      for (const auto& array : arrays) {
+        ASSERT_TRUE(std::equal(expected.begin(), expected.end(), array->data()));
+      }
+    }
   }
 }
 
@@ -64,6 +114,7 @@ TEST(IndexRuns, PickWhatTheListNamesAndReadNothingBehindIt) {
       if (i == 0) break;
     }
     expect_picked(list, words.data());
+    expect_put(list, 1500);
   }
 }
 
@@ -75,6 +126,11 @@ TEST(IndexRuns, TakeListsInAnyOrder) {
     for (std::uint32_t& index : list)
       index = static_cast<std::uint32_t>(random() % (round % 2 == 0 ? 1500 : 9));
     expect_picked(list, words.data());
+    expect_put(list, 1500);
+    // Few jumps, and an index again and again: the last counts.
+    std::ranges::sort(list);
+    expect_picked(list, words.data());
+    expect_put(list, 1500);
   }
 }
 
@@ -97,11 +153,13 @@ TEST(IndexRuns, PickAndPutAtAnyStride) {
   std::vector<std::uint32_t> table(30);
   for (std::uint32_t i = 0; i < 30; ++i) table[i] = i;
   std::vector<std::uint32_t> picked(list.size() + IndexRuns::slack);
-  runs.gather(table.data() + 1, 12, picked.data());
-  picked.resize(4);
-  EXPECT_EQ(picked, (std::vector<std::uint32_t>{10, 1, 7, 28}));
+  const IndexRuns::Copy from{reinterpret_cast<std::byte*>(table.data() + 1), 12, picked.data()};
+  runs.gather({&from, 1});
+  EXPECT_EQ(std::vector(picked.begin(), picked.begin() + 4),
+            (std::vector<std::uint32_t>{10, 1, 7, 28}));
   std::vector<std::uint32_t> out(20, 7);
-  runs.scatter(picked.data(), out.data(), 8);
+  const IndexRuns::Copy to{reinterpret_cast<std::byte*>(out.data()), 8, picked.data()};
+  runs.scatter({&to, 1});
   std::vector<std::uint32_t> expected(20, 7);
   expected[6] = 10, expected[0] = 1, expected[4] = 7, expected[18] = 28;
   EXPECT_EQ(out, expected);

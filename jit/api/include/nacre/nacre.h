@@ -375,6 +375,10 @@ enum {
   NACRE_OF_INSTANCE = 2 /* Element instances[points[i]], or instances[i]. */
 };
 
+/* Arrays of numbers that begin a multiple of 4096 bytes apart, as large ones do wherever a system
+   allocates each of them, share too few places in a processor's caches: shading takes up to 2.5
+   times as long (bench/results/hosts.md, "a_page_apart"). 320 bytes more from one to the next are
+   enough. */
 typedef struct nacre_layout {
   size_t size;
   uint32_t array;             /* Which of nacre_batch::arrays. */

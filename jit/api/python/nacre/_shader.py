@@ -131,7 +131,8 @@ class Shader(_core.Shader):
         if is_same:
             count, points = 1, None
         length = _length(unstored, Entry.BEGIN, count, points, request["instances"])
-        state = numpy.zeros((self.state_count, length), "float32").T  # Read a number at a time.
+        # Read a number at a time, from rows that do not lie alike within their pages.
+        state = numpy.zeros((self.state_count, length + 80), "float32")[:, :length].T
         binding = self.bind({**given, "state": state}, entries=[Entry.BEGIN])
         binding.run(Entry.BEGIN, count, points=points, **request)
         return numpy.array(state[0]) if is_same else state
