@@ -274,15 +274,7 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
 
 ShaderOptions with_profile(const Opened& opened, const std::string& name, bool is_material,
                            ShaderOptions options, Diagnostics& diagnostics) {
-  if (!opened.profile) return options;
-  if (const Choices* const choices = opened.profile->find(name, is_material)) {
-    apply_choices(*choices, options);
-  } else {
-    diagnostics.warning("not-in-profile", {.file = {}, .path = name},
-                        "the profile says nothing of this, which is compiled as without one",
-                        is_material ? "a material of the profile" : "an output of the profile",
-                        name);
-  }
+  if (opened.profile) apply_profile(*opened.profile, {name}, is_material, options, diagnostics);
   return options;
 }
 

@@ -3,6 +3,7 @@
 #include "jit/api/call.h"
 #include "jit/api/handles.h"
 #include "jit/graph/look/look.h"
+#include "jit/tune/profile.h"
 
 using namespace nacre;
 using namespace nacre::api;
@@ -86,6 +87,16 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   return options;
 }
 
+/// False, said, where there is a profile that cannot be read.
+bool apply_profile_of(const nacre_compile_options* given, const std::vector<std::string>& names,
+                      bool is_material, ShaderOptions& options, Diagnostics& diagnostics) {
+  const char* const text = options_of(given).profile;
+  if (text == nullptr) return true;
+  const std::optional<Profile> profile = Profile::parse(text, "profile", diagnostics);
+  if (profile) apply_profile(*profile, names, is_material, options, diagnostics);
+  return profile.has_value();
+}
+
 template <class Kernels>
 nacre_status hand_out(std::unique_ptr<Kernels> kernels, Said& said, nacre_shader** shader) {
   // Kernels that lack an image are there, and not right.
@@ -115,8 +126,11 @@ nacre_status nacre_compile_material(nacre_system* system, const nacre_document* 
   return guarded(report, [&] {
     Said said(report);
     const Document& from = *document->document;
-    return hand_out(system->system->compile_material(from, material, shader_options(options, from),
-                                                     said.diagnostics()),
+    ShaderOptions asked = shader_options(options, from);
+    if (!apply_profile_of(options, {material}, true, asked, said.diagnostics())) {
+      return nacre_status{NACRE_FAILED};
+    }
+    return hand_out(system->system->compile_material(from, material, asked, said.diagnostics()),
                     said, shader);
   });
 }
@@ -134,10 +148,13 @@ nacre_status nacre_compile_outputs(nacre_system* system, const nacre_document* d
   return guarded(report, [&] {
     Said said(report);
     const Document& from = *document->document;
-    return hand_out(
-        system->system->compile_outputs(from, texts_of(outputs, output_count),
-                                        shader_options(options, from), said.diagnostics()),
-        said, shader);
+    const std::vector<std::string> names = texts_of(outputs, output_count);
+    ShaderOptions asked = shader_options(options, from);
+    if (!apply_profile_of(options, names, false, asked, said.diagnostics())) {
+      return nacre_status{NACRE_FAILED};
+    }
+    return hand_out(system->system->compile_outputs(from, names, asked, said.diagnostics()), said,
+                    shader);
   });
 }
 

@@ -125,6 +125,24 @@ const Choices* Profile::find(std::string_view name, bool is_material) const {
   return found == subjects_.end() ? nullptr : &found->choices;
 }
 
+void apply_profile(const Profile& profile, const std::vector<std::string>& names, bool is_material,
+                   ShaderOptions& options, Diagnostics& diagnostics) {
+  std::optional<Choices> all;
+  for (const std::string& name : names) {
+    const Choices* const found = profile.find(name, is_material);
+    if (found == nullptr) {
+      diagnostics.warning("not-in-profile", {.file = {}, .path = name},
+                          "the profile says nothing of this, which is compiled as standard",
+                          is_material ? "a material of the profile" : "an output of the profile",
+                          name);
+    }
+    const Choices choices = found != nullptr ? *found : standard_choices();
+    if (!all) all = choices;
+    for (std::size_t i = 0; i < choices.size(); ++i) (*all)[i] = std::min((*all)[i], choices[i]);
+  }
+  if (all) apply_choices(*all, options);
+}
+
 void ProfileWriter::add(const std::string& name, bool is_material, const Tuned& tuned,
                         double max_error, const Metric& metric) {
   const Candidate& chosen = tuned.chosen;

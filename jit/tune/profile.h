@@ -38,6 +38,12 @@ class Profile {
   std::vector<Subject> subjects_;
 };
 
+/// Has options ask for what the profile chose for a material, or for outputs that are one kernel:
+/// of each dimension the most exact of theirs. What it says nothing of is warned of, and compiled
+/// as standard.
+void apply_profile(const Profile& profile, const std::vector<std::string>& names, bool is_material,
+                   ShaderOptions& options, Diagnostics& diagnostics);
+
 /// Text of a profile, subject by subject.
 class ProfileWriter {
  public:

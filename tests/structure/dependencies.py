@@ -24,7 +24,7 @@ MAY_INCLUDE = {
 JIT_STAGES = ("jit/document", "jit/graph/look", "jit/graph", "jit/graph/color",
               "jit/graph/resolve", "jit/graph/build", "jit/graph/check", "jit/ocio", "jit/glsl",
               "jit/record", "jit/passes", "jit/llvm", "jit/cache", "jit/worker",
-              "jit/service", "jit/compile", "jit/shading", "jit/api")
+              "jit/service", "jit/compile", "jit/shading", "jit/tune", "jit/api")
 
 # Start of an include from outside -> the folders that may have it.
 QUARANTINE = {
@@ -38,7 +38,7 @@ QUARANTINE = {
     "llvm-c/": ("jit/llvm",),
     "llvm/": ("jit/llvm", "tests/jit/llvm", "tests/jit/worker"),
     "nanobind/": ("jit/api/python",),
-    "nlohmann/": ("bench", "examples", "tests"),
+    "nlohmann/": ("bench", "examples", "jit/tune", "tests"),
     "pugixml": ("jit/document",),
 }
 

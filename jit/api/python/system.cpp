@@ -88,6 +88,7 @@ void bind_system(nb::module_& module) {
       .def_rw("no_footprints", &CompileOptions::no_footprints)
       .def_rw("live_footprints", &CompileOptions::live_footprints)
       .def_rw("compensation", &CompileOptions::compensation)
+      .def_rw("profile", &CompileOptions::profile)
       .def_rw("search_paths", &CompileOptions::search_paths)
       .def_rw("files_anywhere", &CompileOptions::files_anywhere)
       .def_rw("missing_images_pass", &CompileOptions::missing_images_pass)

@@ -124,6 +124,43 @@ TEST(ApiOptions, WhatIsStoppedFails) {
   EXPECT_THROW(Document::parse(text, "c.mtlx", reading), Error);
 }
 
+/// exp(s) at s = 1/3, and what was said.
+float exp_of_third(const std::string& profile, std::vector<Diagnostic>& said, int accuracy) {
+  const Document document = Document::parse(R"(<materialx version="1.39">
+    <texcoord name="uv" type="vector2"/>
+    <extract name="s" type="float"><input name="in" type="vector2" nodename="uv"/></extract>
+    <exp name="e" type="float"><input name="in" type="float" nodename="s"/></exp>
+    <output name="out" type="float" nodename="e"/></materialx>)");
+  CompileOptions options;
+  options.profile = profile;
+  options.accuracy = accuracy;
+  const Shader shader = System().compile_outputs(document, {"out"}, options, &said);
+  float uv[]{1.0f / 3.0f, 0.0f}, out = 0;
+  Binder binder;
+  binder.array("uv0", {0, 0, 0, 4}).array("out", {1});
+  Batch batch;
+  batch.count = 1;
+  Binding(binder, shader).run(NACRE_OUTPUTS, std::vector<void*>{uv, &out}, batch);
+  return out;
+}
+
+TEST(ApiOptions, AProfileChoosesForWhatItNames) {
+  std::vector<Diagnostic> said;
+  const float fast = exp_of_third("", said, NACRE_FAST);
+  const float standard = exp_of_third("", said, NACRE_STANDARD);
+  ASSERT_NE(fast, standard);
+  const auto profile_of = [](const std::string& output) {
+    return R"({"nacre_profile": 1, "subjects": [{"output": ")" + output +
+           R"(", "choices": {"accuracy": "fast"}}]})";
+  };
+  EXPECT_EQ(exp_of_third(profile_of("out"), said, NACRE_STANDARD), fast);
+  EXPECT_TRUE(said.empty());
+  EXPECT_EQ(exp_of_third(profile_of("other"), said, NACRE_STANDARD), standard);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].code, "not-in-profile");
+  EXPECT_THROW(exp_of_third("{}", said, NACRE_STANDARD), Error);
+}
+
 TEST(ApiOptions, ChoicesThatThereAreNotAreRefused) {
   const Document document = Document::parse(R"(<materialx version="1.39"/>)");
   System system;

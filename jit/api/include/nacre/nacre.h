@@ -268,6 +268,9 @@ typedef struct nacre_compile_options {
                           as dPdx; at 0 points have no extent. max_anisotropy, an int, bounds that
                           of images from 1 to the one above, which it is unless set. */
   int compensation;    /* NACRE_COMPENSATE_ALL */
+  const char* profile; /* What `nacre tune` wrote, the text: says accuracy, compensation,
+                          max_anisotropy and whether points have footprints, in place of the above,
+                          of materials and outputs that it names. NULL: none. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;

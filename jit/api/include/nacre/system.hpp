@@ -128,6 +128,7 @@ struct CompileOptions {
   bool transport = false;        ///< A channel transport, of sample and evaluate.
   bool live_footprints = false;  ///< Slots footprint_scale and max_anisotropy.
   int compensation = NACRE_COMPENSATE_ALL;
+  std::string profile;  ///< The text that `nacre tune` wrote; empty: none.
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -329,6 +330,7 @@ class System {
     asked.transport = options.transport;
     asked.live_footprints = options.live_footprints;
     asked.compensation = options.compensation;
+    asked.profile = options.profile.empty() ? nullptr : options.profile.c_str();
     call(asked);
   }
 

@@ -79,6 +79,9 @@ class CompileOptions(TypedDict, total=False):
     # Of facets, for what several scatterings between them bring back: "all", of "reflection" alone
     # (rough glass is darker), or "nothing" (rough metals too). What is left out costs nothing.
     compensation: Literal["all", "reflection", "nothing"]
+    # The text of a file that `nacre tune` wrote: says accuracy, compensation, max_anisotropy and
+    # no_footprints of the materials and outputs that it names.
+    profile: str
     search_paths: Iterable[str]  # Of images, after the document's own folder.
     files_anywhere: bool  # Images also from outside those folders.
     missing_images_pass: bool  # An image that cannot be had is a warning and no error.

@@ -192,3 +192,19 @@ def test_emitted_light_carries_the_power(system):
     numpy.testing.assert_allclose(light["weight"][:, 1], 4 * math.pi, rtol=1e-4)
     seen = shader.run(points | {"wo": light["emitted"]}, Entry.EMISSION)
     numpy.testing.assert_array_equal(seen["pdf"], light["pdf"])
+
+
+def test_a_profile_chooses_for_what_it_names(system, documents):
+    document = nacre.Document.parse(documents["white_metal"])
+    points = nacre.surface_points((0.0, 0.0, 0.0), N, N) | {"wi": (0.6, 0.0, 0.8)}
+
+    def f(**options):
+        shader = system.compile_material(document, "M", no_footprints=True, **options)
+        return shader.run(points, Entry.EVALUATE, count=1)["f"][0].tolist()
+
+    profile = """{"nacre_profile": 1, "subjects": [
+      {"material": "M", "choices": {"compensation": "nothing"}}]}"""
+    assert f(profile=profile) == f(compensation="nothing") != f()
+    with pytest.raises(nacre.Error) as caught:
+        f(profile="[]")
+    assert caught.value.diagnostics[0].code == "bad-profile"
