@@ -17,6 +17,13 @@ LocalView Facets::look(const View& view) const {
   return {frame, wo, below};
 }
 
+Facets Facets::upright() const {
+  Facets turned = *this;
+  turned.normal = {0.0f, 0.0f, 1.0f};
+  turned.tangent = {1.0f, 0.0f, 0.0f};
+  return turned;
+}
+
 Float Facets::density(Float3 h) const {
   return distribution == FacetDistribution::ggx ? ggx_distribution(h, alpha)
                                                 : beckmann_distribution(h, alpha);

@@ -28,6 +28,8 @@ struct Facets {
   Float3 normal, tangent;
 
   LocalView look(const View& view) const;
+  /// The same where the normal is z and the tangent x.
+  Facets upright() const;
   /// As Lobe::roughness.
   Float roughness() const { return select(delta, 0.0f, sqrt(0.5f * (alpha.x + alpha.y))); }
   FacetView table_view(const LocalView& local) const {

@@ -37,6 +37,7 @@ class SurfaceRecorder {
              .wo = view_direction(recorder),
              .thin_walled = surface.thin_walled,
              .compensation = request.compensation,
+             .table_error = request.table_error,
              .follows_subsurface = wants(entry_subsurface),
              .left_out = &left_out_,
              .media = wants(entry_interior) ? &media_ : nullptr,

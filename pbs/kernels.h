@@ -43,7 +43,8 @@ struct KernelRequest {
   /// divided by what of it exceeds 1, in each channel. As exact as their albedo.
   bool energy_conserving = false;
   Compensation compensation = Compensation::all;
-  bool by_lobe = false;  ///< What each lobe gives of f and weight as well.
+  double table_error = 0;  ///< View::table_error
+  bool by_lobe = false;    ///< What each lobe gives of f and weight as well.
   /// `sample` and `evaluate` read the channel "lobes_wanted": LobeKind bits of what scatters there,
   /// where glossy means rough and the delta kinds what is smooth. f is 0 of all others, and the
   /// densities are of those that are wanted. They store "kinds", too.

@@ -1,6 +1,7 @@
 #include "pbs/microfacet_interface.h"
 
 #include "pbs/facet_sum.h"
+#include "pbs/view_table.h"
 
 namespace nacre {
 
@@ -102,6 +103,12 @@ MicrofacetInterface::Terms MicrofacetInterface::compute(const View& from) const 
   return {factor, passing, probability, reflection};
 }
 
+std::optional<MicrofacetInterface::Terms> MicrofacetInterface::tabulated(const View& view) const {
+  if (!facets_.delta.is_constant(false)) return std::nullopt;
+  const MicrofacetInterface upright(*view.recorder, facets_.upright(), fresnel_, options_);
+  return view_table<Terms>(view, facets_, [&](const View& seen) { return upright.compute(seen); });
+}
+
 MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {
   return terms_.get(view, [&] { return compute(view); });
 }
@@ -109,7 +116,10 @@ MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {
 void MicrofacetInterface::prepare(const View& view, Bool mask) const {
   facets_.look(view);  // At top level, so that lobes of one frame share it.
   transmission_.prepare(view, mask & separate(view));
-  terms_.prepare(view, mask, [&] { return compute(view); });
+  const std::optional<Terms> known = tabulated(view);
+  terms_.prepare(view, mask, [&] {
+    return from_table_or(view, facets_, known, [&] { return compute(view); });
+  });
   reflection_.adopt(view, mask, terms(view).reflection);
 }
 

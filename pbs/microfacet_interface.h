@@ -48,6 +48,8 @@ class MicrofacetInterface final : public Lobe {
   };
   Terms terms(const View& view) const;
   Terms compute(const View& view) const;
+  /// From a table, where they may come of one.
+  std::optional<Terms> tabulated(const View& view) const;
   /// By what perfect facets reflect, and the mean Fresnel factor of that.
   Color3 joint_factor(const View& view, const FacetReflection& perfect, Color3 fresnel) const;
   Bool separate(const View& view) const;

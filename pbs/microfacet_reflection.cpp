@@ -1,6 +1,7 @@
 #include "pbs/microfacet_reflection.h"
 
 #include "pbs/facet_sum.h"
+#include "pbs/view_table.h"
 
 namespace nacre {
 
@@ -37,6 +38,12 @@ MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) cons
   return compute(view, perfect, mean_fresnel(view, perfect));
 }
 
+std::optional<MicrofacetReflection::Terms> MicrofacetReflection::tabulated(const View& view) const {
+  if (!facets_.delta.is_constant(false)) return std::nullopt;
+  const MicrofacetReflection upright(facets_.upright(), fresnel_, options_);
+  return view_table<Terms>(view, facets_, [&](const View& seen) { return upright.compute(seen); });
+}
+
 MicrofacetReflection::Terms MicrofacetReflection::terms(const View& view) const {
   return terms_.get(view, [&] { return compute(view); });
 }
@@ -47,7 +54,10 @@ LobePtr MicrofacetReflection::with_film(Recorder&, const ThinFilm& film) const {
 
 void MicrofacetReflection::prepare(const View& view, Bool mask) const {
   facets_.look(view);  // At top level, so that lobes of one frame share it.
-  terms_.prepare(view, mask, [&] { return compute(view); });
+  const std::optional<Terms> known = tabulated(view);
+  terms_.prepare(view, mask, [&] {
+    return from_table_or(view, facets_, known, [&] { return compute(view); });
+  });
 }
 
 void MicrofacetReflection::adopt(const View& view, Bool mask, const Terms& terms) const {

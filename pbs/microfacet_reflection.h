@@ -58,6 +58,8 @@ class MicrofacetReflection final : public Lobe {
 
  private:
   Terms compute(const View& view) const;
+  /// From a table, where they may come of one.
+  std::optional<Terms> tabulated(const View& view) const;
   Terms terms(const View& view) const;
   Float3 turned(Float3 wi) const;
 

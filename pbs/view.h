@@ -54,6 +54,9 @@ struct View {
   Float3 wo;                               ///< Unit, world space, from the point to the viewer.
   Bool thin_walled = false;                ///< Light that enters leaves at the same point.
   Compensation compensation = Compensation::all;
+  /// How far off what depends on the view alone may be, as a share of it, where that makes a table
+  /// of it; 0: nothing is tabulated.
+  double table_error = 0;
   /// Light that enters below the surface is the host's to follow (SurfaceKernels::subsurface); else
   /// it leaves where it enters.
   bool follows_subsurface = false;

@@ -1,7 +1,5 @@
 #include "jit/tune/estimate.h"
 
-#include <vector>
-
 namespace nacre {
 
 namespace {
@@ -28,18 +26,17 @@ double weight_of(Op op) {
 
 }  // namespace
 
-double estimated_cost(const Program& program) {
-  std::vector<double> costs(program.functions.size(), 0);
-  const auto add_up = [&](std::size_t f) {
-    for (const Instruction& instruction : program.functions[f].code) {
-      costs[f] += weight_of(instruction.op);
-      if (instruction.op == Op::call) costs[f] += costs[instruction.imm];
-    }
-  };
-  // Callees stand before their callers, and behind the entry.
-  for (std::size_t f = 1; f < costs.size(); ++f) add_up(f);
-  add_up(0);
-  return costs[0];
+RunStatus CountingKernel::run(const KernelArguments& arguments) const {
+  points_ += arguments.count;
+  return kernel_->run_counted(arguments, counts_);
+}
+
+double CountingKernel::cost() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    sum += weight_of(static_cast<Op>(i)) * static_cast<double>(counts_[i]);
+  }
+  return points_ > 0 ? sum / static_cast<double>(points_) : 0;
 }
 
 }  // namespace nacre

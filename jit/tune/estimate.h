@@ -1,12 +1,32 @@
 #pragma once
 
-#include "runtime/program/program.h"
+#include <cstdint>
+#include <memory>
+
+#include "runtime/reference/reference.h"
 
 namespace nacre {
 
-/// What a point costs, as a number that is the same on every machine: operations as engines run
-/// them, each by how much longer it takes than an addition; every region entered, every loop one
-/// round. For comparing Programs of one document with each other.
-double estimated_cost(const Program& program);
+/// Runs a Program in double precision and adds up what it does, each operation by how much longer
+/// engines take for it than for an addition. The same on every machine: for comparing Programs of
+/// one document with each other. Points count one by one, as if lanes never waited for others.
+/// For one thread at a time.
+class CountingKernel final : public Kernel {
+ public:
+  explicit CountingKernel(const Program& program) : kernel_(make_reference(program)) {}
+
+  RunStatus run(const KernelArguments& arguments) const override;
+  const Program& program() const override { return kernel_->program(); }
+  int lanes() const override { return kernel_->lanes(); }
+  const char* engine() const override { return kernel_->engine(); }
+
+  /// Of a point, on average of all that were run.
+  double cost() const;
+
+ private:
+  std::unique_ptr<ReferenceKernel> kernel_;
+  mutable OpCounts counts_{};
+  mutable std::uint64_t points_ = 0;
+};
 
 }  // namespace nacre

@@ -118,10 +118,17 @@ std::vector<TuneTrial::Named> TuneTrial::kernels() const {
   return present;
 }
 
-double TuneTrial::cost() const {
+double TuneTrial::cost(const TunePoints& points) const {
   double sum = 0;
+  Columns state;
   for (const auto& [name, kernel] : kernels()) {
-    if (name != "albedo") sum += estimated_cost(kernel->program());
+    if (name == "albedo") continue;
+    const auto counting = std::make_shared<const CountingKernel>(kernel->program());
+    const BoundKernel bound = kernel->with(counting);
+    Run run(bound, points, state);
+    if (!run()) return 0;
+    if (name == "begin") state = run.results();
+    sum += counting->cost();
   }
   return sum;
 }

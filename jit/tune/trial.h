@@ -37,8 +37,9 @@ class TuneTrial {
 
   /// Of all its Programs: trials of the same have the same results.
   const Digest& digest() const { return digest_; }
-  /// estimated_cost() of what a renderer runs where a path meets it: all but the albedo.
-  double cost() const;
+  /// What a renderer runs where a path meets it, all but the albedo: CountingKernel::cost(). 0
+  /// where a kernel did not run to its end.
+  double cost(const TunePoints& points) const;
 
   /// What it is: of a material f, albedo, emission, opacity and transmission, and what a medium,
   /// displacement or light is; of an output its channels. Not the densities of directions: they

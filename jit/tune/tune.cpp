@@ -16,6 +16,17 @@ namespace {
 /// Of one that exceeds `max_error` this is still allowed.
 constexpr double most_at_a_point = 3;
 
+/// At how many points costs are counted.
+constexpr std::size_t counted_points = 128;
+
+/// The first of them.
+TunePoints first_of(const TunePoints& points, std::size_t count) {
+  TunePoints first = points;
+  first.count = std::min(count, points.count);
+  for (auto& [name, column] : first.given) column.resize(first.count);
+  return first;
+}
+
 /// Points, and what is right there.
 struct Examination {
   TunePoints points;
@@ -29,7 +40,8 @@ std::size_t steps(const Choices& choices) {
 /// What is cheaper comes first; of two that cost the same the one that asks for less.
 bool is_cheaper(const Candidate& a, const Candidate& b) {
   if (a.cost != b.cost) return a.cost < b.cost;
-  return steps(a.choices) > steps(b.choices);
+  if (steps(a.choices) != steps(b.choices)) return steps(a.choices) > steps(b.choices);
+  return a.choices < b.choices;
 }
 
 class Tuner {
@@ -88,7 +100,7 @@ class Tuner {
     if (trial == nullptr) return nullptr;
     Candidate made;
     made.choices = choices;
-    made.cost = trial->cost();
+    made.cost = trial->cost(first_of(seen_.points, counted_points));
     const auto same = by_digest_.find(trial->digest());
     made.error = same != by_digest_.end() ? same->second : error_at(*trial, seen_);
     by_digest_.emplace(trial->digest(), made.error);
@@ -129,7 +141,11 @@ class Tuner {
       Choices choices = exact_choices();
       choices[i] = dimensions()[i].settings.size() - 1;
       if (measured(choices) == nullptr) continue;
-      if (digests_[choices] != digests_[exact_choices()]) useful.push_back(i);
+      if (digests_[choices] != digests_[exact_choices()]) {
+        useful.push_back(i);
+      } else {
+        candidates_.erase(choices);  // Lest something be asked for that changes nothing.
+      }
     }
     return useful;
   }
@@ -143,10 +159,12 @@ class Tuner {
   std::vector<Candidate> front() const {
     std::vector<Candidate> all;
     for (const auto& [choices, candidate] : candidates_) all.push_back(candidate);
-    std::ranges::stable_sort(all, is_cheaper);
+    std::ranges::sort(all, is_cheaper);
     std::vector<Candidate> front;
     for (const Candidate& each : all) {
-      if (front.empty() || each.error.p999 < front.back().error.p999) front.push_back(each);
+      if (!front.empty() && each.error.p999 >= front.back().error.p999) continue;
+      if (!front.empty() && each.cost == front.back().cost) front.pop_back();
+      front.push_back(each);
     }
     std::ranges::reverse(front);
     return front;
@@ -169,7 +187,7 @@ class Tuner {
     for (const auto& [choices, candidate] : candidates_) {
       if (keeps(candidate.error)) kept.push_back(candidate);
     }
-    std::ranges::stable_sort(kept, is_cheaper);
+    std::ranges::sort(kept, is_cheaper);
     for (Candidate& each : kept) {
       if (!verify(each)) return false;
       if (!keeps(*each.unseen_error)) continue;

@@ -22,8 +22,13 @@ namespace {
 class Run {
  public:
   Run(const Program& program, const std::vector<FunctionCost>& costs, const StepLimit& limit,
-      const KernelArguments& args, bool store_double)
-      : program_(program), costs_(costs), limit_(limit), args_(args), store_double_(store_double) {}
+      const KernelArguments& args, bool store_double, OpCounts* counts)
+      : program_(program),
+        costs_(costs),
+        limit_(limit),
+        args_(args),
+        store_double_(store_double),
+        counts_(counts) {}
 
   RunStatus point(std::uint64_t index) {
     point_ = index;
@@ -147,6 +152,7 @@ class Run {
     };
     const auto f = [&](std::size_t k) { return k < instruction.count ? operand(k).f : 0.0; };
     Value64& to = frame.values[i];
+    if (counts_ != nullptr) ++(*counts_)[static_cast<std::size_t>(instruction.op)];
     switch (instruction.op) {
       case Op::constant: to = from_bits(instruction.type, instruction.imm); break;
       case Op::parameter:
@@ -267,6 +273,7 @@ class Run {
   const StepLimit& limit_;
   const KernelArguments& args_;
   bool store_double_;
+  OpCounts* counts_;  ///< Null: nobody counts.
   std::uint64_t point_ = 0;
   double steps_left_ = 0;  ///< Of the point; below zero: the run has failed.
   std::vector<Value64> results_;
@@ -280,19 +287,22 @@ class Reference final : public ReferenceKernel {
         limit_(program_, max_steps) {}
 
   RunStatus run(const KernelArguments& arguments) const override {
-    return run_all(arguments, false);
+    return run_all(arguments, false, nullptr);
   }
   RunStatus run_double(const KernelArguments& arguments) const override {
-    return run_all(arguments, true);
+    return run_all(arguments, true, nullptr);
+  }
+  RunStatus run_counted(const KernelArguments& arguments, OpCounts& counts) const override {
+    return run_all(arguments, false, &counts);
   }
   const Program& program() const override { return program_; }
   int lanes() const override { return 1; }
   const char* engine() const override { return "reference"; }
 
  private:
-  RunStatus run_all(const KernelArguments& arguments, bool store_double) const {
+  RunStatus run_all(const KernelArguments& arguments, bool store_double, OpCounts* counts) const {
     const ScopedFloatEnvironment environment;
-    Run run(program_, costs_, limit_, arguments, store_double);
+    Run run(program_, costs_, limit_, arguments, store_double, counts);
     for (std::uint64_t i = 0; i < arguments.count; ++i) {
       if (const RunStatus status = run.point(i); status != RunStatus::done) return status;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -7,6 +8,9 @@
 #include "runtime/program/cost.h"
 
 namespace nacre {
+
+/// How often each operation was done, by Op.
+using OpCounts = std::array<std::uint64_t, op_count>;
 
 /// A kernel that runs `program` point by point in double precision, its
 /// transcendental functions those of the C library: the oracle for every
@@ -20,6 +24,8 @@ class ReferenceKernel : public Kernel {
  public:
   /// As run(), but every f32 output is an array of doubles.
   virtual RunStatus run_double(const KernelArguments& arguments) const = 0;
+  /// As run(), and adds up what was done, point by point: no region that a point does not enter.
+  virtual RunStatus run_counted(const KernelArguments& arguments, OpCounts& counts) const = 0;
 };
 
 /// Never null. `max_steps` as of StepLimit.

@@ -6,7 +6,7 @@ namespace nacre {
 
 std::span<const Dimension> dimensions() {
   static const std::array all{accuracy_dimension, anisotropy_dimension, compensation_dimension,
-                              footprints_dimension};
+                              footprints_dimension, tables_dimension};
   return all;
 }
 

@@ -8,5 +8,6 @@ extern const Dimension accuracy_dimension;
 extern const Dimension anisotropy_dimension;
 extern const Dimension compensation_dimension;
 extern const Dimension footprints_dimension;
+extern const Dimension tables_dimension;
 
 }  // namespace nacre
