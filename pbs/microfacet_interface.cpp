@@ -1,7 +1,6 @@
 #include "pbs/microfacet_interface.h"
 
 #include "pbs/facet_sum.h"
-#include "pbs/view_table.h"
 
 namespace nacre {
 
@@ -105,8 +104,10 @@ MicrofacetInterface::Terms MicrofacetInterface::compute(const View& from) const 
 
 std::optional<MicrofacetInterface::Terms> MicrofacetInterface::tabulated(const View& view) const {
   if (!facets_.delta.is_constant(false)) return std::nullopt;
-  const MicrofacetInterface upright(*view.recorder, facets_.upright(), fresnel_, options_);
-  return view_table<Terms>(view, facets_, [&](const View& seen) { return upright.compute(seen); });
+  return table_.get(view, facets_, [&](const View& seen) {
+    const MicrofacetInterface upright(*view.recorder, facets_.upright(), fresnel_, options_);
+    return upright.compute(seen);
+  });
 }
 
 MicrofacetInterface::Terms MicrofacetInterface::terms(const View& view) const {

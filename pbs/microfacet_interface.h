@@ -69,6 +69,7 @@ class MicrofacetInterface final : public Lobe {
   MicrofacetTransmission transmission_;
   Bool straight_;
   PerView<Terms> terms_;
+  ViewTable<Terms> table_;
 };
 
 /// The lobe of a node's input scatter_mode: R, T, RT; anything else is R.

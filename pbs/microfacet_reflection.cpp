@@ -1,7 +1,6 @@
 #include "pbs/microfacet_reflection.h"
 
 #include "pbs/facet_sum.h"
-#include "pbs/view_table.h"
 
 namespace nacre {
 
@@ -40,8 +39,10 @@ MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) cons
 
 std::optional<MicrofacetReflection::Terms> MicrofacetReflection::tabulated(const View& view) const {
   if (!facets_.delta.is_constant(false)) return std::nullopt;
-  const MicrofacetReflection upright(facets_.upright(), fresnel_, options_);
-  return view_table<Terms>(view, facets_, [&](const View& seen) { return upright.compute(seen); });
+  return table_.get(view, facets_, [&](const View& seen) {
+    const MicrofacetReflection upright(facets_.upright(), fresnel_, options_);
+    return upright.compute(seen);
+  });
 }
 
 MicrofacetReflection::Terms MicrofacetReflection::terms(const View& view) const {

@@ -2,6 +2,7 @@
 
 #include "pbs/facets.h"
 #include "pbs/per_view.h"
+#include "pbs/view_table.h"
 
 namespace nacre {
 
@@ -67,6 +68,7 @@ class MicrofacetReflection final : public Lobe {
   FacetFresnelPtr fresnel_;
   Options options_;
   PerView<Terms> terms_;
+  ViewTable<Terms> table_;
 };
 
 }  // namespace nacre

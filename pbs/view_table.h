@@ -20,22 +20,40 @@ using OfView = std::function<std::vector<Float>(const View& view)>;
 std::optional<std::vector<Float>> from_view_table(const View& view, const LocalView& local,
                                                   bool isotropic, const OfView& of_view);
 
-/// The same of facets, for a structure with visit(), from upright ones.
-template <class T, class F>
-std::optional<T> view_table(const View& view, const Facets& facets, F&& of_upright) {
-  const OfView of_view = [&](const View& seen) {
-    std::vector<Float> all;
-    T value = of_upright(seen);
-    visit(value, [&](Float& scalar) { all.push_back(scalar); });
-    return all;
+/// The same of facets, for what a lobe works out as a structure with visit(). Made once for a view;
+/// lives while one Program is recorded.
+template <class T>
+class ViewTable {
+ public:
+  /// `of_upright`: the structure of upright facets. Recorded at top level.
+  template <class F>
+  std::optional<T> get(const View& view, const Facets& facets, F&& of_upright) const {
+    for (const Made& made : made_) {
+      if (same_value(made.wo, view.wo)) return made.value;
+    }
+    const OfView of_view = [&](const View& seen) {
+      std::vector<Float> all;
+      T value = of_upright(seen);
+      visit(value, [&](Float& scalar) { all.push_back(scalar); });
+      return all;
+    };
+    std::optional<T> value;
+    const LocalView local = facets.look(view);
+    if (const auto found = from_view_table(view, local, facets.isotropic, of_view)) {
+      std::size_t at = 0;
+      visit(value.emplace(), [&](Float& scalar) { scalar = (*found)[at++]; });
+    }
+    if (view.recorder->at_top_level()) made_.push_back({view.wo, value});
+    return value;
+  }
+
+ private:
+  struct Made {
+    Float3 wo;
+    std::optional<T> value;
   };
-  const auto found = from_view_table(view, facets.look(view), facets.isotropic, of_view);
-  if (!found) return std::nullopt;
-  T value{};
-  std::size_t at = 0;
-  visit(value, [&](Float& scalar) { scalar = (*found)[at++]; });
-  return value;
-}
+  mutable std::vector<Made> made_;
+};
 
 /// What is known from above; else, and from below where another index is seen, what is computed.
 template <class T, class F>
