@@ -66,6 +66,23 @@ def inspect(file: Path, *, material: str | None = None, output: Iterable[str] = 
     return said
 
 
+def tune(file: Path, *, material: Iterable[str] = (), output: Iterable[str] = (),
+         max_error: float = 0.01, profile: Path | None = None,
+         **options: Any) -> list[dict[str, Any]]:
+    """`nacre tune --json`: of each material and output the front of error against cost, and the
+    cheapest kernels that keep an error, "chosen".
+
+    material, output  some of them; none: all of the document
+    profile           where to write what was chosen, for the option `profile` of
+                      System.compile_material and compile_outputs, of render, bake_files and inspect
+    options           metric="absolute", floor=0.1, no_times=True, ...
+    """
+    said: list[dict[str, Any]] = json.loads(
+        _run("tune", file, material=list(material), output=list(output), max_error=max_error,
+             profile=profile, json=True, **options))
+    return said
+
+
 def main() -> None:
     """The command `nacre` of an installed package."""
     program = _program()

@@ -99,3 +99,17 @@ def test_a_program_that_is_not_there(monkeypatch, tmp_path):
     monkeypatch.setenv("NACRE_TOOL", str(tmp_path / "none"))
     with pytest.raises(FileNotFoundError, match="NACRE_TOOL"):
         nacre.inspect(MARBLE)
+
+
+def test_what_tune_chooses_is_compiled(tmp_path):
+    profile = tmp_path / "profile.json"
+    found, = nacre.tune(MARBLE, output=["NG_marble/roughness"], max_error=0.05, profile=profile,
+                        no_times=True, no_cache=True)
+    assert found["output"] == "NG_marble/roughness"
+    assert found["chosen"]["unseen_error"]["p999"] <= 0.05
+    assert found["chosen"]["cost"] <= found["standard"]["cost"]
+    shader = nacre.default_system().compile_outputs(
+        nacre.Document(MARBLE), ["NG_marble/roughness"], profile=profile.read_text())
+    assert shader.inputs(nacre.Entry.OUTPUTS)
+    with pytest.raises(nacre.Error):
+        nacre.tune(MARBLE, output=["nothing"], no_cache=True)
