@@ -55,6 +55,23 @@ TEST(TuneProfile, StandardChoicesAreWhatIsCompiledWithoutAny) {
   EXPECT_EQ(options.footprints, plain.footprints);
 }
 
+TEST(TuneProfile, OutputsOfOneKernelHaveTheMostExactOfTheirChoices) {
+  Diagnostics diagnostics;
+  const auto profile = Profile::parse(R"({"nacre_profile": 1, "subjects": [
+    {"output": "a", "choices": {"accuracy": "fast", "anisotropy": "8"}},
+    {"output": "b", "choices": {"accuracy": "precise", "anisotropy": "2"}}]})",
+                                      "p.json", diagnostics);
+  ASSERT_TRUE(profile) << diagnostics.to_string();
+  ShaderOptions options;
+  apply_profile(*profile, {"a", "b"}, false, options, diagnostics);
+  EXPECT_EQ(options.compile.accuracy, Accuracy::precise);
+  EXPECT_EQ(options.max_anisotropy, 8);
+  EXPECT_EQ(diagnostics.warning_count(), 0u);
+  apply_profile(*profile, {"a", "c"}, false, options, diagnostics);
+  EXPECT_EQ(options.compile.accuracy, Accuracy::standard);
+  EXPECT_EQ(diagnostics.warning_count(), 1u);
+}
+
 struct Bad {
   const char* text;
   const char* said;  ///< Part of what is said of it.
