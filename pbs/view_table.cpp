@@ -17,8 +17,8 @@ namespace {
 
 /// What takes fewer operations costs no more than the look-up.
 constexpr double least_operations = 100;
-/// Operations in double precision for a table: a fraction of a second.
-constexpr double most_operations_to_make = 4e7;
+/// Operations in double precision for a table: two seconds.
+constexpr double most_operations_to_make = 2e8;
 
 /// Cells along the height of the view, by the root of its cosine since most happens at grazing;
 /// and around, by the square of the cosine of its azimuth, in which lobes are smooth.

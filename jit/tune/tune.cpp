@@ -138,16 +138,19 @@ class Tuner {
   std::vector<std::size_t> useful_dimensions() {
     std::vector<std::size_t> useful;
     for (std::size_t i = 0; i < dimensions().size(); ++i) {
-      Choices choices = exact_choices();
-      choices[i] = dimensions()[i].settings.size() - 1;
-      if (measured(choices) == nullptr) continue;
-      if (digests_[choices] != digests_[exact_choices()]) {
-        useful.push_back(i);
-      } else {
-        candidates_.erase(choices);  // Lest something be asked for that changes nothing.
-      }
+      if (changes(i, exact_choices()) || changes(i, standard_choices())) useful.push_back(i);
     }
     return useful;
+  }
+
+  /// Whether the cheapest setting of a dimension gives other Programs than `from`.
+  bool changes(std::size_t dimension, const Choices& from) {
+    Choices choices = from;
+    choices[dimension] = dimensions()[dimension].settings.size() - 1;
+    if (choices == from || measured(choices) == nullptr) return false;
+    if (digests_[choices] != digests_[from]) return true;
+    candidates_.erase(choices);  // Lest something be asked for that changes nothing.
+    return false;
   }
 
   static Choices cheapest(const std::vector<std::size_t>& useful) {

@@ -15,7 +15,7 @@ struct TuneOptions {
   double max_error = 0.01;
   /// Of what may be max_error; `max_error` by this metric.
   Metric metric;
-  std::size_t points = 4096;
+  std::size_t points = 2048;
   /// What holds whatever is chosen: limits, search paths, the graph's options.
   ShaderOptions shader;
   double seconds_a_kernel = 0.05;  ///< To time it; 0: nothing is timed.
