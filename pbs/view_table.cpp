@@ -171,7 +171,6 @@ std::vector<Float> look_up_nodes(Recorder& recorder, const Nodes& nodes, const s
 std::optional<std::vector<Float>> from_view_table(const View& view, const LocalView& local,
                                                   bool isotropic, const OfView& of_view) {
   Recorder& recorder = *view.recorder;
-  if (view.table_error <= 0 || !recorder.at_top_level()) return std::nullopt;
   View seen = view;
   seen.left_out = seen.unseen = nullptr;
   seen.media = nullptr;

@@ -14,7 +14,7 @@ using OfView = std::function<std::vector<Float>(const View& view)>;
 
 /// The same as a table over those views, for one that `local` has: where numbers of the document
 /// say all else, and the table is no further off than View::table_error in the middle of its cells.
-/// Nothing where it is not to be, where other things matter, where it would save little, and where
+/// Nothing where other things matter, where it would save little, and where
 /// making it would take long. Recorded at top level. Views from below, which see another index,
 /// get those numbers as well.
 std::optional<std::vector<Float>> from_view_table(const View& view, const LocalView& local,
@@ -25,9 +25,11 @@ std::optional<std::vector<Float>> from_view_table(const View& view, const LocalV
 template <class T>
 class ViewTable {
  public:
-  /// `of_upright`: the structure of upright facets. Recorded at top level.
+  /// `of_upright`: the structure of upright facets. Nothing where none is asked for, and but at top
+  /// level.
   template <class F>
   std::optional<T> get(const View& view, const Facets& facets, F&& of_upright) const {
+    if (view.table_error <= 0 || !view.recorder->at_top_level()) return std::nullopt;
     for (const Made& made : made_) {
       if (same_value(made.wo, view.wo)) return made.value;
     }
@@ -43,7 +45,7 @@ class ViewTable {
       std::size_t at = 0;
       visit(value.emplace(), [&](Float& scalar) { scalar = (*found)[at++]; });
     }
-    if (view.recorder->at_top_level()) made_.push_back({view.wo, value});
+    made_.push_back({view.wo, value});
     return value;
   }
 

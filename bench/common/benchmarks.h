@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/kernel_run.h"
+#include "jit/tune/kernel_run.h"
 #include "jit/compile/compile.h"
 
 namespace nacre::bench {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/common/kernel_run.h"
+#include "jit/tune/kernel_run.h"
 #include "jit/compile/compile.h"
 #include "jit/graph/build/build.h"
 #include "jit/graph/graph.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "bench/common/kernel_run.h"
+#include "jit/tune/kernel_run.h"
 #include "jit/compile/compile.h"
 #include "jit/document/document.h"
 #include "jit/service/compile_service.h"

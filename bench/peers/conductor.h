@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "bench/common/kernel_run.h"
+#include "jit/tune/kernel_run.h"
 #include "jit/compile/compile.h"
 
 namespace nacre::bench {

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "bench/common/kernel_run.h"
+#include "jit/tune/kernel_run.h"
 #include "bench/textures/image_file.h"
 
 namespace nacre::bench {

@@ -22,18 +22,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of the fastest of many batches: whatever else the machine does makes some slower.
-double nanoseconds_a_point(KernelRun& run, double seconds) {
-  const Clock::time_point begun = Clock::now();
-  double best = 1e300;
-  while (seconds_since(begun) < seconds) {
-    const Clock::time_point start = Clock::now();
-    run();
-    best = std::min(best, seconds_since(start));
-  }
-  return 1e9 * best / batch_points;
-}
-
 std::map<Part, CostRow> rows_of(const Program& program) {
   std::map<Part, CostRow> rows;
   for (std::size_t f = 0; f < program.functions.size(); ++f) {

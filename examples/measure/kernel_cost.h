@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "examples/measure/kernel_run.h"
 #include "jit/compile/options.h"
 #include "jit/shading/bound_kernel.h"
+#include "jit/tune/kernel_run.h"
 #include "jit/worker/compiler.h"
 #include "runtime/diagnostic.h"
 

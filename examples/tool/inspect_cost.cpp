@@ -72,7 +72,7 @@ void print_cost(const std::string& name, const Json& cost) {
 Json kernel_costs(const std::vector<NamedKernel>& kernels, Compiler& compiler,
                   const CompileOptions& options, Diagnostics& diagnostics) {
   Json costs = Json::object();
-  measure::Columns given;
+  Columns given;
   for (const auto& [name, kernel] : kernels) {
     const auto cost =
         measure::measure_cost(*kernel, compiler, options, given, seconds_a_kernel, diagnostics);

@@ -122,19 +122,27 @@ void CommonOptions::add_lobes(CLI::App& command) {
 }
 
 void CommonOptions::add_compile(CLI::App& command) {
+  add_exactness(command);
+  add_machine(command);
+}
+
+void CommonOptions::add_exactness(CLI::App& command) {
   command.add_option("--accuracy", accuracy, "Error promised for every function and closure")
       ->check(CLI::IsMember({"precise", "standard", "fast"}))
       ->capture_default_str();
   command.add_option("--backend", backend, "Engine that runs the kernels")
       ->check(CLI::IsMember({"jit", "interpreter", "reference"}))
       ->capture_default_str();
-  command.add_option("--lanes", lanes, "Points side by side in compiled code (default: by CPU)")
-      ->check(CLI::IsMember({1, 4, 8, 16}));
   command
       .add_option("--anisotropy", anisotropy,
                   "How much longer than wide a pixel may be on an image without blur; 1: no care")
       ->check(CLI::Range(1, largest_anisotropy))
       ->capture_default_str();
+}
+
+void CommonOptions::add_machine(CLI::App& command) {
+  command.add_option("--lanes", lanes, "Points side by side in compiled code (default: by CPU)")
+      ->check(CLI::IsMember({1, 4, 8, 16}));
   command.add_option("--threads", threads, "Threads (default: as many as the machine has)")
       ->check(number_within(0, most_threads));
   command.add_option("--cache", cache, "Folder of compiled kernels (default: in the user's cache)")

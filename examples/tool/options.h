@@ -50,7 +50,12 @@ struct CommonOptions {
   TextureOptions texture_limits;
 
   void add_document(CLI::App& command);
+  /// add_exactness() and add_machine().
   void add_compile(CLI::App& command);
+  /// How exact kernels are, and what runs them.
+  void add_exactness(CLI::App& command);
+  /// Where and how they are made, whatever they are.
+  void add_machine(CLI::App& command);
   /// After add_compile() and add_lobes(), whose choices a profile makes.
   void add_profile(CLI::App& command);
   void add_lobes(CLI::App& command);

@@ -14,6 +14,7 @@
 #include "examples/tool/stop.h"
 #include "jit/graph/find.h"
 #include "jit/tune/json.h"
+#include "jit/tune/profile.h"
 
 namespace nacre::tool {
 
@@ -41,13 +42,13 @@ Json as_json(const Candidate& candidate) {
   return json;
 }
 
-Json as_json(const TuneSubject& subject, const Tuned& tuned) {
+Json as_json(const TunedSubject& subject) {
   Json front = Json::array();
-  for (const Candidate& each : tuned.front) front.push_back(as_json(each));
+  for (const Candidate& each : subject.tuned.front) front.push_back(as_json(each));
   return {{subject.is_material ? "material" : "output", subject.name},
           {"front", std::move(front)},
-          {"standard", as_json(tuned.standard)},
-          {"chosen", as_json(tuned.chosen)}};
+          {"standard", as_json(subject.tuned.standard)},
+          {"chosen", as_json(subject.tuned.chosen)}};
 }
 
 void print_candidate(const char* mark, const Candidate& candidate) {
@@ -57,7 +58,8 @@ void print_candidate(const char* mark, const Candidate& candidate) {
              candidate.error.p999, candidate.error.maximum, to_string(candidate.choices));
 }
 
-void print_tuned(const TuneSubject& subject, const Tuned& tuned, const TuneOptions& options) {
+void print_tuned(const TunedSubject& subject, const TuneOptions& options) {
+  const Tuned& tuned = subject.tuned;
   fmt::print("{} {}\n", subject.is_material ? "material" : "output", subject.name);
   fmt::print("  {:1} {:>8} {:>8} {:>9} {:>9}  {}\n", "", "ns", "cost", "p99.9", "maximum",
              "choices");
@@ -114,8 +116,7 @@ int run(ToolOptions& options) {
     diagnostics.error("nothing-to-tune", {options.common.file, 0, 0, {}},
                       "the document has neither a material nor a numeric output");
   }
-  ProfileWriter profile;
-  Json results = Json::array();
+  std::vector<TunedSubject> done;
   for (const TuneSubject& subject : all) {
     std::optional<Tuned> tuned;
     {
@@ -125,17 +126,18 @@ int run(ToolOptions& options) {
     }
     if (stop().is_due()) break;
     if (!tuned) continue;
-    profile.add(subject.name, subject.is_material, *tuned, tuning.max_error, tuning.metric);
-    if (options.json) results.push_back(as_json(subject, *tuned));
-    if (!options.json) print_tuned(subject, *tuned, tuning);
+    done.push_back({subject.name, subject.is_material, std::move(*tuned)});
+    if (!options.json) print_tuned(done.back(), tuning);
   }
   if (options.json) {
+    Json results = Json::array();
+    for (const TunedSubject& each : done) results.push_back(as_json(each));
     // Names come from documents, which may hold bytes that are no UTF-8.
     fmt::print("{}\n", results.dump(2, ' ', false, Json::error_handler_t::replace));
   }
   // Half a profile would leave the rest to chance.
   if (!options.out.empty() && !diagnostics.has_errors() && !stop().is_due() &&
-      host::write_text_atomically(options.out, profile.text(), diagnostics)) {
+      host::write_text_atomically(options.out, profile_text(done, tuning), diagnostics)) {
     file_is_written(options.out, options.common.quiet || options.json);
   }
   return report(diagnostics);
@@ -183,10 +185,7 @@ void add_tune(CLI::App& app, int& status) {
   command.add_flag("!--no-times", options->has_times,
                    "Do not compile and run what was found to say how long it takes");
   command.add_flag("--json", options->json, "For programs to read");
-  options->common.add_compile(command);
-  for (const char* chosen : {"--accuracy", "--anisotropy", "--backend"}) {
-    command.remove_option(command.get_option(chosen));
-  }
+  options->common.add_machine(command);
   command.callback([options, &status] {
     status = guarded(options->common.file, [&] { return run(*options); });
   });

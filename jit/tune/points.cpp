@@ -1,13 +1,17 @@
 #include "jit/tune/points.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <string_view>
+
+#include "runtime/channel/channel_name.h"
 
 namespace nacre {
 
@@ -46,6 +50,21 @@ Vector along(Numbers& numbers) {
   return {std::cos(phi), std::sin(phi), 0.0f};
 }
 
+/// Component `i` of how a channel changes along an axis of the footprint, at the next point. Both
+/// axes are drawn from equal sequences.
+std::function<float()> footprint(int axis, std::size_t i, bool is_varied, Numbers& numbers) {
+  const bool is_y = axis == 1;
+  if (!is_varied) return [i, is_y] { return (i == 1) == is_y && i < 2 ? 0x1p-10f : 0.0f; };
+  return [i, is_y, &numbers] {
+    const float length = std::exp2(numbers.next(-11, -6));
+    const float width = length * std::exp2(-numbers.next(0, 5));
+    const Vector along_it = along(numbers);
+    if (i > 1) return 0.0f;
+    if (!is_y) return length * along_it[i];
+    return width * (i == 0 ? -along_it[1] : along_it[0]);
+  };
+}
+
 /// Component `i` of the group at the next point.
 std::function<float()> group(std::string_view name, std::size_t i, Numbers& numbers) {
   if (name == "N" || name == "No" || name == "Ng") return [i] { return i == 2 ? 1.0f : 0.0f; };
@@ -63,10 +82,6 @@ std::function<float()> group(std::string_view name, std::size_t i, Numbers& numb
       return p[i];
     };
   }
-  if (name.ends_with("dx") || name.ends_with("dy")) {
-    const bool y = name.ends_with("dy");
-    return [i, y] { return (i == 1) == y && i < 2 ? 0x1p-10f : 0.0f; };
-  }
   if (name.starts_with("uv")) {
     return [&numbers, i] {
       const std::array uv{numbers.next(), numbers.next(), 0.0f};
@@ -78,17 +93,18 @@ std::function<float()> group(std::string_view name, std::size_t i, Numbers& numb
 
 }  // namespace
 
-std::vector<float> shading_points(const Channel& channel, std::size_t count, std::uint32_t set) {
-  const std::size_t dot = channel.name.rfind('.');
-  const std::string name = channel.name.substr(0, dot);
-  const std::size_t component =
-      dot == std::string::npos ? 0 : std::string_view("xyzw").find(channel.name[dot + 1]);
+std::vector<float> shading_points(const Channel& channel, const PointSet& points) {
+  const ChannelName name = parse_channel(channel.name);
+  const auto component = static_cast<std::size_t>(std::max(name.component, 0));
+  const std::optional<DerivativeName> derivative = parse_derivative(name.group);
+  const bool is_of_frame = name.group == "B" || name.group == "Bo" || name.group == "To";
   // All components of a group from one sequence, the frame's three vectors from one too.
-  Numbers whole(name == "B" || name == "Bo" || name == "To" ? "T" : std::string_view(name), set);
-  Numbers own(channel.name, set);
-  auto next = group(name, component, whole);
+  Numbers whole(derivative ? derivative->group : is_of_frame ? "T" : name.group, points.number);
+  Numbers own(channel.name, points.number);
+  auto next = derivative ? footprint(derivative->axis, component, points.varied_footprints, whole)
+                         : group(name.group, component, whole);
   if (!next) next = [&own] { return own.next(0.05f, 0.95f); };
-  std::vector<float> values(count);
+  std::vector<float> values(points.count);
   for (float& value : values) {
     value = next();
     if (channel.type == Scalar::i32) value = std::bit_cast<float>(std::int32_t(16.0f * value));

@@ -7,7 +7,6 @@
 
 #include "jit/tune/dimension.h"
 #include "jit/tune/json.h"
-#include "jit/tune/tune.h"
 
 namespace nacre {
 
@@ -143,27 +142,25 @@ void apply_profile(const Profile& profile, const std::vector<std::string>& names
   if (all) apply_choices(*all, options);
 }
 
-void ProfileWriter::add(const std::string& name, bool is_material, const Tuned& tuned,
-                        double max_error, const Metric& metric) {
-  const Candidate& chosen = tuned.chosen;
-  const Json json{{is_material ? "material" : "output", name},
-                  {"choices", as_json(chosen.choices)},
-                  {"asked",
-                   {{"max_error", max_error},
-                    {"metric", metric.is_relative ? "relative" : "absolute"},
-                    {"floor", metric.floor}}},
-                  {"error", as_json(chosen.error)},
-                  {"unseen_error", as_json(chosen.unseen_error.value_or(Error()))},
-                  {"cost", chosen.cost},
-                  {"standard_cost", tuned.standard.cost}};
+std::string profile_text(const std::vector<TunedSubject>& subjects, const TuneOptions& options) {
+  const Metric& metric = options.metric;
+  const Json asked{{"max_error", options.max_error},
+                   {"metric", metric.is_relative ? "relative" : "absolute"},
+                   {"floor", metric.floor}};
+  Json list = Json::array();
+  for (const auto& [name, is_material, tuned] : subjects) {
+    const Candidate& chosen = tuned.chosen;
+    list.push_back({{is_material ? "material" : "output", name},
+                    {"choices", as_json(chosen.choices)},
+                    {"asked", asked},
+                    {"error", as_json(chosen.error)},
+                    {"unseen_error", as_json(chosen.unseen_error.value_or(Error()))},
+                    {"cost", chosen.cost},
+                    {"standard_cost", tuned.standard.cost}});
+  }
+  const Json json{{"nacre_profile", version}, {"subjects", std::move(list)}};
   // Names come from documents, which may hold bytes that are no UTF-8.
-  subjects_.push_back(json.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-std::string ProfileWriter::text() const {
-  Json json{{"nacre_profile", version}, {"subjects", Json::array()}};
-  for (const std::string& each : subjects_) json["subjects"].push_back(Json::parse(each));
-  return json.dump(2) + '\n';
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace nacre

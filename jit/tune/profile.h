@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "jit/tune/choices.h"
-#include "jit/tune/error.h"
+#include "jit/tune/tune.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre {
-
-struct Tuned;
 
 /// How materials and outputs are compiled, by name: what tune() chose, in a file that can be kept,
 /// compared and applied elsewhere. JSON:
@@ -44,15 +42,14 @@ class Profile {
 void apply_profile(const Profile& profile, const std::vector<std::string>& names, bool is_material,
                    ShaderOptions& options, Diagnostics& diagnostics);
 
-/// Text of a profile, subject by subject.
-class ProfileWriter {
- public:
-  void add(const std::string& name, bool is_material, const Tuned& tuned, double max_error,
-           const Metric& metric);
-  std::string text() const;
-
- private:
-  std::vector<std::string> subjects_;  ///< JSON of each.
+/// What was chosen for one of them.
+struct TunedSubject {
+  std::string name;
+  bool is_material = false;
+  Tuned tuned;
 };
+
+/// The text of a profile; `options`: what was asked.
+std::string profile_text(const std::vector<TunedSubject>& subjects, const TuneOptions& options);
 
 }  // namespace nacre

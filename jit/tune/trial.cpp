@@ -2,69 +2,17 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "jit/tune/estimate.h"
-#include "jit/tune/points.h"
+#include "runtime/channel/channel_name.h"
 #include "runtime/program/digest.h"
 
 namespace nacre {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// A kernel with its arrays.
-class Run {
- public:
-  Run(const BoundKernel& kernel, const TunePoints& points, const Columns& state)
-      : kernel_(kernel), count_(points.count), parameters_(kernel.parameters()) {
-    const Program& program = kernel.program();
-    for (std::size_t i = 0; i < parameters_.size(); ++i) {
-      // Every mesh has what a document asks for.
-      if (program.parameters[i].name.starts_with("geomprop.")) parameters_[i] = 1;
-    }
-    for (const Channel& channel : program.inputs) {
-      inputs_.push_back(column(channel, points, state));
-      input_arrays_.push_back(inputs_.back().data());
-    }
-    for (const Channel& channel : program.outputs) {
-      results_[channel.name].assign(count_, 0.0f);
-    }
-    for (const Channel& channel : program.outputs) {
-      output_arrays_.push_back(results_[channel.name].data());
-    }
-  }
-
-  bool operator()() {
-    return kernel_.run(input_arrays_, output_arrays_, count_, parameters_) == RunStatus::done;
-  }
-  const Columns& results() const { return results_; }
-
- private:
-  static std::vector<float> column(const Channel& channel, const TunePoints& points,
-                                   const Columns& state) {
-    if (const auto kept = state.find(channel.name); kept != state.end()) return kept->second;
-    const auto given = points.given.find(channel.name);
-    return given != points.given.end() ? given->second
-                                       : shading_points(channel, points.count, points.set);
-  }
-
-  const BoundKernel& kernel_;
-  std::size_t count_;
-  std::vector<std::uint32_t> parameters_;
-  std::vector<std::vector<float>> inputs_;
-  Columns results_;
-  std::vector<const void*> input_arrays_;
-  std::vector<void*> output_arrays_;
-};
 
 /// Uniform on the sphere.
 void add_direction(std::mt19937& random, float (&w)[3]) {
@@ -118,80 +66,67 @@ std::vector<TuneTrial::Named> TuneTrial::kernels() const {
   return present;
 }
 
+template <class F>
+bool TuneTrial::run_all(const TunePoints& points, F&& use) const {
+  Columns given = points.given;
+  for (const auto& [name, kernel] : kernels()) {
+    KernelRun run(*kernel, given, {}, points.set);
+    if (!run()) return false;
+    if (name == "begin") given.merge(run.raw_results());
+    use(name, *kernel, run, given);
+  }
+  return true;
+}
+
 double TuneTrial::cost(const TunePoints& points) const {
   double sum = 0;
-  Columns state;
-  for (const auto& [name, kernel] : kernels()) {
-    if (name == "albedo") continue;
-    const auto counting = std::make_shared<const CountingKernel>(kernel->program());
-    const BoundKernel bound = kernel->with(counting);
-    Run run(bound, points, state);
-    if (!run()) return 0;
-    if (name == "begin") state = run.results();
+  run_all(points, [&](std::string_view name, const BoundKernel& kernel, const KernelRun&,
+                      const Columns& given) {
+    if (name == "albedo") return;
+    const auto counting = std::make_shared<const CountingKernel>(kernel.program());
+    KernelRun(kernel.with(counting), given, {}, points.set)();
     sum += counting->cost();
-  }
+  });
   return sum;
 }
 
 Columns TuneTrial::results(const TunePoints& points) const {
-  Columns state, all;
-  for (const auto& [name, kernel] : kernels()) {
-    if (name == "sample") continue;
-    Run run(*kernel, points, state);
-    if (!run()) return {};
-    if (name == "begin") {
-      state = run.results();
-      continue;
-    }
-    for (const auto& [channel, column] : run.results()) {
-      if (channel != "pdf") all[channel] = column;
-    }
-  }
-  return all;
+  Columns all;
+  const bool is_done = run_all(
+      points, [&](std::string_view name, const BoundKernel&, const KernelRun& run, const Columns&) {
+        if (name != "begin" && name != "sample") all.merge(run.raw_results());
+      });
+  all.erase("pdf");
+  return is_done ? all : Columns();
 }
 
 Columns TuneTrial::directions(const TunePoints& points) const {
-  std::mt19937 random(points.set);
+  std::mt19937 random(points.set.number);
   Columns made;
   std::vector<float>* const wi[]{&made["wi.x"], &made["wi.y"], &made["wi.z"]};
-  for (std::size_t i = 0; i < points.count; ++i) {
+  for (std::size_t i = 0; i < points.set.count; ++i) {
     float w[3];
     add_direction(random, w);
     for (int k = 0; k < 3; ++k) wi[k]->push_back(w[k]);
   }
-  if (material_ == nullptr || !material_->sample) return made;
-  Columns state;
-  if (material_->begin) {
-    Run begin(*material_->begin, points, {});
-    if (!begin()) return made;
-    state = begin.results();
-  }
-  Run sample(*material_->sample, points, state);
-  if (!sample()) return made;
-  const Columns& s = sample.results();
-  for (std::size_t i = 0; i < points.count; i += 2) {
-    if ((std::bit_cast<std::int32_t>(s.at("flags")[i]) & sample_valid) == 0) continue;
-    for (int k = 0; k < 3; ++k) (*wi[k])[i] = s.at(std::string("wi.") + "xyz"[k])[i];
-  }
+  run_all(points,
+          [&](std::string_view name, const BoundKernel&, const KernelRun& run, const Columns&) {
+            if (material_ == nullptr || name != "sample") return;
+            const Columns sampled = run.raw_results();
+            for (std::size_t i = 0; i < points.set.count; i += 2) {
+              if ((std::bit_cast<std::int32_t>(sampled.at("flags")[i]) & sample_valid) == 0)
+                continue;
+              for (int k = 0; k < 3; ++k) (*wi[k])[i] = sampled.at(channel_text("wi", k))[i];
+            }
+          });
   return made;
 }
 
 double TuneTrial::nanoseconds(const TunePoints& points, double seconds) const {
   double sum = 0;
-  Columns state;
-  for (const auto& [name, kernel] : kernels()) {
-    if (name == "albedo") continue;
-    Run run(*kernel, points, state);
-    run();  // Pages, caches, and images that are read when they are first needed.
-    if (name == "begin") state = run.results();
-    double best = 1e300;
-    for (const Clock::time_point begun = Clock::now(); seconds_since(begun) < seconds;) {
-      const Clock::time_point start = Clock::now();
-      run();
-      best = std::min(best, seconds_since(start));
-    }
-    sum += 1e9 * best / static_cast<double>(points.count);
-  }
+  run_all(points, [&](std::string_view name, const BoundKernel&, KernelRun& run, const Columns&) {
+    if (name != "albedo") sum += nanoseconds_a_point(run, seconds);
+  });
   return sum;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "jit/shading/shading_system.h"
-#include "jit/tune/error.h"
+#include "jit/tune/kernel_run.h"
 #include "runtime/digest.h"
 
 namespace nacre {
@@ -22,8 +22,7 @@ struct TuneSubject {
 
 /// Points that kernels are run at: those of shading_points(), but for the channels that are given.
 struct TunePoints {
-  std::uint32_t set = 0;
-  std::size_t count = 0;
+  PointSet set;
   Columns given;
 };
 
@@ -37,8 +36,7 @@ class TuneTrial {
 
   /// Of all its Programs: trials of the same have the same results.
   const Digest& digest() const { return digest_; }
-  /// What a renderer runs where a path meets it, all but the albedo: CountingKernel::cost(). 0
-  /// where a kernel did not run to its end.
+  /// What a renderer runs where a path meets it, all but the albedo: CountingKernel::cost().
   double cost(const TunePoints& points) const;
 
   /// What it is: of a material f, albedo, emission, opacity and transmission, and what a medium,
@@ -51,14 +49,19 @@ class TuneTrial {
   /// the others anywhere on the sphere.
   Columns directions(const TunePoints& points) const;
 
-  /// The fastest of the runs that fit into so many seconds, a point, of what cost() counts.
+  /// nanoseconds_a_point() of what cost() counts, so many seconds for each kernel.
   double nanoseconds(const TunePoints& points, double seconds) const;
 
  private:
   using Named = std::pair<std::string_view, const BoundKernel*>;
 
   TuneTrial() = default;
+  /// Those that there are, `begin` first.
   std::vector<Named> kernels() const;
+  /// Runs one after another, which read what `begin` has stored: use(name, kernel, run, given),
+  /// where it has been run and `given` holds the state. False where one did not run to its end.
+  template <class F>
+  bool run_all(const TunePoints& points, F&& use) const;
 
   std::unique_ptr<MaterialKernels> material_;
   std::unique_ptr<OutputKernel> outputs_;

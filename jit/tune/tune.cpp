@@ -22,8 +22,7 @@ constexpr std::size_t counted_points = 128;
 /// The first of them.
 TunePoints first_of(const TunePoints& points, std::size_t count) {
   TunePoints first = points;
-  first.count = std::min(count, points.count);
-  for (auto& [name, column] : first.given) column.resize(first.count);
+  first.set.count = std::min(count, points.set.count);
   return first;
 }
 
@@ -50,7 +49,11 @@ class Tuner {
       : subject_(subject), options_(options), diagnostics_(diagnostics) {}
 
   std::optional<Tuned> run() {
-    if (!examine(0, seen_) || !examine(1, unseen_) || !measure_all()) return std::nullopt;
+    const auto oracle = compile(exact_choices(), Backend::reference);
+    if (oracle == nullptr || !examine(*oracle, 0, seen_) || !examine(*oracle, 1, unseen_) ||
+        !measure_all()) {
+      return std::nullopt;
+    }
     Tuned tuned;
     tuned.front = front();
     tuned.standard = *measured(standard_choices());
@@ -76,13 +79,10 @@ class Tuner {
     return trial;
   }
 
-  bool examine(std::uint32_t set, Examination& made) {
-    const auto oracle = compile(exact_choices(), Backend::reference);
-    if (oracle == nullptr) return false;
-    made.points.set = set;
-    made.points.count = options_.points;
-    made.points.given = oracle->directions(made.points);
-    made.exact = oracle->results(made.points);
+  bool examine(const TuneTrial& oracle, std::uint32_t number, Examination& made) {
+    made.points.set = {.count = options_.points, .number = number, .varied_footprints = true};
+    made.points.given = oracle.directions(made.points);
+    made.exact = oracle.results(made.points);
     if (!made.exact.empty()) return true;
     diagnostics_.error("not-tuned", {.file = {}, .path = subject_.name},
                        "there is nothing to compare", "results at every point",
@@ -98,14 +98,14 @@ class Tuner {
     // Interpreted: the same bits as compiled, at once.
     const auto trial = compile(choices, Backend::interpreter);
     if (trial == nullptr) return nullptr;
-    Candidate made;
+    Candidate& made = of_programs_[trial->digest()];
+    if (made.choices.empty()) {
+      made.programs = trial->digest();
+      made.cost = trial->cost(first_of(seen_.points, counted_points));
+      made.error = error_at(*trial, seen_);
+    }
     made.choices = choices;
-    made.cost = trial->cost(first_of(seen_.points, counted_points));
-    const auto same = by_digest_.find(trial->digest());
-    made.error = same != by_digest_.end() ? same->second : error_at(*trial, seen_);
-    by_digest_.emplace(trial->digest(), made.error);
-    digests_[choices] = trial->digest();
-    return &candidates_.emplace(choices, std::move(made)).first->second;
+    return &candidates_.emplace(choices, made).first->second;
   }
 
   Error error_at(const TuneTrial& trial, const Examination& at) const {
@@ -147,8 +147,9 @@ class Tuner {
   bool changes(std::size_t dimension, const Choices& from) {
     Choices choices = from;
     choices[dimension] = dimensions()[dimension].settings.size() - 1;
-    if (choices == from || measured(choices) == nullptr) return false;
-    if (digests_[choices] != digests_[from]) return true;
+    const Candidate* const cheapest = choices == from ? nullptr : measured(choices);
+    if (cheapest == nullptr) return false;
+    if (cheapest->programs != measured(from)->programs) return true;
     candidates_.erase(choices);  // Lest something be asked for that changes nothing.
     return false;
   }
@@ -214,7 +215,7 @@ class Tuner {
     std::map<Digest, double> known;
     for (std::size_t i = 0; i < all.size(); ++i) {
       report(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(all.size()));
-      double& found = known[digests_[all[i]->choices]];
+      double& found = known[all[i]->programs];
       if (found == 0) {
         const auto trial = compile(all[i]->choices, Backend::jit);
         if (trial == nullptr) return false;
@@ -235,8 +236,7 @@ class Tuner {
   bool has_said_ = false;
   Examination seen_, unseen_;
   std::map<Choices, Candidate> candidates_;
-  std::map<Choices, Digest> digests_;
-  std::map<Digest, Error> by_digest_;
+  std::map<Digest, Candidate> of_programs_;  ///< What was measured of each; the latest choices.
 };
 
 }  // namespace

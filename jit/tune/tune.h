@@ -25,6 +25,7 @@ struct TuneOptions {
 /// One way of compiling, measured.
 struct Candidate {
   Choices choices;
+  Digest programs{};                  ///< TuneTrial::digest()
   double cost = 0;                    ///< See TuneTrial::cost().
   Error error;                        ///< At the points by which one is chosen.
   std::optional<Error> unseen_error;  ///< At others; of what was considered for being chosen.

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "jit/tune/tune.h"
-
 namespace nacre {
 namespace {
 
@@ -18,11 +16,10 @@ Tuned tuned(const Choices& choices) {
 TEST(TuneProfile, WhatIsWrittenIsRead) {
   Choices cheap = standard_choices();
   for (std::size_t& each : cheap) each = 1;
-  ProfileWriter writer;
-  writer.add("Gold", true, tuned(cheap), 0.01, {});
-  writer.add("NG/out", false, tuned(exact_choices()), 0.01, {});
+  const std::string text =
+      profile_text({{"Gold", true, tuned(cheap)}, {"NG/out", false, tuned(exact_choices())}}, {});
   Diagnostics diagnostics;
-  const auto profile = Profile::parse(writer.text(), "p.json", diagnostics);
+  const auto profile = Profile::parse(text, "p.json", diagnostics);
   ASSERT_TRUE(profile) << diagnostics.to_string();
   ASSERT_NE(profile->find("Gold", true), nullptr);
   EXPECT_EQ(*profile->find("Gold", true), cheap);

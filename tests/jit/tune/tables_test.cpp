@@ -6,32 +6,18 @@
 #include <cmath>
 #include <random>
 
-#include "jit/document/read.h"
-#include "jit/shading/shading_system.h"
 #include "jit/tune/error.h"
 #include "runtime/program/digest.h"
+#include "tests/jit/tune/documents.h"
+#include "tests/support/material_text.h"
 
 namespace nacre {
 namespace {
 
-ShadingSystem& system() {
-  static const std::unique_ptr<ShadingSystem> made = [] {
-    Diagnostics diagnostics;
-    return ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics);
-  }();
-  return *made;
-}
-
-/// A material "M" of one BSDF.
 std::unique_ptr<MaterialKernels> compiled(const std::string& bsdf, const ShaderOptions& options) {
-  const std::string text = R"(<materialx version="1.39">)" + bsdf + R"(
-    <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
-    <surfacematerial name="M" type="material">
-      <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
-    </materialx>)";
   Diagnostics diagnostics;
-  const auto document = read_document_text(text, "test.mtlx", {}, diagnostics);
-  auto kernels = system().compile_material(*document, "M", options, diagnostics);
+  auto kernels =
+      tune_system().compile_material(*document_of(material_of(bsdf)), "M", options, diagnostics);
   EXPECT_NE(kernels, nullptr) << diagnostics.to_string();
   return kernels;
 }

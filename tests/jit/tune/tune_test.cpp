@@ -5,19 +5,12 @@
 
 #include <cmath>
 
-#include "jit/document/read.h"
 #include "jit/tune/dimension.h"
+#include "tests/jit/tune/documents.h"
+#include "tests/support/material_text.h"
 
 namespace nacre {
 namespace {
-
-ShadingSystem& system() {
-  static const std::unique_ptr<ShadingSystem> made = [] {
-    Diagnostics diagnostics;
-    return ShadingSystem::create({.libraries = {NACRE_MATERIALX_LIBRARIES_DIR}}, diagnostics);
-  }();
-  return *made;
-}
 
 /// An output "out" of one node with one input.
 std::string function_of_s(const std::string& node, const std::string& input) {
@@ -29,15 +22,6 @@ std::string function_of_s(const std::string& node, const std::string& input) {
     <output name="out" type="float" nodename="f"/></materialx>)";
 }
 
-/// A material "M" of one BSDF.
-std::string material_of(const std::string& bsdf) {
-  return R"(<materialx version="1.39">)" + bsdf + R"(
-    <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
-    <surfacematerial name="M" type="material">
-      <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
-    </materialx>)";
-}
-
 const char* const white_metal = R"(<conductor_bsdf name="b" type="BSDF">
   <input name="ior" type="color3" value="0, 0, 0"/>
   <input name="extinction" type="color3" value="1, 1, 1"/>
@@ -45,11 +29,11 @@ const char* const white_metal = R"(<conductor_bsdf name="b" type="BSDF">
 
 std::optional<Tuned> tuned(const std::string& text, double max_error, bool is_material,
                            Diagnostics& diagnostics) {
-  const auto document = read_document_text(text, "test.mtlx", {}, diagnostics);
+  const auto document = document_of(text);
   TuneOptions options;
   options.max_error = max_error;
   options.seconds_a_kernel = 0;
-  return tune({&system(), document.get(), is_material ? "M" : "out", is_material}, options,
+  return tune({&tune_system(), document.get(), is_material ? "M" : "out", is_material}, options,
               diagnostics);
 }
 
@@ -69,8 +53,8 @@ TEST(Tune, KeepsItsErrorAgainstTheCLibrary) {
     ASSERT_TRUE(found) << diagnostics.to_string();
     ShaderOptions options;
     apply_choices(found->chosen.choices, options);
-    const auto document = read_document_text(text, "test.mtlx", {}, diagnostics);
-    const auto kernel = system().compile_outputs(*document, {"out"}, options, diagnostics);
+    const auto document = document_of(text);
+    const auto kernel = tune_system().compile_outputs(*document, {"out"}, options, diagnostics);
     ASSERT_NE(kernel, nullptr) << diagnostics.to_string();
     for (int i = 0; i <= 1000; ++i) {
       const float s = static_cast<float>(i) * 1e-3f, t = 0;
@@ -108,6 +92,27 @@ TEST(Tune, LeavesOutWhatAnErrorAllows) {
   EXPECT_LT(coarse->chosen.cost, fine->chosen.cost);
 }
 
+// Stripes across s, 16 texels to a period, under footprints of every length and direction: a
+// blur as wide as the longer side of them is far from their mean along it, of which whoever looks
+// once at each knows nothing.
+TEST(Tune, SlantedFootprintsNeedTheirAnisotropy) {
+  Pixels stripes{.width = 256, .height = 256, .channels = 1, .samples = SampleType::floating};
+  std::vector<float> texels(256 * 256);
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = i % 16 < 8 ? 0.0f : 1.0f;
+  stripes.data = texels.data();
+  Diagnostics diagnostics;
+  ASSERT_TRUE(tune_system().textures().set_image("stripes", stripes, diagnostics));
+  const std::string image = R"(<materialx version="1.39"><image name="i" type="float">
+    <input name="file" type="filename" value="stripes"/></image>
+    <output name="out" type="float" nodename="i"/></materialx>)";
+  const auto fine = tuned(image, 1e-3, false, diagnostics);
+  const auto coarse = tuned(image, 100, false, diagnostics);
+  ASSERT_TRUE(fine && coarse) << diagnostics.to_string();
+  EXPECT_NE(setting(fine->chosen, "anisotropy"), "1");
+  EXPECT_EQ(setting(fine->chosen, "footprints"), "yes");
+  EXPECT_EQ(setting(coarse->chosen, "footprints"), "no");
+}
+
 TEST(Tune, TheFrontFallsInCostAndRisesInError) {
   Diagnostics diagnostics;
   const auto found = tuned(material_of(white_metal), 0.01, true, diagnostics);
@@ -138,9 +143,8 @@ TEST(Tune, SaysThatNothingIsSoExact) {
 
 TEST(Tune, WhatCannotBeCompiledIsSaidOnce) {
   Diagnostics diagnostics;
-  const auto document =
-      read_document_text(R"(<materialx version="1.39"/>)", "test.mtlx", {}, diagnostics);
-  EXPECT_FALSE(tune({&system(), document.get(), "M", true}, {}, diagnostics));
+  const auto document = document_of(R"(<materialx version="1.39"/>)");
+  EXPECT_FALSE(tune({&tune_system(), document.get(), "M", true}, {}, diagnostics));
   EXPECT_EQ(diagnostics.error_count(), 1u) << diagnostics.to_string();
 }
 

@@ -1,5 +1,5 @@
 #include "tests/pbs/battery/composite_trial.h"
-#include "tests/pbs/battery/material_text.h"
+#include "tests/support/material_text.h"
 
 namespace nacre {
 

@@ -8,7 +8,7 @@
 #include <nacre/lobe_test.hpp>
 #include <nacre/nacre.hpp>
 
-#include "tests/pbs/battery/material_text.h"
+#include "tests/support/material_text.h"
 #include "tests/support/chi_squares.h"
 #include "tests/support/random.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/pbs/battery/material_text.h"
+#include "tests/support/material_text.h"
 
 namespace nacre {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "tests/pbs/battery/material_text.h"
+#include "tests/support/material_text.h"
 #include "tests/support/random.h"
 
 namespace nacre {

@@ -7,29 +7,28 @@
 #include <vector>
 
 #include "jit/shading/bound_kernel.h"
+#include "jit/tune/error.h"
+#include "jit/tune/points.h"
 
-namespace nacre::measure {
-
-/// Points of a batch: a kernel's arrays stay in the L2 cache, most in L1.
-inline constexpr std::size_t batch_points = 4096;
-
-/// Arrays by channel name, `batch_points` long.
-using Columns = std::map<std::string, std::vector<float>>;
+namespace nacre {
 
 /// A kernel bound to arrays of its own. They lie alike for every kernel with as many
 /// channels, each on a cache line and none a multiple of a page from another: where malloc
 /// puts them makes up to 8 % of a fast kernel's time.
 class KernelRun {
  public:
-  /// Channels that are not `given` hold shading points (points.h), which have every geometric
-  /// property that the kernel asks for. `kept` lives as long.
+  /// Channels that are not `given` hold shading_points(), which have every geometric property that
+  /// the kernel asks for; given ones have as many elements, or more. `kept` lives as long.
   explicit KernelRun(BoundKernel kernel, const Columns& given = {},
-                     std::shared_ptr<const void> kept = {});
+                     std::shared_ptr<const void> kept = {}, const PointSet& points = {});
 
-  /// Computes the batch.
-  void operator()() { (void)kernel_.run(inputs_, outputs_, batch_points, parameters_); }
+  /// Computes all points; whether to the end.
+  bool operator()() {
+    return kernel_.run(inputs_, outputs_, points_.count, parameters_) == RunStatus::done;
+  }
 
   const Kernel& kernel() const { return kernel_.kernel(); }
+  std::size_t count() const { return points_.count; }
   const Program& program() const { return kernel_.program(); }
   /// After a run; integers as the floats of their values.
   Columns results() const;
@@ -49,10 +48,15 @@ class KernelRun {
 
   std::shared_ptr<const void> kept_;
   BoundKernel kernel_;
+  PointSet points_;
   std::unique_ptr<float[], Free> block_;
   std::vector<const void*> inputs_;
   std::vector<void*> outputs_;
   std::vector<std::uint32_t> parameters_;
 };
 
-}  // namespace nacre::measure
+/// Of a point, in the fastest of the runs that fit into so many seconds: whatever else the machine
+/// does makes some slower.
+double nanoseconds_a_point(KernelRun& run, double seconds);
+
+}  // namespace nacre
