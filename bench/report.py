@@ -215,8 +215,8 @@ def hosts(run: results.Run) -> str:
             "live, time for each point that is shaded. Half of the points are picked by a list, "
             "at random, and their state is kept by place in the list, but in the row half_of_state; "
             "instances differ in colour and roughness from point to point. Columns are 16,704 bytes "
-            "from each other; in the row a_page_apart 16,384, as where a system allocates each: what "
-            "lies alike within pages shares too few places in the caches.\n\n"
+            "from each other; in the row a_page_apart 16,384, as where a system allocates each: those "
+            "meet in the same sets of the caches.\n\n"
             + table(["points"] + list(entries), rows)
             + f"\nAn instance, made and given a colour: {cell(made)} ns. A call for one point "
             "(evaluate):\n\n"

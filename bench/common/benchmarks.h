@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "jit/tune/kernel_run.h"
 #include "jit/compile/compile.h"
+#include "jit/tune/kernel_run.h"
 
 namespace nacre::bench {
 

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "jit/tune/kernel_run.h"
 #include "jit/compile/compile.h"
 #include "jit/graph/build/build.h"
 #include "jit/graph/graph.h"
 #include "jit/record/bodies.h"
 #include "jit/record/record.h"
 #include "jit/record/textures.h"
+#include "jit/tune/kernel_run.h"
 #include "pbs/kernels.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/slice.h"

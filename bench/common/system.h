@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-#include "jit/tune/kernel_run.h"
 #include "jit/compile/compile.h"
 #include "jit/document/document.h"
 #include "jit/service/compile_service.h"
 #include "jit/shading/shading_system.h"
+#include "jit/tune/kernel_run.h"
 #include "runtime/program/slice.h"
 
 namespace nacre::bench {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "jit/tune/kernel_run.h"
 #include "jit/compile/compile.h"
+#include "jit/tune/kernel_run.h"
 
 namespace nacre::bench {
 

@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "jit/tune/kernel_run.h"
 #include "bench/textures/image_file.h"
+#include "jit/tune/kernel_run.h"
 
 namespace nacre::bench {
 

@@ -43,13 +43,12 @@ class LaneMemory {
   static std::size_t rounded(std::size_t bytes) {
     return (bytes + alignment - 1) / alignment * alignment;
   }
-  /// Bytes of one float array, padded as shader.h says; and so that arrays after each other lie
-  /// unlike within their pages, for those that lie alike share too few places in the caches
-  /// (bench/results/hosts.md, "a_page_apart").
+  /// Bytes of one float array, padded as shader.h says; and so that arrays after each other do not
+  /// meet in the same sets of the caches (bench/results/hosts.md, "a_page_apart").
   static std::size_t lane_bytes(std::uint32_t capacity) {
     const std::size_t bytes =
         rounded(sizeof(float) * ((capacity + lane_padding - 1) / lane_padding * lane_padding));
-    return bytes % 1024 == 0 ? bytes + 5 * alignment : bytes;
+    return bytes % 1024 == 0 ? bytes + alignment : bytes;
   }
 
  private:

@@ -8,8 +8,8 @@
 #include <nacre/lobe_test.hpp>
 #include <nacre/nacre.hpp>
 
-#include "tests/support/material_text.h"
 #include "tests/support/chi_squares.h"
+#include "tests/support/material_text.h"
 #include "tests/support/random.h"
 
 namespace nacre {

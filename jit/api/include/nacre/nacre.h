@@ -379,8 +379,8 @@ enum {
 };
 
 /* Arrays of numbers that begin a multiple of 4096 bytes apart, as large ones do wherever a system
-   allocates each of them, share too few places in a processor's caches: shading takes up to 2.5
-   times as long (bench/results/hosts.md, "a_page_apart"). 320 bytes more from one to the next are
+   allocates each of them, meet in the same sets of a processor's caches: shading takes up to 2.5
+   times as long (bench/results/hosts.md, "a_page_apart"). 64 bytes more from one to the next are
    enough. */
 typedef struct nacre_layout {
   size_t size;

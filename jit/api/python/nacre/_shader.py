@@ -131,8 +131,8 @@ class Shader(_core.Shader):
         if is_same:
             count, points = 1, None
         length = _length(unstored, Entry.BEGIN, count, points, request["instances"])
-        # Read a number at a time, from rows that do not lie alike within their pages.
-        state = numpy.zeros((self.state_count, length + 80), "float32")[:, :length].T
+        # Read a number at a time, from rows that do not meet in the same sets of the caches.
+        state = numpy.zeros((self.state_count, length + 16), "float32")[:, :length].T
         binding = self.bind({**given, "state": state}, entries=[Entry.BEGIN])
         binding.run(Entry.BEGIN, count, points=points, **request)
         return numpy.array(state[0]) if is_same else state
