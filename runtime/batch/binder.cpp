@@ -106,13 +106,17 @@ std::optional<Binding> Binder::finish(const Program& program, std::span<const st
     binding.outputs.push_back(is_written ? *layout : ChannelLayout{.array = discarded});
   }
   if (diagnostics.error_count() != errors) return std::nullopt;
-  for (const auto* channels : {&binding.inputs, &binding.outputs}) {
-    for (const ChannelLayout& layout : *channels) {
-      binding.reads_instances |= layout.element == ElementOf::instance;
-      binding.copies += needs_copy(layout, false) ? 1 : 0;
-      binding.copies_of_list += needs_copy(layout, true) ? 1 : 0;
-    }
+  const auto count = [&](const ChannelLayout& layout) {
+    binding.reads_instances |= layout.element == ElementOf::instance;
+    binding.copies += needs_copy(layout, false) ? 1 : 0;
+    binding.copies_of_list += needs_copy(layout, true) ? 1 : 0;
+  };
+  for (const ChannelLayout& input : binding.inputs) {
+    const auto first = std::ranges::find(binding.inputs, input);
+    binding.first_alike.push_back(static_cast<std::uint32_t>(first - binding.inputs.begin()));
+    if (&*first == &input) count(input);
   }
+  for (const ChannelLayout& output : binding.outputs) count(output);
   return binding;
 }
 

@@ -20,8 +20,11 @@ struct Binding {
   std::vector<ChannelLayout> inputs;     ///< One a Program::inputs entry.
   std::vector<ChannelLayout> outputs;    ///< One a Program::outputs entry.
   std::vector<std::uint32_t> constants;  ///< What layouts of array `bound_constants` lie in.
-  std::uint32_t arrays = 0;              ///< As many as a Batch must have.
-  bool reads_instances = false;          ///< A Batch must have a list of them.
+  /// One an input: the first of its layout, which may be itself. As N and Ng of a flat triangle
+  /// are: where they must be copied one copy is enough.
+  std::vector<std::uint32_t> first_alike;
+  std::uint32_t arrays = 0;      ///< As many as a Batch must have.
+  bool reads_instances = false;  ///< A Batch must have a list of them.
   /// Channels that kernels cannot take where they are: of batches without a list of points, and
   /// with one.
   /// @{

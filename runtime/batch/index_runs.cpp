@@ -20,6 +20,38 @@ std::size_t worth_it(std::size_t count) { return count * 2 / 5; }
 
 bool is_column(const IndexRuns::Copy& copy) { return copy.stride == sizeof(std::uint32_t); }
 
+/// Where copies are from and to, by value: what is written could else be taken for a part of it.
+template <std::size_t n>
+struct Ends {
+  explicit Ends(std::span<const IndexRuns::Copy, n> copies) {
+    for (std::size_t i = 0; i < n; ++i) {
+      arrays[i] = reinterpret_cast<std::uint32_t*>(copies[i].array);
+      words[i] = copies[i].words;
+    }
+  }
+  std::array<std::uint32_t*, n> arrays, words;
+};
+
+/// Calls all_columns with those of the copies that are columns, as a span of fixed size, and
+/// `other` with each that is none.
+template <class Columns, class Other>
+void sort_out(std::span<const IndexRuns::Copy> copies, Columns&& all_columns, Other&& other) {
+  std::array<IndexRuns::Copy, IndexRuns::together> list;
+  std::size_t count = 0;
+  for (const IndexRuns::Copy& copy : copies) {
+    is_column(copy) ? void(list[count++] = copy) : other(copy);
+  }
+  const std::span<const IndexRuns::Copy> columns(list);
+  static_assert(IndexRuns::together == 4);
+  switch (count) {
+    case 1: return all_columns(columns.first<1>());
+    case 2: return all_columns(columns.first<2>());
+    case 3: return all_columns(columns.first<3>());
+    case 4: return all_columns(columns.first<4>());
+    default: assert(count == 0);
+  }
+}
+
 /// How many indices lie before the one they follow, or `width` or more behind it: as many runs end
 /// at least. Without branches, which of a list that jumps about nobody predicts.
 __attribute__((target("avx2"))) std::size_t count_jumps(const std::uint32_t* indices,
@@ -52,14 +84,39 @@ void IndexRuns::prepare(const std::uint32_t* indices, std::size_t count) {
   assert(count <= most);
   count_ = count;
   run_count_ = 0;
+  window_count_ = 0;
+  has_looked_for_runs_ = vectors_ == Vectors::none || count < width_avx2;
   std::copy_n(indices, count, indices_.begin());
   std::fill_n(indices_.begin() + static_cast<std::ptrdiff_t>(count), slack, 0u);
-  if (vectors_ == Vectors::none || count < width_avx2) return;
+  if (vectors_ == Vectors::avx512) find_blocks();
+}
+
+void IndexRuns::find_runs() {
+  if (has_looked_for_runs_) return;
+  has_looked_for_runs_ = true;
   const bool is_wide = vectors_ == Vectors::avx512;
   const std::uint32_t width = is_wide ? width_avx512 : width_avx2;
-  if (count_jumps(indices, count, width) >= worth_it(count)) return;
+  if (count_jumps(indices_.data(), count_, width) >= worth_it(count_)) return;
   is_wide ? find_runs_avx512() : find_runs_avx2();
-  if (run_count_ >= worth_it(count)) run_count_ = 0;
+  if (run_count_ >= worth_it(count_)) run_count_ = 0;
+}
+
+__attribute__((target("avx512f"))) void IndexRuns::find_blocks() {
+  // No window may reach behind the last element that the list names.
+  const std::uint32_t largest = largest_of(indices_.data(), count_);
+  if (largest + 1 < window) return;
+  const std::uint32_t last_base = largest - (window - 1);
+  for (std::size_t i = 0; i < count_; i += block) {
+    const auto valid =
+        static_cast<__mmask16>(count_ - i < block ? (1u << (count_ - i)) - 1 : 0xffffu);
+    // Where the first is the smallest, as in ascending lists.
+    const std::uint32_t base = std::min(indices_[i], last_base);
+    const __m512i places = _mm512_sub_epi32(_mm512_loadu_si512(indices_.data() + i),
+                                            _mm512_set1_epi32(static_cast<int>(base)));
+    const bool fits = _mm512_mask_cmpge_epu32_mask(valid, places, _mm512_set1_epi32(window)) == 0;
+    windows_[i / block] = fits ? base : no_window;
+    window_count_ += fits ? 1 : 0;
+  }
 }
 
 void IndexRuns::find_runs_avx2() {
@@ -144,32 +201,55 @@ __attribute__((target("avx2"))) void IndexRuns::gather_avx2(Copy copy) const {
   }
 }
 
-// What a mask leaves out is neither read nor written, wherever memory ends.
+// Permutations, for to compress what a mask names takes a CPU (Zen 5) more than twice as long.
 template <std::size_t n>
 __attribute__((target("avx512f"))) void IndexRuns::gather_avx512(
     std::span<const Copy, n> copies) const {
-  for (std::size_t k = 0; k < run_count_; ++k) {
-    const Run run = runs_[k];
+  const Ends<n> ends(copies);
+  for (std::size_t first = 0, count = count_; first < count; first += block) {
+    const std::uint32_t base = windows_[first / block];
+    if (base == no_window) {
+      for (const Copy& copy : copies) {
+        gather_by_index(copy, first, std::min(block, count - first));
+      }
+      continue;
+    }
+    const __m512i places = _mm512_sub_epi32(_mm512_loadu_si512(indices_.data() + first),
+                                            _mm512_set1_epi32(static_cast<int>(base)));
+    const __mmask16 is_high = _mm512_cmpge_epu32_mask(places, _mm512_set1_epi32(window / 2));
     for (std::size_t i = 0; i < n; ++i) {
-      const auto* from = reinterpret_cast<const std::uint32_t*>(copies[i].array);
-      const __m512i words = _mm512_maskz_loadu_epi32(run.mask, from + run.base);
-      _mm512_storeu_si512(copies[i].words + run.first,
-                          _mm512_maskz_compress_epi32(run.mask, words));
+      const std::uint32_t* const from = ends.arrays[i] + base;
+      // Of a place the low five bits count: those within its half.
+      const __m512i low = _mm512_permutex2var_epi32(_mm512_loadu_si512(from), places,
+                                                    _mm512_loadu_si512(from + 16));
+      const __m512i high = _mm512_permutex2var_epi32(_mm512_loadu_si512(from + 32), places,
+                                                     _mm512_loadu_si512(from + 48));
+      _mm512_storeu_si512(ends.words[i] + first, _mm512_mask_mov_epi32(low, is_high, high));
     }
   }
 }
 
+// What a mask leaves out is neither read nor written, wherever memory ends.
 template <std::size_t n>
 __attribute__((target("avx512f"))) void IndexRuns::scatter_avx512(
     std::span<const Copy, n> copies) const {
-  for (std::size_t k = 0; k < run_count_; ++k) {
+  const __m512i in_order = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const Ends<n> ends(copies);
+  for (std::size_t k = 0, runs = run_count_; k < runs; ++k) {
     const Run run = runs_[k];
+    const __m512i places = _mm512_maskz_expand_epi32(run.mask, in_order);
     for (std::size_t i = 0; i < n; ++i) {
-      auto* const to = reinterpret_cast<std::uint32_t*>(copies[i].array);
-      const __m512i words = _mm512_loadu_si512(copies[i].words + run.first);
-      _mm512_mask_storeu_epi32(to + run.base, run.mask, _mm512_maskz_expand_epi32(run.mask, words));
+      const __m512i words = _mm512_loadu_si512(ends.words[i] + run.first);
+      _mm512_mask_storeu_epi32(ends.arrays[i] + run.base, run.mask,
+                               _mm512_maskz_permutexvar_epi32(run.mask, places, words));
     }
   }
+}
+
+void IndexRuns::gather_by_index(Copy copy, std::size_t first, std::size_t count) const {
+  const std::uint32_t* const indices = indices_.data() + first;
+  gather_words(count, copy.words + first,
+               [&](std::size_t i) { return copy.array + 4 * std::size_t{indices[i]}; });
 }
 
 void IndexRuns::gather_one(Copy copy) const {
@@ -178,11 +258,8 @@ void IndexRuns::gather_one(Copy copy) const {
       return copy.array + copy.stride * static_cast<std::ptrdiff_t>(indices_[i]);
     });
   }
-  if (run_count_ != 0 && vectors_ == Vectors::avx512)
-    return gather_avx512(std::span<const Copy, 1>(&copy, 1));
-  if (run_count_ != 0) return gather_avx2(copy);
-  gather_words(count_, copy.words,
-               [&](std::size_t i) { return copy.array + 4 * std::size_t{indices_[i]}; });
+  if (vectors_ == Vectors::avx2 && run_count_ != 0) return gather_avx2(copy);
+  gather_by_index(copy, 0, count_);
 }
 
 void IndexRuns::scatter_one(Copy copy) const {
@@ -191,25 +268,24 @@ void IndexRuns::scatter_one(Copy copy) const {
       return copy.array + copy.stride * static_cast<std::ptrdiff_t>(indices_[i]);
     });
   }
-  if (run_count_ != 0 && vectors_ == Vectors::avx512)
-    return scatter_avx512(std::span<const Copy, 1>(&copy, 1));
   scatter_words(count_, copy.words,
                 [&](std::size_t i) { return copy.array + 4 * std::size_t{indices_[i]}; });
 }
 
-void IndexRuns::gather(std::span<const Copy> copies) const {
-  if (are_together(copies)) return gather_avx512(copies.first<together>());
-  for (const Copy& copy : copies) gather_one(copy);
+void IndexRuns::gather(std::span<const Copy> copies) {
+  if (vectors_ == Vectors::avx2) find_runs();
+  const auto one = [this](const Copy& copy) { gather_one(copy); };
+  if (window_count_ == 0) return void(std::ranges::for_each(copies, one));
+  sort_out(copies, [this](auto columns) { gather_avx512(columns); }, one);
 }
 
-void IndexRuns::scatter(std::span<const Copy> copies) const {
-  if (are_together(copies)) return scatter_avx512(copies.first<together>());
-  for (const Copy& copy : copies) scatter_one(copy);
-}
-
-bool IndexRuns::are_together(std::span<const Copy> copies) const {
-  return run_count_ != 0 && vectors_ == Vectors::avx512 && copies.size() == together &&
-         std::ranges::all_of(copies, is_column);
+void IndexRuns::scatter(std::span<const Copy> copies) {
+  if (vectors_ == Vectors::avx512) find_runs();
+  const auto one = [this](const Copy& copy) { scatter_one(copy); };
+  if (vectors_ != Vectors::avx512 || run_count_ == 0) {
+    return void(std::ranges::for_each(copies, one));
+  }
+  sort_out(copies, [this](auto columns) { scatter_avx512(columns); }, one);
 }
 
 }  // namespace nacre

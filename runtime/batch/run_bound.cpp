@@ -43,7 +43,7 @@ class Copies {
  public:
   /// make(list, copies)
   explicit Copies(Make make) : make_(std::move(make)) {}
-  void add(const IndexRuns& list, const IndexRuns::Copy& copy) {
+  void add(IndexRuns& list, const IndexRuns::Copy& copy) {
     if (count_ == IndexRuns::together || (count_ > 0 && list_ != &list)) flush();
     list_ = &list;
     pending_[count_++] = copy;
@@ -55,7 +55,7 @@ class Copies {
 
  private:
   Make make_;
-  const IndexRuns* list_ = nullptr;
+  IndexRuns* list_ = nullptr;
   std::array<IndexRuns::Copy, IndexRuns::together> pending_;
   std::size_t count_ = 0;
 };
@@ -97,12 +97,17 @@ class Stage {
       row = words;
       words += block_ + IndexRuns::slack;
     };
-    for (const ChannelLayout& input : inputs()) {
-      place(input, *rows);
-      if (input.stride == 0) fill(input, static_cast<std::uint32_t*>(*rows));
+    for (std::size_t k = 0; k < inputs().size(); ++k) {
+      const ChannelLayout& input = inputs()[k];
+      if (has_copy_before(k)) {
+        rows[k] = rows[access_.binding().first_alike[k]];
+        continue;
+      }
+      place(input, rows[k]);
+      if (input.stride == 0) fill(input, static_cast<std::uint32_t*>(rows[k]));
       note_lists(input);
-      ++rows;
     }
+    rows += inputs().size();
     outputs_ = rows;
     for (const ChannelLayout& output : outputs()) {
       place(output, *rows++);
@@ -126,6 +131,11 @@ class Stage {
   const std::vector<ChannelLayout>& inputs() const { return access_.binding().inputs; }
   const std::vector<ChannelLayout>& outputs() const { return access_.binding().outputs; }
 
+  /// Whether an input before that one has the copy that it needs.
+  bool has_copy_before(std::size_t input) const {
+    return access_.binding().first_alike[input] != input && access_.needs_copy(inputs()[input]);
+  }
+
   void fill(const ChannelLayout& layout, std::uint32_t* to) const {
     std::uint32_t value = 0;
     std::memcpy(&value, access_.element(layout, 0), sizeof value);
@@ -137,7 +147,7 @@ class Stage {
     (layout.element == ElementOf::instance ? uses_instances_ : uses_points_) = true;
   }
 
-  const IndexRuns& list_of(const ChannelLayout& layout) const {
+  IndexRuns& list_of(const ChannelLayout& layout) {
     return layout.element == ElementOf::instance ? instances_ : points_;
   }
 
@@ -154,14 +164,14 @@ class Stage {
 
   void read(std::uint64_t first, std::size_t count) {
     prepare_lists(first, count);
-    Copies picked([](const IndexRuns& list, auto copies) { list.gather(copies); });
-    void** row = rows_;
-    for (const ChannelLayout& input : inputs()) {
-      auto* to = static_cast<std::uint32_t*>(*row);
-      if (input.stride == 0) {
-        // Filled in for good.
+    Copies picked([](IndexRuns& list, auto copies) { list.gather(copies); });
+    for (std::size_t k = 0; k < inputs().size(); ++k) {
+      const ChannelLayout& input = inputs()[k];
+      auto* const to = static_cast<std::uint32_t*>(rows_[k]);
+      if (input.stride == 0 || has_copy_before(k)) {
+        // Filled in for good, or with that.
       } else if (!access_.needs_copy(input)) {
-        *row = access_.element(input, first);
+        rows_[k] = access_.element(input, first);
       } else if (access_.is_listed(input)) {
         picked.add(list_of(input), {access_.element(input, 0), input.stride, to});
       } else {
@@ -170,17 +180,17 @@ class Stage {
           return from + input.stride * static_cast<std::ptrdiff_t>(i);
         });
       }
-      ++row;
     }
     picked.flush();
+    void** row = outputs_;
     for (const ChannelLayout& output : outputs()) {
       if (!access_.needs_copy(output)) *row = access_.element(output, first);
       ++row;
     }
   }
 
-  void write(std::uint64_t first, std::size_t count) const {
-    Copies picked([](const IndexRuns& list, auto copies) { list.scatter(copies); });
+  void write(std::uint64_t first, std::size_t count) {
+    Copies picked([](IndexRuns& list, auto copies) { list.scatter(copies); });
     void* const* row = outputs_;
     for (const ChannelLayout& output : outputs()) {
       auto* const from = static_cast<std::uint32_t*>(*row++);

@@ -6,6 +6,7 @@
 
 #include "jit/api/python/errors.h"
 #include "jit/api/python/module.h"
+#include "jit/api/python/resolver.h"
 
 namespace nacre::python {
 
@@ -25,10 +26,12 @@ void construct(Document* self, Make&& make) {
   new (self) Document(std::move(made));
 }
 
-ReadOptions read_options(std::vector<std::string> search_paths, bool includes_anywhere) {
+ReadOptions read_options(std::vector<std::string> search_paths, bool includes_anywhere,
+                         const nb::object& resolver) {
   ReadOptions options;
   options.search_paths = std::move(search_paths);
   options.includes_anywhere = includes_anywhere;
+  options.resolver = resolver_of(resolver);
   return options;
 }
 
@@ -39,19 +42,24 @@ void bind_document(nb::module_& module) {
       .def(
           "__init__",
           [](Document* self, const std::string& file, std::vector<std::string> search_paths,
-             bool includes_anywhere) {
-            const ReadOptions options = read_options(std::move(search_paths), includes_anywhere);
+             bool includes_anywhere, const nb::object& resolver) {
+            const ReadOptions options =
+                read_options(std::move(search_paths), includes_anywhere, resolver);
             construct(self, [&](auto* said) { return Document::read(file, options, said); });
           },
-          nb::arg("file"), nb::arg("search_paths"), nb::arg("includes_anywhere"))
+          nb::arg("file"), nb::arg("search_paths"), nb::arg("includes_anywhere"),
+          nb::arg("resolver").none())
       .def(
           "__init__",
           [](Document* self, const std::string& text, const std::string& name,
-             std::vector<std::string> search_paths, bool includes_anywhere) {
-            const ReadOptions options = read_options(std::move(search_paths), includes_anywhere);
+             std::vector<std::string> search_paths, bool includes_anywhere,
+             const nb::object& resolver) {
+            const ReadOptions options =
+                read_options(std::move(search_paths), includes_anywhere, resolver);
             construct(self, [&](auto* said) { return Document::parse(text, name, options, said); });
           },
-          nb::arg("text"), nb::arg("name"), nb::arg("search_paths"), nb::arg("includes_anywhere"))
+          nb::arg("text"), nb::arg("name"), nb::arg("search_paths"), nb::arg("includes_anywhere"),
+          nb::arg("resolver").none())
       .def_prop_ro(
           "materials", [](const Document& self) { return texts(self.materials()); },
           nb::sig("def materials(self) -> list[str]"),

@@ -8,6 +8,7 @@
 #include "jit/api/python/errors.h"
 #include "jit/api/python/image_view.h"
 #include "jit/api/python/module.h"
+#include "jit/api/python/resolver.h"
 
 namespace nacre::python {
 
@@ -19,7 +20,7 @@ void bind_system(nb::module_& module) {
           "__init__",
           [](System* self, std::vector<std::string> libraries, std::string ocio_config,
              std::string cache, int compile_threads, bool compile_apart,
-             std::uint64_t texture_memory) {
+             std::uint64_t texture_memory, const nb::object& resolver) {
             SystemOptions options;
             options.libraries = std::move(libraries);
             options.ocio_config = std::move(ocio_config);
@@ -27,6 +28,7 @@ void bind_system(nb::module_& module) {
             options.compile_threads = compile_threads;
             options.compile_apart = compile_apart;
             options.texture_memory = texture_memory;
+            options.resolver = resolver_of(resolver);
             std::vector<Diagnostic> said;
             System made = [&] {
               const nb::gil_scoped_release others_run;
@@ -36,7 +38,8 @@ void bind_system(nb::module_& module) {
             new (self) System(std::move(made));
           },
           nb::arg("libraries"), nb::arg("ocio_config"), nb::arg("cache"),
-          nb::arg("compile_threads"), nb::arg("compile_apart"), nb::arg("texture_memory"))
+          nb::arg("compile_threads"), nb::arg("compile_apart"), nb::arg("texture_memory"),
+          nb::arg("resolver").none())
       .def(
           "_check",
           [](System& self, const Document& document, const CompileOptions& options) {

@@ -146,6 +146,40 @@ TEST(IndexRuns, OfShortArraysReadNothingBehindThem) {
   }
 }
 
+// Columns and what is none in one call, at every count of either.
+TEST(IndexRuns, PickAndPutColumnsBesideStructures) {
+  const WordsBeforeNothing words(3000);
+  std::vector<std::uint32_t> list;
+  for (std::uint32_t i = 0; i < 999; i += 1 + i % 3) list.push_back(i);
+  for (const IndexRuns::Vectors vectors : all_vectors()) {
+    for (unsigned kinds = 0; kinds < 16; ++kinds) {
+      IndexRuns runs(vectors);
+      runs.prepare(list.data(), list.size());
+      std::vector<std::vector<std::uint32_t>> picked(
+          4, std::vector<std::uint32_t>(list.size() + IndexRuns::slack));
+      std::vector<std::uint32_t> put(3000, 1);
+      std::vector<IndexRuns::Copy> from, to;
+      for (unsigned k = 0; k < 4; ++k) {
+        const std::ptrdiff_t stride = (kinds >> k & 1) != 0 ? 12 : 4;
+        const auto bytes = [](std::uint32_t* word) { return reinterpret_cast<std::byte*>(word); };
+        from.push_back({bytes(words.data()), stride, picked[k].data()});
+        to.push_back({bytes(put.data()), stride, picked[k].data()});
+      }
+      runs.gather(from);
+      std::vector<std::uint32_t> expected(3000, 1);
+      for (unsigned k = 0; k < 4; ++k) {
+        const std::size_t apart = (kinds >> k & 1) != 0 ? 3 : 1;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+          ASSERT_EQ(picked[k][i], words.data()[apart * list[i]]) << kinds << ' ' << k;
+          expected[apart * list[i]] = words.data()[apart * list[i]];
+        }
+      }
+      runs.scatter(to);
+      ASSERT_EQ(put, expected) << kinds;
+    }
+  }
+}
+
 TEST(IndexRuns, PickAndPutAtAnyStride) {
   const std::vector<std::uint32_t> list{3, 0, 2, 9};
   IndexRuns runs;

@@ -148,6 +148,33 @@ TEST_F(RunBound, ShadesTheListedPointsAndLeavesTheOthersAlone) {
   EXPECT_EQ(found, expected);
 }
 
+TEST_F(RunBound, CopiesOnceWhatIsBoundAlikeAndStillTellsApartWhatIsNot) {
+  numbers.py = numbers.px;
+  numbers.alpha = numbers.u;
+  Binder binder;
+  binder.bind("P.x", {.array = 0});
+  binder.bind("P.y", {.array = 0});
+  binder.bind("P.z", {.array = 0, .element = ElementOf::place});  // Alike but for that.
+  binder.bind("uv0", {.array = 1});
+  binder.bind("color0.w", {.array = 1});
+  binder.bind("f.x", {.array = 2});
+  binder.bind("f.y", {.array = 3});
+  binder.bind("larger", {.array = 4});
+  const Binding binding = finish(binder);
+  EXPECT_EQ(binding.copies_of_list, 2 + 3);
+  std::vector<std::uint32_t> list(points);
+  for (std::uint32_t i = 0; i < points; ++i) list[i] = static_cast<std::uint32_t>(points) - 1 - i;
+  Numbers by_place = numbers;
+  for (std::size_t i = 0; i < points; ++i) by_place.pz[list[i]] = numbers.px[i];
+  const Result listed = plain(*kernel, by_place);
+  Result found;
+  const std::vector<void*> arrays{numbers.px.data(), numbers.u.data(), found.x.data(),
+                                  found.y.data(), found.larger.data()};
+  const Batch batch{.arrays = arrays, .count = points, .points = list.data()};
+  ASSERT_EQ(run_bound(binding, batch, on(*kernel)), RunStatus::done);
+  EXPECT_EQ(found, listed);
+}
+
 TEST_F(RunBound, HandsPlainArraysOverWhereTheyAre) {
   Binder binder;
   binder.bind("P", {.array = 0}, 4 * static_cast<std::ptrdiff_t>(points));

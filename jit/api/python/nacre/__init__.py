@@ -19,25 +19,25 @@ What cannot be had is an `Error` that carries the diagnostics; warnings are Pyth
 shaders are compiled and points are shaded. An object that is being changed (an instance's values)
 is used by one thread at a time.
 
-`bake` gives arrays; `bake_files`, `render`, `inspect` and `tune` run the `nacre` program, which
-comes with the package.
+`bake` gives arrays; `bake_files`, `render`, `inspect`, `tune` and `check_lobes` run the `nacre`
+program, which comes with the package.
 """
 
 from ._bake import bake
 from ._core import Binding, Entry, Stop, data_library
 from ._core import version as __version__
-from ._document import Document
+from ._document import Document, FileResolver
 from ._errors import Diagnostic, DiagnosticWarning, Error, Severity
 from ._options import CompileOptions, LobeKind, SampleFlag, Transport
 from ._parameters import Instance, Parameters, Ui
 from ._points import plane_points, surface_points
 from ._shader import Channel, Lobe, Shader, of_instance, of_place
 from ._system import System, default_system
-from ._tool import bake_files, inspect, render, tune
+from ._tool import bake_files, check_lobes, inspect, render, tune
 
 __all__ = [
     "Binding", "Channel", "CompileOptions", "Diagnostic", "DiagnosticWarning", "Document", "Entry",
-    "Error", "Instance", "Lobe", "LobeKind", "Parameters", "SampleFlag", "Severity", "Shader",
-    "Stop", "System", "Transport", "Ui", "bake", "bake_files", "data_library", "default_system",
+    "Error", "FileResolver", "Instance", "Lobe", "LobeKind", "Parameters", "SampleFlag", "Severity", "Shader",
+    "Stop", "System", "Transport", "Ui", "bake", "bake_files", "check_lobes", "data_library", "default_system",
     "inspect", "of_instance", "of_place", "plane_points", "render", "surface_points", "tune",
 ]

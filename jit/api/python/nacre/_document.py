@@ -1,32 +1,40 @@
 """MaterialX documents."""
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from . import _core
+
+# Where a file is that a document names: (name, the document that names it, whether it is an image)
+# to its path, to its contents as in an archive, or to None: it is looked for as usual. Any thread
+# may call it. Where it raises, there is no such file.
+FileResolver = Callable[[str, str, bool], str | os.PathLike[str] | bytes | None]
 
 
 class Document(_core.Document):
     """A MaterialX document, read from a file.
 
     Includes are looked for in the including file's own folder, then in `search_paths`;
-    `includes_anywhere` lets them lie outside of these. Error for what cannot be read.
+    `includes_anywhere` lets them lie outside of these; `resolver` may find them before that.
+    Error for what cannot be read.
     """
 
     def __init__(self, file: str | os.PathLike[str], *,
                  search_paths: Iterable[str | os.PathLike[str]] = (),
-                 includes_anywhere: bool = False) -> None:
+                 includes_anywhere: bool = False,
+                 resolver: FileResolver | None = None) -> None:
         super().__init__(os.fspath(file), [os.fspath(each) for each in search_paths],
-                         includes_anywhere)
+                         includes_anywhere, resolver)
 
     @classmethod
     def parse(cls, text: str, name: str = "document.mtlx", *,
               search_paths: Iterable[str | os.PathLike[str]] = (),
-              includes_anywhere: bool = False) -> "Document":
+              includes_anywhere: bool = False,
+              resolver: FileResolver | None = None) -> "Document":
         """Of text in memory; the folder of `name` is where includes and images are looked for."""
         made = cls.__new__(cls)
         _core.Document.__init__(made, text, name, [os.fspath(each) for each in search_paths],
-                                includes_anywhere)
+                                includes_anywhere, resolver)
         return made
 
     def __repr__(self) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Unpack
 
 from . import _core
-from ._document import Document
+from ._document import Document, FileResolver
 from ._errors import Diagnostic
 from ._options import CompileOptions, core_options
 from ._shader import Shader
@@ -23,14 +23,15 @@ class System(_core.System):
     compile_apart    in processes of their own, so that a fault of the compiler's costs a kernel
                      its speed and not this process its life
     texture_memory   bytes of texels in memory; 0: 2 GiB
+    resolver         finds images, see FileResolver; for includes see Document
     """
 
     def __init__(self, *, libraries: Iterable[str | os.PathLike[str]] = (),
                  ocio_config: str | os.PathLike[str] = "", cache: str | os.PathLike[str] = "",
                  compile_threads: int = 0, compile_apart: bool = False,
-                 texture_memory: int = 0) -> None:
+                 texture_memory: int = 0, resolver: FileResolver | None = None) -> None:
         super().__init__([os.fspath(each) for each in libraries], os.fspath(ocio_config),
-                         os.fspath(cache), compile_threads, compile_apart, texture_memory)
+                         os.fspath(cache), compile_threads, compile_apart, texture_memory, resolver)
 
     def compile_material(self, document: Document, material: str,
                          **options: Unpack[CompileOptions]) -> Shader:

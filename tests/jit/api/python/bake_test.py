@@ -101,6 +101,15 @@ def test_a_program_that_is_not_there(monkeypatch, tmp_path):
         nacre.inspect(MARBLE)
 
 
+def test_lobes_are_checked(tmp_path, documents):
+    file = tmp_path / "lambert.mtlx"
+    file.write_text(documents["lambert"])
+    found, = nacre.check_lobes(file, samples=10_000, no_cache=True)
+    assert found["material"] == "M" and found["faults"] == []
+    with pytest.raises(nacre.Error):  # More than nothing leaves.
+        nacre.check_lobes(file, samples=10_000, most_energy=0.1, no_cache=True)
+
+
 def test_what_tune_chooses_is_compiled(tmp_path):
     profile = tmp_path / "profile.json"
     found, = nacre.tune(MARBLE, output=["NG_marble/roughness"], max_error=0.05, profile=profile,

@@ -26,6 +26,45 @@ def test_reads_files_and_includes(tmp_path: pathlib.Path, documents):
         nacre.Document(main)
 
 
+def including(name):
+    return ('<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">'
+            f'<xi:include href="{name}"/></materialx>')
+
+
+def test_a_function_finds_includes_at_paths_and_in_memory(tmp_path, documents):
+    (tmp_path / "elsewhere.mtlx").write_text(documents["values"])
+    asked = []
+
+    def find(name, named_by, is_image):
+        asked.append((name, named_by, is_image))
+        return {"packed.mtlx": documents["twice"].encode(),
+                "moved.mtlx": tmp_path / "elsewhere.mtlx"}.get(name)
+
+    for name, outputs in (("packed.mtlx", ["out"]), ("moved.mtlx", ["out", "number"])):
+        document = nacre.Document.parse(including(name), "main.mtlx", resolver=find)
+        assert document.outputs == outputs
+    assert asked == [("packed.mtlx", "main.mtlx", False), ("moved.mtlx", "main.mtlx", False)]
+    with pytest.raises(nacre.Error):  # None: it is looked for as usual, and is not there.
+        nacre.Document.parse(including("none.mtlx"), "main.mtlx", resolver=find)
+    assert asked[-1][0] == "none.mtlx"
+
+
+@pytest.mark.parametrize(("find", "reason"), [
+    (lambda *_: {}["key"], "KeyError: 'key'"), (lambda *_: 3, "TypeError"),
+    (lambda: None, "TypeError")])
+def test_what_a_function_raises_is_said(find, reason):
+    with pytest.raises(nacre.Error) as caught:
+        nacre.Document.parse(including("a.mtlx"), "main.mtlx", resolver=find)
+    assert reason in str(caught.value)
+
+
+def test_a_resolver_is_a_function(documents):
+    with pytest.raises(TypeError):
+        nacre.Document.parse(documents["twice"], resolver="archive.zip")
+    with pytest.raises(TypeError):
+        nacre.System(resolver=3)
+
+
 def test_error_carries_the_place():
     with pytest.raises(nacre.Error) as caught:
         nacre.Document.parse('<materialx version="1.39"><mix name="m"', "broken.mtlx")

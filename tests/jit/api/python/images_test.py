@@ -34,6 +34,20 @@ def test_an_array_is_an_image_and_is_replaced_under_shaders(painted):
         system.compile_outputs(document, ["out"])
 
 
+def test_a_function_finds_images(documents, tmp_path):
+    def ppm(color):
+        return b"P6 1 1 255\n" + bytes(255 * each for each in color)
+
+    (tmp_path / "green.ppm").write_bytes(ppm(GREEN))
+    document = nacre.Document.parse(documents["painted"].replace("painted", "painted.ppm"))
+    for found, expected in ((ppm(BLUE), BLUE), (tmp_path / "green.ppm", GREEN)):
+        system = nacre.System(resolver=lambda name, by, is_image, found=found: found)
+        assert colors(system.compile_outputs(document, ["out"]), [[0.5, 0.5]]).tolist() == [expected]
+    with pytest.raises(nacre.Error) as caught:
+        nacre.System(resolver=lambda *_: 1 / 0).compile_outputs(document, ["out"])
+    assert "ZeroDivisionError" in str(caught.value)
+
+
 @pytest.mark.parametrize(("of", "one"), [(np.uint8, 255), (np.uint16, 65535), (np.float16, 1),
                                          (np.float32, 1)])
 def test_samples_of_every_type_and_rows_in_any_order(painted, of, one):
