@@ -42,9 +42,10 @@ bool is_refused(const Program& program, const CompileOptions& options, Diagnosti
 /// What code is known by that is made of a Program which lower_to_interface() has given.
 std::string key_of(const Program& program, const CompileOptions& options,
                    const CodegenOptions& codegen) {
-  return code_key(program, codegen,
-                  fmt::format("lowered, at most {} instructions{}", options.max_instructions,
-                              options.all_varying ? ", all varying" : ""));
+  return code_key(
+      program, codegen,
+      fmt::format("lowered, at most {} instructions, tables within {}{}", options.max_instructions,
+                  table_error_of(options), options.all_varying ? ", all varying" : ""));
 }
 
 /// LLVM's text of a Program as a stage more.

@@ -1,6 +1,8 @@
 #include "jit/compile/lower.h"
 
+#include <array>
 #include <cassert>
+#include <cstddef>
 #include <utility>
 
 #include "jit/compile/stages.h"
@@ -9,6 +11,7 @@
 #include "jit/passes/expand_math.h"
 #include "jit/passes/flatten.h"
 #include "jit/passes/scale_footprints.h"
+#include "jit/passes/tabulate/tabulate.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {
@@ -47,6 +50,13 @@ class Passes {
 
 }  // namespace
 
+double table_error_of(const CompileOptions& options) {
+  // Precise computes what was written; standard may be off by as much as some roundings are.
+  constexpr std::array by_accuracy{0.0, 1e-6, 1e-3};
+  if (options.backend == Backend::reference) return 0;
+  return options.table_error.value_or(by_accuracy[static_cast<std::size_t>(options.accuracy)]);
+}
+
 bool is_too_large(const Program& program, const CompileOptions& options) {
   return instruction_count(program) > options.max_instructions;
 }
@@ -80,6 +90,11 @@ Program lower_to_engine(Program program, const CompileOptions& options,
     return std::move(passes.program());
   };
   if (options.backend == Backend::reference) return scale();
+
+  // What depends on one number alone comes of tables, if they may be off.
+  if (const double error = table_error_of(options); error > 0) {
+    passes.run("tabulate", [&](const Program& p) { return tabulate(p, error); });
+  }
 
   // Transcendental functions become polynomials of the accuracy asked for.
   passes.run("expand_math", [&](const Program& p) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "runtime/kernel.h"
 #include "runtime/program/cost.h"
@@ -20,6 +21,10 @@ enum class Backend : std::uint8_t {
 struct CompileOptions {
   Accuracy accuracy = Accuracy::standard;  ///< Of the transcendental functions and closures.
   Backend backend = Backend::jit;          ///< What runs the kernel.
+  /// How far tables may be off that stand for what depends on one bounded number alone, relative
+  /// to it or to a hundredth of its largest (see tabulate()); 0: there are none. Not of the
+  /// reference engine. Nothing: what the accuracy is worth, table_error_of().
+  std::optional<double> table_error = std::nullopt;
   /// 1, 4, 8, 16; 0: the widest that pays on this machine; else an error. JIT only.
   int lanes = 0;
   /// Code of one lane as well, which runs of one point take. JIT only.
@@ -48,6 +53,9 @@ struct CompileOptions {
   bool dump_ir = false;        ///< A stage "llvm" with the LLVM IR as text. JIT only.
   bool dump_assembly = false;  ///< A stage "assembly" with the machine code as text. JIT only.
 };
+
+/// CompileOptions::table_error, by accuracy where nothing is said.
+double table_error_of(const CompileOptions& options);
 
 /// When a call that begins now must have made its Programs, for `stop`.
 Stop stop_from_now(const CompileOptions& options);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "jit/api/python/errors.h"
+
 namespace nacre::python {
 
 namespace nb = nanobind;
@@ -46,7 +48,8 @@ FileResolver resolver_of(const nb::object& function) {
                 int what) -> std::optional<File> {
     const nb::gil_scoped_acquire held_by_us;
     try {
-      const nb::object found = nb::handle(held.get())(name, named_by, what == NACRE_IMAGE);
+      const nb::object found =
+          nb::handle(held.get())(text(name), text(named_by), what == NACRE_IMAGE);
       if (found.is_none()) return std::nullopt;
       return file_of(name, found);
     } catch (const nb::python_error& raised) {

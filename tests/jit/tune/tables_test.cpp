@@ -25,6 +25,7 @@ std::unique_ptr<MaterialKernels> compiled(const std::string& bsdf, const ShaderO
 ShaderOptions with_tables(double error, int lanes = 0, Backend backend = Backend::jit) {
   ShaderOptions options;
   options.kernels.table_error = error;
+  options.compile.table_error = 0;  // Nor those of what depends on one number.
   options.compile.lanes = lanes;
   options.compile.backend = backend;
   options.footprints = false;

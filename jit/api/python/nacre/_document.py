@@ -1,14 +1,19 @@
 """MaterialX documents."""
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from typing import Protocol
 
 from . import _core
 
-# Where a file is that a document names: (name, the document that names it, whether it is an image)
-# to its path, to its contents as in an archive, or to None: it is looked for as usual. Any thread
-# may call it. Where it raises, there is no such file.
-FileResolver = Callable[[str, str, bool], str | os.PathLike[str] | bytes | None]
+
+class FileResolver(Protocol):
+    """A function that says where a file is which the document `named_by` names: its path; its
+    contents, as in an archive; None: it is looked for as usual. Any thread may call it. Where it
+    raises, there is no such file, and the Error of that says why."""
+
+    def __call__(self, name: str, named_by: str, is_image: bool,
+                 /) -> str | os.PathLike[str] | bytes | None: ...
 
 
 class Document(_core.Document):

@@ -1,5 +1,7 @@
 """Images that a host has in memory."""
 
+import struct
+
 import nacre
 import numpy as np
 import pytest
@@ -35,12 +37,13 @@ def test_an_array_is_an_image_and_is_replaced_under_shaders(painted):
 
 
 def test_a_function_finds_images(documents, tmp_path):
-    def ppm(color):
-        return b"P6 1 1 255\n" + bytes(255 * each for each in color)
+    def bmp(color):  # Of a pixel of 24 bits, blue first.
+        header = struct.pack("<2sIIIIiiHHIIiiII", b"BM", 58, 0, 54, 40, 1, 1, 1, 24, 0, 4, 0, 0, 0, 0)
+        return header + bytes(255 * each for each in reversed(color)) + b"\0"
 
-    (tmp_path / "green.ppm").write_bytes(ppm(GREEN))
-    document = nacre.Document.parse(documents["painted"].replace("painted", "painted.ppm"))
-    for found, expected in ((ppm(BLUE), BLUE), (tmp_path / "green.ppm", GREEN)):
+    (tmp_path / "green.bmp").write_bytes(bmp(GREEN))
+    document = nacre.Document.parse(documents["painted"].replace("painted", "painted.bmp"))
+    for found, expected in ((bmp(BLUE), BLUE), (tmp_path / "green.bmp", GREEN)):
         system = nacre.System(resolver=lambda name, by, is_image, found=found: found)
         assert colors(system.compile_outputs(document, ["out"]), [[0.5, 0.5]]).tolist() == [expected]
     with pytest.raises(nacre.Error) as caught:

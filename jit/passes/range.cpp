@@ -1,0 +1,129 @@
+#include "jit/passes/range.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "runtime/program/fold.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Larger than what rounding to float moves a number by, in parts of it.
+constexpr double rounding = 1e-6;
+
+/// Wider by what floats round, which makes zero of what is denormal; nothing is known of what leaves
+/// their range.
+Range rounded(double low, double high) {
+  constexpr double largest = 1e38, smallest = 1.2e-38;
+  if (!(low >= -largest && high <= largest)) return {};
+  low -= rounding * std::abs(low);
+  high += rounding * std::abs(high);
+  return {low > 0 && low < smallest ? 0 : low, high < 0 && high > -smallest ? 0 : high, false};
+}
+
+Range hull(const Range& a, const Range& b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high), a.nan || b.nan};
+}
+
+Range sum(const Range& a, const Range& b) {
+  if (!a.is_bounded() || !b.is_bounded()) return {};
+  return rounded(a.low + b.low, a.high + b.high);
+}
+
+Range negated(const Range& a) { return {-a.high, -a.low, a.nan}; }
+
+Range product(const Range& a, const Range& b) {
+  if (!a.is_bounded() || !b.is_bounded()) return {};
+  const auto [low, high] =
+      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+  return rounded(low, high);
+}
+
+Range quotient(const Range& a, const Range& b) {
+  if (!a.is_bounded() || !b.is_bounded() || (b.low <= 0 && b.high >= 0)) return {};
+  const auto [low, high] =
+      std::minmax({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
+  return rounded(low, high);
+}
+
+/// a < b ? a : b: of NaN the second.
+Range least(const Range& a, const Range& b) {
+  return {std::min(a.low, b.low), a.nan ? b.high : std::min(a.high, b.high), b.nan};
+}
+Range most(const Range& a, const Range& b) {
+  return {a.nan ? b.low : std::max(a.low, b.low), std::max(a.high, b.high), b.nan};
+}
+
+Range absolute(const Range& a) {
+  const double high = std::max(std::abs(a.low), std::abs(a.high));
+  const bool has_zero = a.low <= 0 && a.high >= 0;
+  return {has_zero ? 0.0 : std::min(std::abs(a.low), std::abs(a.high)), high, a.nan};
+}
+
+Range root(const Range& a) {
+  if (!a.is_bounded() || a.low < 0) return {0, infinity, true};
+  return rounded(std::sqrt(a.low), std::sqrt(a.high));
+}
+
+Range of_table(const Table& table) {
+  const auto [low, high] = std::ranges::minmax(table.values);
+  return std::isfinite(low) && std::isfinite(high) ? rounded(low, high) : Range{};
+}
+
+class Ranges {
+ public:
+  explicit Ranges(const Program& program) : program_(program) {}
+
+  std::vector<Range> run() {
+    for (const Instruction& instruction : program_.entry().code) {
+      const bool is_float = instruction.type == Scalar::f32;
+      list_.push_back(is_float ? of(instruction) : Range{});
+    }
+    return std::move(list_);
+  }
+
+ private:
+  Range at(const Instruction& instruction, std::size_t operand) const {
+    return list_[instruction.operands[operand]];
+  }
+
+  Range of(const Instruction& x) const {
+    switch (x.op) {
+      case Op::constant: {
+        const double value = std::bit_cast<float>(flush_denormal(x.imm));
+        return std::isfinite(value) ? Range{value, value, false} : Range{};
+      }
+      case Op::add: return sum(at(x, 0), at(x, 1));
+      case Op::sub: return sum(at(x, 0), negated(at(x, 1)));
+      case Op::mul: return product(at(x, 0), at(x, 1));
+      case Op::fma: return sum(product(at(x, 0), at(x, 1)), at(x, 2));
+      case Op::div: return quotient(at(x, 0), at(x, 1));
+      case Op::min: return least(at(x, 0), at(x, 1));
+      case Op::max: return most(at(x, 0), at(x, 1));
+      case Op::sqrt: return root(at(x, 0));
+      case Op::neg: return negated(at(x, 0));
+      case Op::abs: return absolute(at(x, 0));
+      case Op::select: return hull(at(x, 1), at(x, 2));
+      case Op::merge: return hull(at(x, 0), at(x, 1));
+      case Op::keep: return at(x, 0);
+      case Op::sin:
+      case Op::cos: return {-1, 1, !at(x, 0).is_bounded()};
+      case Op::table: return of_table(program_.tables[x.imm]);
+      default: return {};
+    }
+  }
+
+  const Program& program_;
+  std::vector<Range> list_;
+};
+
+}  // namespace
+
+bool Range::is_bounded() const { return !nan && low > -infinity && high < infinity; }
+
+std::vector<Range> ranges_of(const Program& program) { return Ranges(program).run(); }
+
+}  // namespace nacre

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "runtime/program/program.h"
+
+namespace nacre {
+
+/// What is known of a value: every number that it may be is in [low, high], beside NaN if `nan`.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool nan = true;
+
+  /// Finite numbers alone.
+  bool is_bounded() const;
+  bool operator==(const Range&) const = default;
+};
+
+/// Of each value of the entry, in order; of what is no f32 nothing is known. Conservative, by
+/// interval arithmetic of the operations as op.h says them, with room for the rounding of floats;
+/// inputs, parameters, texels, carries and results of calls may be anything.
+std::vector<Range> ranges_of(const Program& program);
+
+}  // namespace nacre

@@ -1,0 +1,142 @@
+#include "jit/passes/tabulate/piecewise.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "runtime/program/recorder.h"
+
+namespace nacre {
+
+namespace {
+
+constexpr int parts = Axis::parts;
+constexpr std::size_t degrees = 3;
+/// Below that share of a function's largest value errors are not relative.
+constexpr double floor_of_peak = 0.01;
+
+/// A polynomial in [0, 1], by its values in equal parts of that.
+using Polynomial = std::array<double, degrees + 1>;
+using Values = std::span<const double, parts + 1>;
+
+/// Through as many of the values as it has coefficients, those at both ends among them: neighbours
+/// meet.
+Polynomial interpolate(Values values, std::size_t degree) {
+  const double f0 = values[0], f1 = values[parts];
+  switch (degree) {
+    case 1: return {f0, f1 - f0, 0, 0};
+    case 2: {
+      const double middle = values[parts / 2];
+      return {f0, 4 * middle - 3 * f0 - f1, 2 * f0 - 4 * middle + 2 * f1, 0};
+    }
+    default: {
+      // At 0, 1/4, 3/4 and 1, nearly Chebyshev's; Newton's divided differences.
+      const double a = values[parts / 4], b = values[3 * parts / 4];
+      const double d1 = 4 * (a - f0), d2 = 2 * (b - a), d3 = 4 * (f1 - b);
+      const double e1 = (d2 - d1) / 0.75, e2 = (d3 - d2) / 0.75;
+      const double g = e2 - e1;
+      // f0 + x (d1 + (x - 1/4) (e1 + (x - 3/4) g))
+      return {f0, d1 - 0.25 * e1 + 0.1875 * g, e1 - g, g};
+    }
+  }
+}
+
+double at(const Polynomial& p, double x) { return p[0] + x * (p[1] + x * (p[2] + x * p[3])); }
+
+/// Of the lowest degree that is close enough in all cells; empty if none is.
+std::vector<std::vector<float>> fit(std::span<const double> values, std::size_t cells,
+                                    double error) {
+  const double peak =
+      std::abs(*std::ranges::max_element(values, {}, [](double v) { return std::abs(v); }));
+  const double floor = floor_of_peak * peak;
+  for (std::size_t degree = 1; degree <= degrees; ++degree) {
+    std::vector<std::vector<float>> coefficients(degree + 1, std::vector<float>(cells));
+    bool is_close = true;
+    for (std::size_t cell = 0; cell < cells && is_close; ++cell) {
+      const Values here(values.data() + cell * parts, parts + 1);
+      Polynomial p = interpolate(here, degree);
+      for (std::size_t k = 0; k <= degree; ++k) {
+        coefficients[k][cell] = static_cast<float>(p[k]);
+        p[k] = coefficients[k][cell];
+      }
+      for (std::size_t k = 0; k <= parts; ++k) {
+        const double off = std::abs(at(p, static_cast<double>(k) / parts) - here[k]);
+        is_close = is_close && off <= error * std::max(std::abs(here[k]), floor);
+      }
+    }
+    if (is_close) return coefficients;
+  }
+  return {};
+}
+
+std::optional<Piecewise> fit_along(const Axis& axis, double error, const Sampled& sampled) {
+  const auto values = sampled(axis.numbers);
+  if (values.empty()) return std::nullopt;
+  Piecewise made{axis, {}};
+  bool has_any = false;
+  for (const std::vector<double>& of_one : values) {
+    const bool is_finite = std::ranges::all_of(of_one, [](double v) { return std::isfinite(v); });
+    made.functions.push_back(is_finite ? fit(of_one, static_cast<std::size_t>(axis.cells), error)
+                                       : std::vector<std::vector<float>>{});
+    has_any = has_any || !made.functions.back().empty();
+  }
+  return has_any ? std::optional(std::move(made)) : std::nullopt;
+}
+
+std::ptrdiff_t fitted_functions(const Piecewise& fitted) {
+  return std::ranges::count_if(fitted.functions, [](const auto& each) { return !each.empty(); });
+}
+
+}  // namespace
+
+double Piecewise::cost() const {
+  const double look_up = axis.cells > 16 ? 2 : 1;
+  double cost = axis.cost + 5;
+  for (const auto& coefficients : functions) {
+    const auto count = static_cast<double>(coefficients.size());
+    if (count > 0) cost += count * look_up + count - 1;
+  }
+  return cost;
+}
+
+std::optional<Piecewise> fit_piecewise(std::span<const Axis> axes, double error,
+                                       const Sampled& sampled) {
+  std::optional<Piecewise> best;
+  for (const Axis& axis : axes) {
+    std::optional<Piecewise> made = fit_along(axis, error, sampled);
+    if (!made) continue;
+    const auto more = best ? fitted_functions(*made) - fitted_functions(*best) : 1;
+    if (more > 0 || (more == 0 && made->cost() < best->cost())) best = std::move(made);
+  }
+  return best;
+}
+
+Ref record_piecewise(Recorder& recorder, const Piecewise& fitted, std::size_t function, Ref place) {
+  const auto emit = [&](Op op, std::initializer_list<Ref> operands, std::uint32_t imm = 0) {
+    return recorder.emit(op, std::span(operands.begin(), operands.size()), imm);
+  };
+  const Ref last = Ref::literal(static_cast<float>(fitted.axis.cells - 1));
+  Ref cell = emit(Op::min, {emit(Op::floor, {place}), last});
+  // Rounding may lead below.
+  if (fitted.axis.low != 0) cell = emit(Op::max, {cell, Ref::literal(0.0f)});
+  const Ref within = emit(Op::sub, {place, cell});
+  Ref index = emit(Op::f_to_i, {cell});
+  // Changes nothing, and tells engines that the index needs no clamp.
+  const auto cells = static_cast<std::uint32_t>(fitted.axis.cells);
+  if (std::has_single_bit(cells)) {
+    index = emit(Op::iand, {index, Ref::literal(static_cast<std::int32_t>(cells - 1))});
+  }
+  const auto& coefficients = fitted.functions[function];
+  const auto coefficient = [&](std::size_t degree) {
+    return emit(Op::table, {index}, recorder.table("tabulated", coefficients[degree]));
+  };
+  Ref value = coefficient(coefficients.size() - 1);
+  for (std::size_t k = coefficients.size() - 1; k-- > 0;) {
+    value = emit(Op::fma, {value, within, coefficient(k)});
+  }
+  return value;
+}
+
+}  // namespace nacre
