@@ -12,9 +12,11 @@ MAY_INCLUDE = {
     "jit": ("jit", "nodes", "pbs", "runtime"),
     "bench": ("bench", "examples/measure", "jit", "nodes", "pbs", "runtime"),
     "examples": ("examples", "jit", "nodes", "pbs", "runtime"),
+    "examples/image_input": ("examples/image_input",),
     "tests": ("jit", "nodes", "pbs", "runtime", "tests"),
     "tests/conformance": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
     "tests/examples": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
+    "tests/examples/image_input": ("examples/image_input", "tests"),
     "tests/examples/render": ("examples", "runtime", "tests"),
     "tests/fuzz": ("examples", "jit", "nodes", "pbs", "runtime", "tests"),
 }
@@ -29,8 +31,8 @@ JIT_STAGES = ("jit/document", "jit/graph/look", "jit/graph", "jit/graph/color",
 # Start of an include from outside -> the folders that may have it.
 QUARANTINE = {
     "OpenColorIO/": ("jit/ocio/opencolorio", "tests/jit/ocio"),
-    "OpenImageIO/": ("bench/textures", "examples/image_writer", "runtime/texture/openimageio",
-                     "tests/examples", "tests/runtime/texture"),
+    "OpenImageIO/": ("bench/textures", "examples/image_input", "examples/image_writer",
+                     "runtime/texture/openimageio", "tests/examples", "tests/runtime/texture"),
     "benchmark/": ("bench",),
     "embree": ("examples",),
     "gtest/": ("tests",),

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include "examples/image_input/level.h"
+#include "examples/image_input/output_store.h"
+
+namespace graph_image {
+
+/// Texels on a side of a tile.
+constexpr int tile_side = 64;
+
+/// What OpenImageIO is told of a level: its size in tiles of 64 x 64, channels (Y; R, G, B, A; of
+/// matrices m0, m1, ...), and of the whole that it is a texture with its wrap modes, of colours
+/// that they are linear, and as "mtlx:output", "mtlx:type" and, where there are any,
+/// "mtlx:warnings" what it is of.
+OIIO::ImageSpec spec_of(const ReadyOutput& ready, const Request& request, const Level& level);
+
+}  // namespace graph_image
