@@ -137,7 +137,12 @@ GraphOutput::GraphOutput(nacre::System& system, const nacre::Document& document,
   usual_height_ = size_of(document, name_, "height");
   nacre::Binder binder;
   bind_plane(*shader_, binder);
-  binder.array(name_, {array_result, 0, std::ptrdiff_t(sizeof(float)) * components_});
+  // One by one: a matrix has no group of channels.
+  const auto stride = static_cast<std::ptrdiff_t>(results.size() * sizeof(float));
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const auto offset = static_cast<std::ptrdiff_t>(i * sizeof(float));
+    binder.array(results[i].name, {array_result, offset, stride});
+  }
   binding_.emplace(binder, *shader_);
 }
 
