@@ -17,13 +17,6 @@ namespace {
 
 class Textures : public Images {
  protected:
-  void SetUp() override {
-    cache_ = {OIIO::ImageCache::create(false),
-              [](OIIO::ImageCache* cache) { OIIO::ImageCache::destroy(cache); }};
-    system_ = {OIIO::TextureSystem::create(false, cache_.get()),
-               [](OIIO::TextureSystem* system) { OIIO::TextureSystem::destroy(system); }};
-  }
-
   /// Two channels at (s, t) of a texture, t from the top, for a footprint as wide as high.
   std::pair<float, float> look_up(const std::string& name, float s, float t, float width) {
     OIIO::TextureOpt options;
@@ -39,8 +32,10 @@ class Textures : public Images {
     return value;
   }
 
-  std::shared_ptr<OIIO::ImageCache> cache_;
-  std::shared_ptr<OIIO::TextureSystem> system_;
+  // What all of a program have in common, and goes after everything else: destroying one of one's
+  // own is a fault of OpenImageIO's (2.4), which frees it as an object of another type.
+  OIIO::ImageCache* cache_ = OIIO::ImageCache::create(true);
+  OIIO::TextureSystem* system_ = OIIO::TextureSystem::create(true);
 };
 
 TEST_F(Textures, ARampIsItselfAtAnyWidth) {
@@ -103,12 +98,13 @@ TEST_F(Textures, OnlyTilesThatAreLookedAtAreShaded) {
   ASSERT_TRUE(cache_->add_file(OIIO::ustring(name), [] {
     return static_cast<OIIO::ImageInput*>(new GraphInput(shared_store()));
   }));
+  const int tiles_before = statistic("stat:tiles_created");
   for (const float s : {0.1f, 0.5f, 0.9f}) {
     const auto [u, v] = look_up(name, s, 0.25f, 0.0f);
     EXPECT_NEAR(u, s, 1e-5f);
     EXPECT_NEAR(v, 0.75f, 1e-5f);
   }
-  const int tiles = statistic("stat:tiles_created");
+  const int tiles = statistic("stat:tiles_created") - tiles_before;
   EXPECT_GE(tiles, 3);
   EXPECT_LE(tiles, 24);  // Four of two levels, each time.
   const auto ready = shared_store().get(read_request(name, nullptr));
