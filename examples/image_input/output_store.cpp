@@ -56,11 +56,11 @@ std::set<std::string> files_of(const nacre::Document& document) {
   return files;
 }
 
-std::shared_ptr<const ReadyOutput> make(nacre::System& system, const Request& request) {
+std::shared_ptr<const ReadyOutput> make(nacre::System& system, const Request& request,
+                                        std::vector<nacre::Diagnostic> said) {
   auto made = std::make_shared<ReadyOutput>();
   // Before they are read: who changes one meanwhile changes its stamp.
   const FileStamp itself = stamp_of(fs::absolute(request.document));
-  std::vector<nacre::Diagnostic> said;
   const nacre::Document document = nacre::Document::read(request.document, {}, &said);
   made->files.push_back(itself);
   for (const std::string& file : files_of(document)) {
@@ -94,7 +94,7 @@ nacre::System& OutputStore::system() {
   if (!system_) {
     nacre::SystemOptions options;
     options.compile_apart = true;  // A fault of the compiler does not end somebody's program.
-    system_.emplace(options);
+    system_.emplace(options, &system_said_);
   }
   return *system_;
 }
@@ -118,7 +118,8 @@ std::shared_ptr<const ReadyOutput> OutputStore::get(const Request& request) {
   const std::lock_guard lock(entry->mutex);
   if (entry->ready == nullptr || !are_current(entry->ready->files)) {
     entry->ready = nullptr;
-    entry->ready = make(system(), request);
+    nacre::System& compiler = system();
+    entry->ready = make(compiler, request, system_said_);
   }
   return entry->ready;
 }

@@ -50,8 +50,9 @@ class OutputStore {
   const std::size_t most_;
   std::mutex system_mutex_;
   std::optional<nacre::System> system_;
-  std::mutex mutex_;                           ///< Of the list.
-  std::list<std::shared_ptr<Entry>> entries_;  ///< What was asked for last comes first.
+  std::vector<nacre::Diagnostic> system_said_;  ///< Of making it; as it is from then on.
+  std::mutex mutex_;                            ///< Of the list.
+  std::list<std::shared_ptr<Entry>> entries_;   ///< What was asked for last comes first.
 };
 
 /// The one store of the process, which goes when the process ends. OpenImageIO makes its readers

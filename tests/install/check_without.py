@@ -64,7 +64,7 @@ def main() -> int:
         if done.returncode != status or said not in done.stderr:
             faults += 1
             print(f"{command}: status {done.returncode}, not {status} with '{said}':\n{done.stderr}")
-    modules = list(PREFIX.rglob("nacre_*.so"))
+    modules = [*PREFIX.rglob("nacre_*.so"), *PREFIX.rglob("*.imageio.so")]
     if modules:
         print(f"installed all the same: {modules}")
     return 1 if faults or modules else 0
