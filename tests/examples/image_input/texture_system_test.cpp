@@ -171,6 +171,21 @@ TEST_F(Textures, TextFilesAreFoundInTheSearchPath) {
   EXPECT_NEAR(v, 0.75f, 1e-5f);
 }
 
+TEST_F(Textures, TextFilesMakeASetOfTiles) {
+  write("ramp.mtlx", ramp());
+  for (const char* tile : {"1001", "1002", "1012"}) {
+    write(std::string("ramp.") + tile + ".mtlxtex",
+          std::string("ramp.mtlx?size=128&udim=") + tile + "\n");
+  }
+  const std::string name = folder_.file("ramp.<UDIM>.mtlxtex");
+  // The whole part of t counts tiles upwards; in each of them t goes down from the top.
+  for (const auto& [s, t] : {std::pair{0.25f, 0.75f}, {1.5f, 0.25f}, {1.25f, 1.5f}}) {
+    const auto [u, v] = look_up(name, s, t, 0.0f);
+    EXPECT_NEAR(u, s, 1e-5f);
+    EXPECT_NEAR(v, std::floor(t) + 1.0f - (t - std::floor(t)), 1e-5f);
+  }
+}
+
 TEST_F(Images, ManyThreadsReadWhatOneReads) {
   const std::string name = marble_ + "?output=NG_marble/base_color&size=512";
   const auto alone = open(name);
