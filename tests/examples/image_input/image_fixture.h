@@ -34,7 +34,7 @@ inline std::string grey(std::string_view value) {
 }
 
 /// Images by the plug-in itself, as any program opens them.
-class Images : public ::testing::Test {
+class GraphImages : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { OIIO::attribute("plugin_searchpath", NACRE_PLUGIN_FOLDER); }
 

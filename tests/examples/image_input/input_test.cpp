@@ -11,14 +11,14 @@
 namespace graph_image {
 namespace {
 
-using Input = Images;
+using GraphImageInput = GraphImages;
 
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && !a.empty() &&
          std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-TEST_F(Input, SaysThatItIsATexture) {
+TEST_F(GraphImageInput, SaysThatItIsATexture) {
   const auto image = open(marble_ + "?output=NG_marble/base_color&size=300x100");
   ASSERT_NE(image, nullptr);
   EXPECT_STREQ(image->format_name(), "mtlx");
@@ -41,7 +41,7 @@ TEST_F(Input, SaysThatItIsATexture) {
   EXPECT_FALSE(image->seek_subimage(0, -1));
 }
 
-TEST_F(Input, DataIsOfNoColourSpace) {
+TEST_F(GraphImageInput, DataIsOfNoColourSpace) {
   const auto image = open(marble_ + "?output=NG_marble/roughness");
   ASSERT_NE(image, nullptr);
   EXPECT_EQ(image->spec().width, 1024);
@@ -49,7 +49,7 @@ TEST_F(Input, DataIsOfNoColourSpace) {
   EXPECT_EQ(image->spec().find_attribute("oiio:ColorSpace"), nullptr);
 }
 
-TEST_F(Input, TheDocumentSaysHowLargeATextureIs) {
+TEST_F(GraphImageInput, TheDocumentSaysHowLargeATextureIs) {
   std::string text = ramp();
   text.replace(text.find("<output "), 8, "<output width=\"48\" height=\"20\" ");
   const std::string file = write("sized.mtlx", text);
@@ -62,7 +62,7 @@ TEST_F(Input, TheDocumentSaysHowLargeATextureIs) {
   EXPECT_EQ(larger->spec().height, 64);
 }
 
-TEST_F(Input, TexelsAreThoseThatTheToolBakes) {
+TEST_F(GraphImageInput, TexelsAreThoseThatTheToolBakes) {
   for (const char* output : {"base_color", "roughness"}) {
     const std::string command = std::string(NACRE_TOOL) + " bake '" + marble_ +
                                 "' -q --format exr --size 200x150 --output NG_marble/" + output +
@@ -74,7 +74,7 @@ TEST_F(Input, TexelsAreThoseThatTheToolBakes) {
   }
 }
 
-TEST_F(Input, TilesOfASetAreThoseThatTheToolBakes) {
+TEST_F(GraphImageInput, TilesOfASetAreThoseThatTheToolBakes) {
   const std::string file = write("ramp.mtlx", ramp());
   const std::string command = std::string(NACRE_TOOL) + " bake '" + file +
                               "' -q --format exr --size 32 --udim 1013 --out '" +
@@ -83,14 +83,14 @@ TEST_F(Input, TilesOfASetAreThoseThatTheToolBakes) {
   EXPECT_TRUE(same_bits(read(folder_.file("G.out.1013.exr")), read(file + "?size=32&udim=1013")));
 }
 
-TEST_F(Input, RowsBeginAtTheTopAndColumnsAtTheLeft) {
+TEST_F(GraphImageInput, RowsBeginAtTheTopAndColumnsAtTheLeft) {
   const std::vector<float> texels = read(write("ramp.mtlx", ramp()) + "?size=4x2");
   EXPECT_EQ(texels,
             (std::vector<float>{0.125f, 0.75f, 0.375f, 0.75f, 0.625f, 0.75f, 0.875f, 0.75f, 0.125f,
                                 0.25f, 0.375f, 0.25f, 0.625f, 0.25f, 0.875f, 0.25f}));
 }
 
-TEST_F(Input, TimeAndFrameAreThoseAskedFor) {
+TEST_F(GraphImageInput, TimeAndFrameAreThoseAskedFor) {
   const std::string file = write("time.mtlx", document_of(R"(<time name="t" type="float" />
 <frame name="f" type="float" />
 <combine2 name="both" type="vector2">
@@ -101,7 +101,7 @@ TEST_F(Input, TimeAndFrameAreThoseAskedFor) {
   EXPECT_EQ(read(file + "?size=1&time=0.25&frame=12.5"), (std::vector<float>{0.25f, 12.5f}));
 }
 
-TEST_F(Input, IntegersAndMatricesAreNumbers) {
+TEST_F(GraphImageInput, IntegersAndMatricesAreNumbers) {
   const std::string file = write("types.mtlx", document_of(R"(<constant name="i" type="integer">
   <input name="value" type="integer" value="-7" />
 </constant>
@@ -122,7 +122,7 @@ TEST_F(Input, IntegersAndMatricesAreNumbers) {
   EXPECT_EQ(rgba->spec().get_int_attribute("oiio:UnassociatedAlpha"), 1);
 }
 
-TEST_F(Input, HalvesAreTheNearestOnes) {
+TEST_F(GraphImageInput, HalvesAreTheNearestOnes) {
   const std::string name = marble_ + "?output=NG_marble/base_color&size=64";
   const auto image = open(name + "&format=half");
   ASSERT_NE(image, nullptr);
@@ -134,7 +134,7 @@ TEST_F(Input, HalvesAreTheNearestOnes) {
   }
 }
 
-TEST_F(Input, ATileBeyondTheEdgeIsZero) {
+TEST_F(GraphImageInput, ATileBeyondTheEdgeIsZero) {
   const auto image = open(write("grey.mtlx", grey("0.5")) + "?size=70x10");
   ASSERT_NE(image, nullptr);
   std::vector<float> tile(64 * 64, -1.0f);
@@ -147,7 +147,7 @@ TEST_F(Input, ATileBeyondTheEdgeIsZero) {
   EXPECT_FALSE(image->read_native_tile(0, 9, 0, 0, 0, tile.data()));
 }
 
-TEST_F(Input, RowsCanBeReadToo) {
+TEST_F(GraphImageInput, RowsCanBeReadToo) {
   const auto image = open(write("ramp.mtlx", ramp()) + "?size=100");
   ASSERT_NE(image, nullptr);
   const std::vector<float> all = read(*image);
@@ -156,7 +156,7 @@ TEST_F(Input, RowsCanBeReadToo) {
   EXPECT_TRUE(std::equal(row.begin(), row.end(), all.begin() + 37 * 200));
 }
 
-TEST_F(Input, BuffersReadAnyChannelsOfAnyLevel) {
+TEST_F(GraphImageInput, BuffersReadAnyChannelsOfAnyLevel) {
   const std::string name = write("ramp.mtlx", ramp()) + "?size=100";
   OIIO::ImageBuf buffer(name, 0, 1);
   ASSERT_TRUE(buffer.read(0, 1, 1, 2, true, OIIO::TypeDesc::FLOAT)) << buffer.geterror();
@@ -166,7 +166,7 @@ TEST_F(Input, BuffersReadAnyChannelsOfAnyLevel) {
   EXPECT_NEAR(buffer.getchannel(3, 49, 0, 0), 0.01f, 1e-6f);
 }
 
-TEST_F(Input, AConfigurationSaysTheSame) {
+TEST_F(GraphImageInput, AConfigurationSaysTheSame) {
   OIIO::ImageSpec config;
   config.attribute("mtlx:output", "NG_marble/roughness");
   config.attribute("mtlx:size", "32x16");
@@ -175,7 +175,7 @@ TEST_F(Input, AConfigurationSaysTheSame) {
   EXPECT_EQ(read(*image), read(marble_ + "?output=NG_marble/roughness&size=32x16"));
 }
 
-TEST_F(Input, SaysWhatIsWrong) {
+TEST_F(GraphImageInput, SaysWhatIsWrong) {
   EXPECT_EQ(complaint(marble_),
             marble_ +
                 ": error: the document has several outputs; expected '?output=' and one of "
@@ -198,7 +198,7 @@ TEST_F(Input, SaysWhatIsWrong) {
       std::string::npos);
 }
 
-TEST_F(Input, OneThatCannotBeOpenedDoesNothing) {
+TEST_F(GraphImageInput, OneThatCannotBeOpenedDoesNothing) {
   const auto image = OIIO::ImageInput::create("mtlx");
   ASSERT_NE(image, nullptr);
   std::array<float, 64 * 64> tile{};
@@ -213,7 +213,7 @@ TEST_F(Input, OneThatCannotBeOpenedDoesNothing) {
   EXPECT_TRUE(image->close());
 }
 
-TEST_F(Input, FilesOfOthersAreLeftToThem) {
+TEST_F(GraphImageInput, FilesOfOthersAreLeftToThem) {
   const auto image = OIIO::ImageInput::create("mtlx");
   ASSERT_NE(image, nullptr);
   EXPECT_TRUE(image->valid_file(marble_));
@@ -223,7 +223,7 @@ TEST_F(Input, FilesOfOthersAreLeftToThem) {
   EXPECT_NE(complaint(folder_.file("image.bin")), "");
 }
 
-TEST_F(Input, AGraphThatDoesNotEndIsAnErrorOfTheTile) {
+TEST_F(GraphImageInput, AGraphThatDoesNotEndIsAnErrorOfTheTile) {
   const auto pack = write("endless.glsl",
                           "void endless(out float x) { x = 0.0; "
                           "for (int i = 0; i < 2; i += 0) { x += 1.0; } }");

@@ -9,7 +9,7 @@
 namespace graph_image {
 namespace {
 
-using Levels = Images;
+using GraphImageLevels = GraphImages;
 
 Request of_size(int width, int height, int samples) {
   Request request;
@@ -47,7 +47,7 @@ double mean(const std::vector<float>& texels, std::size_t channels, std::size_t 
   return sum * static_cast<double>(channels) / static_cast<double>(texels.size());
 }
 
-TEST(Level, HalvesUntilOneTexelIsLeft) {
+TEST(GraphImageLevel, HalvesUntilOneTexelIsLeft) {
   EXPECT_EQ(level_count(1, 1), 1);
   EXPECT_EQ(level_count(64, 64), 7);
   EXPECT_EQ(level_count(65536, 1), 17);
@@ -59,7 +59,7 @@ TEST(Level, HalvesUntilOneTexelIsLeft) {
   EXPECT_EQ(level_of(request, 6).height, 1);
 }
 
-TEST(Level, HasAsManyPointsAsTheFinestHasTexelsThere) {
+TEST(GraphImageLevel, HasAsManyPointsAsTheFinestHasTexelsThere) {
   const Request request = of_size(4096, 64, 8);
   for (int k = 0; k <= 12; ++k) {
     const Level level = level_of(request, k);
@@ -68,7 +68,7 @@ TEST(Level, HasAsManyPointsAsTheFinestHasTexelsThere) {
   }
 }
 
-TEST_F(Levels, MeansAreThoseOfTheirPoints) {
+TEST_F(GraphImageLevels, MeansAreThoseOfTheirPoints) {
   const auto image = open(write("parabola.mtlx", parabola()) + "?size=64");
   ASSERT_NE(image, nullptr);
   for (int k = 0; k <= 6; ++k) {
@@ -80,7 +80,7 @@ TEST_F(Levels, MeansAreThoseOfTheirPoints) {
   }
 }
 
-TEST_F(Levels, AreTheBoxAverageWhileTheirPointsSuffice) {
+TEST_F(GraphImageLevels, AreTheBoxAverageWhileTheirPointsSuffice) {
   const auto image = open(marble_ + "?output=NG_marble/base_color&size=128");
   ASSERT_NE(image, nullptr);
   const std::vector<float> finest = read(*image, 0);
@@ -102,7 +102,7 @@ TEST_F(Levels, AreTheBoxAverageWhileTheirPointsSuffice) {
   }
 }
 
-TEST_F(Levels, TheCoarsestOfCheckersIsTheirCoverage) {
+TEST_F(GraphImageLevels, TheCoarsestOfCheckersIsTheirCoverage) {
   const std::string file = write("checkers.mtlx", checkers());
   for (const char* size : {"64", "256", "65536"}) {
     const auto image = open(file + "?size=" + size);
@@ -116,14 +116,14 @@ TEST_F(Levels, TheCoarsestOfCheckersIsTheirCoverage) {
   }
 }
 
-TEST_F(Levels, OnePointATexelIsTheGraphAtThatResolution) {
+TEST_F(GraphImageLevels, OnePointATexelIsTheGraphAtThatResolution) {
   const std::string file = write("ramp.mtlx", ramp());
   const auto coarse = open(file + "?size=64&samples=1");
   ASSERT_NE(coarse, nullptr);
   EXPECT_EQ(read(*coarse, 2), read(file + "?size=16"));
 }
 
-TEST_F(Levels, ImagesAreFilteredByTheirNodes) {
+TEST_F(GraphImageLevels, ImagesAreFilteredByTheirNodes) {
   // Stripes of one texel: what their node gives for the footprint of a coarse texel is their mean.
   OIIO::ImageSpec spec(64, 64, 1, OIIO::TypeDesc::FLOAT);
   std::vector<float> stripes(64 * 64);

@@ -18,7 +18,7 @@ std::string fault_of(const std::string& name, const OIIO::ImageSpec* config = nu
   return {};
 }
 
-TEST(ImageName, SplitsAtTheMarkAndAtTheSigns) {
+TEST(GraphImageName, SplitsAtTheMarkAndAtTheSigns) {
   const ImageName name = split_name("a b/marble.mtlx?output=NG/x=y&size=4096");
   EXPECT_EQ(name.file, "a b/marble.mtlx");
   EXPECT_EQ(name.values,
@@ -28,14 +28,14 @@ TEST(ImageName, SplitsAtTheMarkAndAtTheSigns) {
   EXPECT_EQ(split_name("x.mtlx?a=").values.at("a"), "");
 }
 
-TEST(ImageName, OnlyOursAreTaken) {
+TEST(GraphImageName, OnlyOursAreTaken) {
   for (const char* file : {"x.mtlx", "a/X.MTLX", "x.mtlxtex"}) EXPECT_TRUE(is_graph_image(file));
   for (const char* file : {"x.exr", "mtlx", "x.mtlx/y", "", ".mtlx"}) {
     EXPECT_FALSE(is_graph_image(file)) << file;
   }
 }
 
-TEST(Request, SaysAllThatIsWanted) {
+TEST(GraphImageRequest, SaysAllThatIsWanted) {
   const Request request = read_request(
       "x.mtlx?output=NG/c&size=300x20&frame=7.5&time=-2&samples=4&anisotropy=2&accuracy=fast"
       "&format=half&udim=1013&wrap=mirror&profile=p.json",
@@ -56,7 +56,7 @@ TEST(Request, SaysAllThatIsWanted) {
   EXPECT_EQ(request.format, OIIO::TypeDesc::HALF);
 }
 
-TEST(Request, LeavesTheRestAsUsual) {
+TEST(GraphImageRequest, LeavesTheRestAsUsual) {
   const Request request = read_request("x.mtlx", nullptr);
   EXPECT_EQ(request.accuracy, NACRE_STANDARD);
   EXPECT_EQ(request.frame, 1.0f);
@@ -67,7 +67,7 @@ TEST(Request, LeavesTheRestAsUsual) {
   EXPECT_EQ(read_request("x.mtlx?size=64", nullptr).height, 64);
 }
 
-TEST(Request, TheNameCountsBeforeTheConfiguration) {
+TEST(GraphImageRequest, TheNameCountsBeforeTheConfiguration) {
   OIIO::ImageSpec config;
   config.attribute("mtlx:size", 512);
   config.attribute("mtlx:output", "G/a");
@@ -85,7 +85,7 @@ TEST(Request, TheNameCountsBeforeTheConfiguration) {
             "[bad-query]");
 }
 
-TEST(Request, ValuesThatMakeNoSenseAreRefused) {
+TEST(GraphImageRequest, ValuesThatMakeNoSenseAreRefused) {
   for (const char* query :
        {"size=0",         "size=",      "size=65537",   "size=12x",
         "size=x12",       "size=1x2x3", "size= 12",     "size=99999999999999999999",
@@ -107,7 +107,7 @@ TEST(Request, ValuesThatMakeNoSenseAreRefused) {
             "x.mtlx: error: 'size' is asked for twice [bad-query]");
 }
 
-TEST(TextureFile, StandsForTheNameInIt) {
+TEST(GraphImageTextFile, StandsForTheNameInIt) {
   const nacre::TemporaryFolder folder;
   const std::string file =
       folder.write("wood.mtlxtex", "# What it is of.\n\n \twood.mtlx?output=G/c&size=64 \r\n");
@@ -119,7 +119,7 @@ TEST(TextureFile, StandsForTheNameInIt) {
   EXPECT_EQ(read_request(file + "?size=32", nullptr).output, "G/c");
 }
 
-TEST(TextureFile, SaysWhatIsWrongWithIt) {
+TEST(GraphImageTextFile, SaysWhatIsWrongWithIt) {
   const nacre::TemporaryFolder folder;
   const auto fault = [&](std::string_view text) {
     return fault_of(folder.write("x.mtlxtex", text)).substr(folder.file("x.mtlxtex").size());

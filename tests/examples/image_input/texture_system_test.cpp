@@ -15,7 +15,7 @@
 namespace graph_image {
 namespace {
 
-class Textures : public Images {
+class GraphImageTextures : public GraphImages {
  protected:
   /// Two channels at (s, t) of a texture, t from the top, for a footprint as wide as high.
   std::pair<float, float> look_up(const std::string& name, float s, float t, float width) {
@@ -38,7 +38,7 @@ class Textures : public Images {
   OIIO::TextureSystem* system_ = OIIO::TextureSystem::create(true);
 };
 
-TEST_F(Textures, ARampIsItselfAtAnyWidth) {
+TEST_F(GraphImageTextures, ARampIsItselfAtAnyWidth) {
   const std::string name = write("ramp.mtlx", ramp()) + "?size=1024";
   for (const float width : {0.0f, 0.001f, 0.01f, 0.1f}) {
     for (int i = 0; i < 25; ++i) {
@@ -51,7 +51,7 @@ TEST_F(Textures, ARampIsItselfAtAnyWidth) {
   }
 }
 
-TEST_F(Textures, APlacedGradientIsTheLinearFunctionThatItIs) {
+TEST_F(GraphImageTextures, APlacedGradientIsTheLinearFunctionThatItIs) {
   // place2d: divided by the scale, turned, then moved.
   const std::string name = write("placed.mtlx", document_of(R"(<texcoord name="uv" type="vector2" />
 <place2d name="placed" type="vector2">
@@ -72,7 +72,7 @@ TEST_F(Textures, APlacedGradientIsTheLinearFunctionThatItIs) {
   }
 }
 
-TEST_F(Textures, AWaveIsThereWithinWhatFiltersLose) {
+TEST_F(GraphImageTextures, AWaveIsThereWithinWhatFiltersLose) {
   // sin(8 pi u): bilinear interpolation of n texels loses up to (8 pi / n)^2 / 8.
   const std::string name = write("wave.mtlx", document_of(R"(<texcoord name="uv" type="vector2" />
 <multiply name="phase" type="vector2">
@@ -93,7 +93,7 @@ TEST_F(Textures, AWaveIsThereWithinWhatFiltersLose) {
   }
 }
 
-TEST_F(Textures, OnlyTilesThatAreLookedAtAreShaded) {
+TEST_F(GraphImageTextures, OnlyTilesThatAreLookedAtAreShaded) {
   const std::string name = write("huge.mtlx", ramp()) + "?size=65536";
   ASSERT_TRUE(cache_->add_file(OIIO::ustring(name), [] {
     return static_cast<OIIO::ImageInput*>(new GraphInput(shared_store()));
@@ -115,7 +115,7 @@ TEST_F(Textures, OnlyTilesThatAreLookedAtAreShaded) {
   EXPECT_EQ(ready->output->points(), before);  // Those tiles are there.
 }
 
-TEST_F(Textures, AClosedFileIsOpenedWithoutCompilingAgain) {
+TEST_F(GraphImageTextures, AClosedFileIsOpenedWithoutCompilingAgain) {
   OutputStore store(2);
   const std::string file = write("ramp.mtlx", ramp());
   const auto first = store.get(read_request(file + "?size=64", nullptr));
@@ -126,7 +126,7 @@ TEST_F(Textures, AClosedFileIsOpenedWithoutCompilingAgain) {
   EXPECT_NE(store.get(read_request(file, nullptr)), first);
 }
 
-TEST_F(Textures, WhatChangedIsSeenWhenItIsOpenedAgain) {
+TEST_F(GraphImageTextures, WhatChangedIsSeenWhenItIsOpenedAgain) {
   const std::string included =
       "<materialx version=\"1.39\"><nodegraph name=\"G\">"
       "<constant name=\"c\" type=\"float\"><input name=\"value\" "
@@ -162,7 +162,7 @@ TEST_F(Textures, WhatChangedIsSeenWhenItIsOpenedAgain) {
   EXPECT_EQ(grey_of(), 0.125f);
 }
 
-TEST_F(Textures, TextFilesAreFoundInTheSearchPath) {
+TEST_F(GraphImageTextures, TextFilesAreFoundInTheSearchPath) {
   write("ramp.mtlx", ramp());
   write("ramp.mtlxtex", "ramp.mtlx?size=128\n");
   cache_->attribute("searchpath", folder_.path().string());
@@ -171,7 +171,7 @@ TEST_F(Textures, TextFilesAreFoundInTheSearchPath) {
   EXPECT_NEAR(v, 0.75f, 1e-5f);
 }
 
-TEST_F(Textures, TextFilesMakeASetOfTiles) {
+TEST_F(GraphImageTextures, TextFilesMakeASetOfTiles) {
   write("ramp.mtlx", ramp());
   for (const char* tile : {"1001", "1002", "1012"}) {
     write(std::string("ramp.") + tile + ".mtlxtex",
@@ -186,7 +186,7 @@ TEST_F(Textures, TextFilesMakeASetOfTiles) {
   }
 }
 
-TEST_F(Images, ManyThreadsReadWhatOneReads) {
+TEST_F(GraphImages, ManyThreadsReadWhatOneReads) {
   const std::string name = marble_ + "?output=NG_marble/base_color&size=512";
   const auto alone = open(name);
   ASSERT_NE(alone, nullptr);
@@ -214,7 +214,7 @@ TEST_F(Images, ManyThreadsReadWhatOneReads) {
   }
 }
 
-TEST_F(Textures, ManyThreadsLookUpWhileFilesAreClosed) {
+TEST_F(GraphImageTextures, ManyThreadsLookUpWhileFilesAreClosed) {
   cache_->attribute("max_open_files", 2);
   std::vector<std::string> names;
   for (int i = 0; i < 6; ++i) {
