@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 # What library and modules have in common: the version, the compiler and what it was told, and
 # the headers of what they hand each other. A module of another build is refused.
 file(GLOB nacre_common_headers RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS
-  examples/common/*.h jit/graph/*.h jit/graph/color/*.h jit/ocio/*.h runtime/*.h runtime/texture/*.h)
+  examples/common/*.h examples/image_input/*.h jit/graph/*.h jit/graph/color/*.h jit/ocio/*.h runtime/*.h runtime/texture/*.h)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${nacre_common_headers})
 string(TOUPPER "${CMAKE_BUILD_TYPE}" nacre_build_type)
 set(nacre_common "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} "

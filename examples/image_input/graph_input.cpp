@@ -11,6 +11,7 @@
 
 #include "examples/image_input/image_name.h"
 #include "examples/image_input/image_spec.h"
+#include "examples/image_input/read_request.h"
 
 namespace graph_image {
 
@@ -65,16 +66,14 @@ bool GraphInput::open_with(const std::string& name, OIIO::ImageSpec& spec,
   std::string problem;
   const bool done = guarded(problem, [&] {
     request_ = read_request(name, config);
-    auto ready = store_.get(request_);
+    graph_ = open_graph_(request_);
     if (request_.width == 0) {
-      request_.width = ready->output->usual_width();
-      request_.height = ready->output->usual_height();
+      request_.width = graph_->info().width;
+      request_.height = graph_->info().height;
     }
-    instance_.emplace(ready->output->instance(request_));
-    ready_ = std::move(ready);
     levels_ = level_count(request_.width, request_.height);
     level_ = 0;
-    m_spec = spec_of(*ready_, request_, level_of(request_, 0));
+    m_spec = spec_of(graph_->info(), request_, level_of(request_, 0));
   });
   if (!done) {
     close();
@@ -86,8 +85,7 @@ bool GraphInput::open_with(const std::string& name, OIIO::ImageSpec& spec,
 }
 
 bool GraphInput::close() {
-  instance_.reset();
-  ready_.reset();
+  graph_.reset();
   levels_ = level_ = 0;
   m_spec = OIIO::ImageSpec();
   return true;
@@ -100,14 +98,14 @@ bool GraphInput::has_level(int subimage, int level) const {
 bool GraphInput::seek_subimage(int subimage, int level) {
   if (!has_level(subimage, level)) return false;
   if (level == level_) return true;
-  m_spec = spec_of(*ready_, request_, level_of(request_, level));
+  m_spec = spec_of(graph_->info(), request_, level_of(request_, level));
   level_ = level;
   return true;
 }
 
 OIIO::ImageSpec GraphInput::spec(int subimage, int level) {
   if (!has_level(subimage, level)) return {};
-  return spec_of(*ready_, request_, level_of(request_, level));
+  return spec_of(graph_->info(), request_, level_of(request_, level));
 }
 
 OIIO::ImageSpec GraphInput::spec_dimensions(int subimage, int level) {
@@ -124,14 +122,13 @@ Texels GraphInput::tile_at(int level, int x, int y) const {
 bool GraphInput::shade(int level, const Texels& texels, int row_texels, void* data,
                        std::string& problem) {
   return guarded(problem, [&] {
-    const std::vector<float> values =
-        ready_->output->shade(*instance_, request_, level_of(request_, level), texels);
-    const int channels = ready_->output->components();
-    const auto texel_bytes = static_cast<OIIO::stride_t>(request_.format.size()) * channels;
+    const std::vector<float> values = graph_->shade(level_of(request_, level), texels);
+    const int channels = graph_->info().components;
+    const OIIO::TypeDesc format = format_of(request_);
+    const auto texel_bytes = static_cast<OIIO::stride_t>(format.size()) * channels;
     OIIO::convert_image(channels, texels.width, texels.height, 1, values.data(),
                         OIIO::TypeDesc::FLOAT, OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride,
-                        data, request_.format, texel_bytes, texel_bytes * row_texels,
-                        OIIO::AutoStride);
+                        data, format, texel_bytes, texel_bytes * row_texels, OIIO::AutoStride);
   });
 }
 
@@ -156,7 +153,7 @@ bool GraphInput::read_native_tiles(int subimage, int level, int left, int right,
     return false;
   }
   const auto texel_bytes =
-      request_.format.size() * static_cast<std::size_t>(ready_->output->components());
+      format_of(request_).size() * static_cast<std::size_t>(graph_->info().components);
   const auto row_bytes = static_cast<std::size_t>(right - left) * texel_bytes;
   // What a tile has beyond the image is nobody's, and not computed.
   std::fill_n(static_cast<char*>(data), static_cast<std::size_t>(bottom - top) * row_bytes, '\0');

@@ -3,11 +3,9 @@
 #include <OpenImageIO/imageio.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
-#include "examples/image_input/level.h"
-#include "examples/image_input/output_store.h"
+#include "examples/image_input/opened_graph.h"
 
 namespace graph_image {
 
@@ -15,8 +13,8 @@ namespace graph_image {
 /// read. Once it is open, any number of threads may read.
 class GraphInput final : public OIIO::ImageInput {
  public:
-  /// The store must live as long as there are readers that open with it.
-  explicit GraphInput(OutputStore& store) : store_(store) {}
+  /// `open_graph` is called by open() alone: making a reader costs nothing.
+  explicit GraphInput(OpenGraph* open_graph) : open_graph_(open_graph) {}
 
   const char* format_name() const override { return "mtlx"; }
   /// Not "procedural", though names with a query are no files: oiiotool 2.4 would end by a fault
@@ -39,9 +37,6 @@ class GraphInput final : public OIIO::ImageInput {
                          int front, int back, void* data) override;
   using OIIO::ImageInput::read_native_tiles;
 
-  /// What it shades with; null while nothing is open.
-  const GraphOutput* output() const { return ready_ != nullptr ? ready_->output.get() : nullptr; }
-
  private:
   bool open_with(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec* config);
   bool has_level(int subimage, int level) const;
@@ -51,9 +46,8 @@ class GraphInput final : public OIIO::ImageInput {
   /// Those of a tile that are in the image.
   Texels tile_at(int level, int x, int y) const;
 
-  OutputStore& store_;
-  std::shared_ptr<const ReadyOutput> ready_;
-  std::optional<nacre::Instance> instance_;
+  OpenGraph* open_graph_;
+  std::unique_ptr<const OpenedGraph> graph_;
   Request request_;
   int levels_ = 0;
   int level_ = 0;  ///< That m_spec is of.

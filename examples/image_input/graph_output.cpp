@@ -10,7 +10,6 @@
 #include <iterator>
 #include <string_view>
 
-#include "examples/image_input/plane.h"
 #include "examples/image_input/wrong.h"
 
 namespace graph_image {
@@ -78,11 +77,20 @@ std::string read_profile(const Request& request) {
   return text;
 }
 
+int accuracy_of(Accuracy accuracy) {
+  switch (accuracy) {
+    case Accuracy::precise: return NACRE_PRECISE;
+    case Accuracy::fast: return NACRE_FAST;
+    case Accuracy::standard: break;
+  }
+  return NACRE_STANDARD;
+}
+
 nacre::CompileOptions options_of(const Request& request) {
   nacre::CompileOptions options;
-  options.accuracy = request.accuracy;
+  options.accuracy = accuracy_of(request.accuracy);
   options.max_anisotropy = request.anisotropy;
-  options.background = request.accuracy != NACRE_FAST && request.profile.empty();
+  options.background = request.accuracy != Accuracy::fast && request.profile.empty();
   options.lenient = true;
   options.frame = static_cast<int>(request.frame);
   options.profile = read_profile(request);
@@ -123,18 +131,19 @@ void add_means(const std::vector<float>& points, const Level& level, const Texel
 }  // namespace
 
 GraphOutput::GraphOutput(nacre::System& system, const nacre::Document& document,
-                         const Request& request, std::vector<nacre::Diagnostic>& said)
-    : name_(chosen_output(document, request)), type_(attribute_of(document, name_, "type")) {
-  shader_.emplace(system.compile_outputs(document, {name_}, options_of(request), &said));
+                         const Request& request, std::vector<nacre::Diagnostic>& said) {
+  info_.output = chosen_output(document, request);
+  info_.type = attribute_of(document, info_.output, "type");
+  shader_.emplace(system.compile_outputs(document, {info_.output}, options_of(request), &said));
   const std::vector<nacre::Channel> results = shader_->results(NACRE_OUTPUTS);
-  components_ = static_cast<int>(results.size());
-  if (components_ == 0) {
-    throw Wrong(request.document, "no-output", "the output '" + name_ + "' has no numbers",
-                "one whose type is numeric", type_);
+  if (results.empty()) {
+    throw Wrong(request.document, "no-output", "the output '" + info_.output + "' has no numbers",
+                "one whose type is numeric", info_.type);
   }
+  info_.components = static_cast<int>(results.size());
+  info_.width = size_of(document, info_.output, "width");
+  info_.height = size_of(document, info_.output, "height");
   is_float_ = results.front().type == NACRE_FLOAT;
-  usual_width_ = size_of(document, name_, "width");
-  usual_height_ = size_of(document, name_, "height");
   nacre::Binder binder;
   bind_plane(*shader_, binder);
   // One by one: a matrix has no group of channels.
@@ -155,10 +164,8 @@ nacre::Instance GraphOutput::instance(const Request& request) const {
   return made;
 }
 
-void GraphOutput::run(const nacre::Instance& instance, const Request& request, const Level& level,
-                      const Texels& points, std::vector<float>& values) const {
-  const PlaneGrid grid(level.width * level.samples_x, level.height * level.samples_y,
-                       request.corner_u, request.corner_v);
+void GraphOutput::run(const nacre::Instance& instance, const PlaneGrid& grid, const Texels& points,
+                      std::vector<float>& values) const {
   std::vector<float> u, v;
   u.reserve(points.count());
   v.reserve(points.count());
@@ -168,7 +175,7 @@ void GraphOutput::run(const nacre::Instance& instance, const Request& request, c
       v.push_back(grid.v(j));
     }
   }
-  values.resize(points.count() * static_cast<std::size_t>(components_));
+  values.resize(points.count() * static_cast<std::size_t>(info_.components));
   float change[2] = {grid.change()[0], grid.change()[1]};
   std::array<void*, array_count> arrays{};
   arrays[array_u] = u.data();
@@ -182,9 +189,9 @@ void GraphOutput::run(const nacre::Instance& instance, const Request& request, c
   if (!is_float_) to_floats(values);
 }
 
-std::vector<float> GraphOutput::shade(const nacre::Instance& instance, const Request& request,
+std::vector<float> GraphOutput::shade(const nacre::Instance& instance, const PlaneGrid& grid,
                                       const Level& level, const Texels& texels) const {
-  const auto components = static_cast<std::size_t>(components_);
+  const auto components = static_cast<std::size_t>(info_.components);
   const int points_a_row = texels.width * level.samples_x * level.samples_y;
   const int rows = std::clamp(most_points / points_a_row, 1, texels.height);
   std::vector<float> all;
@@ -193,7 +200,7 @@ std::vector<float> GraphOutput::shade(const nacre::Instance& instance, const Req
   for (int first = 0; first < texels.height; first += rows) {
     const Texels strip{texels.x, texels.y + first, texels.width,
                        std::min(rows, texels.height - first)};
-    run(instance, request, level,
+    run(instance, grid,
         {strip.x * level.samples_x, strip.y * level.samples_y, strip.width * level.samples_x,
          strip.height * level.samples_y},
         values);

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "examples/image_input/level.h"
+#include "examples/image_input/opened_graph.h"
+#include "examples/image_input/plane.h"
 
 namespace graph_image {
 
@@ -22,34 +23,26 @@ class GraphOutput {
   GraphOutput(nacre::System& system, const nacre::Document& document, const Request& request,
               std::vector<nacre::Diagnostic>& said);
 
-  const std::string& name() const { return name_; }
-  const std::string& type() const { return type_; }  ///< "color3"
-  int components() const { return components_; }
-  /// What the document says of its texture's size, else 1024.
-  int usual_width() const { return usual_width_; }
-  int usual_height() const { return usual_height_; }
+  /// But for the warnings, which are the caller's.
+  const GraphInfo& info() const { return info_; }
 
   /// Values of time and frame, for `shade`.
   nacre::Instance instance(const Request& request) const;
 
-  /// Texels of a level, row by row, channels side by side; integers and booleans as numbers.
-  /// Throws nacre::Error where the graph takes too many steps.
-  std::vector<float> shade(const nacre::Instance& instance, const Request& request,
+  /// As OpenedGraph::shade, of points of a grid that has those of all of the level.
+  std::vector<float> shade(const nacre::Instance& instance, const PlaneGrid& grid,
                            const Level& level, const Texels& texels) const;
 
   /// Points shaded since it was made.
   std::uint64_t points() const { return points_; }
 
  private:
-  /// Points of a grid, `width` x `height` of them from (x, y), into as many texels.
-  void run(const nacre::Instance& instance, const Request& request, const Level& level,
-           const Texels& points, std::vector<float>& values) const;
+  /// The numbers of points of a grid.
+  void run(const nacre::Instance& instance, const PlaneGrid& grid, const Texels& points,
+           std::vector<float>& values) const;
 
-  std::string name_;
-  std::string type_;
+  GraphInfo info_;
   bool is_float_ = true;
-  int components_ = 0;
-  int usual_width_ = 1024, usual_height_ = 1024;
   std::optional<nacre::Shader> shader_;
   std::optional<nacre::Binding> binding_;
   mutable std::atomic<std::uint64_t> points_ = 0;

@@ -21,21 +21,24 @@ std::vector<std::string> channel_names(int count) {
 
 }  // namespace
 
-OIIO::ImageSpec spec_of(const ReadyOutput& ready, const Request& request, const Level& level) {
-  const GraphOutput& output = *ready.output;
-  OIIO::ImageSpec spec(level.width, level.height, output.components(), request.format);
+OIIO::TypeDesc format_of(const Request& request) {
+  return request.is_half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+}
+
+OIIO::ImageSpec spec_of(const GraphInfo& info, const Request& request, const Level& level) {
+  OIIO::ImageSpec spec(level.width, level.height, info.components, format_of(request));
   spec.tile_width = spec.tile_height = tile_side;
-  spec.channelnames = channel_names(output.components());
-  spec.alpha_channel = output.type() == "color4" ? 3 : -1;
+  spec.channelnames = channel_names(info.components);
+  spec.alpha_channel = info.type == "color4" ? 3 : -1;
   // As the document means it: nothing is multiplied by it.
   if (spec.alpha_channel >= 0) spec.attribute("oiio:UnassociatedAlpha", 1);
-  const bool is_color = output.type() == "color3" || output.type() == "color4";
+  const bool is_color = info.type == "color3" || info.type == "color4";
   if (is_color) spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("textureformat", "Plain Texture");
   spec.attribute("wrapmodes", request.wrap + "," + request.wrap);
-  spec.attribute("mtlx:output", output.name());
-  spec.attribute("mtlx:type", output.type());
-  if (!ready.warnings.empty()) spec.attribute("mtlx:warnings", ready.warnings);
+  spec.attribute("mtlx:output", info.output);
+  spec.attribute("mtlx:type", info.type);
+  if (!info.warnings.empty()) spec.attribute("mtlx:warnings", info.warnings);
   return spec;
 }
 

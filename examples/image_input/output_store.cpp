@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 /// Of compiled outputs, some hundred kilobytes each, beside the images that they share.
 constexpr std::size_t usual_most = 256;
 
-using Key = std::tuple<std::string, std::string, std::string, int, int, int>;
+using Key = std::tuple<std::string, std::string, std::string, Accuracy, int, int>;
 
 /// What of a request the kernel depends on.
 Key key_of(const Request& request) {
@@ -72,9 +72,11 @@ std::shared_ptr<const ReadyOutput> make(nacre::System& system, const Request& re
         stamp_of(fs::absolute(fs::path(request.document).parent_path() / request.profile)));
   }
   made->output = std::make_unique<const GraphOutput>(system, document, request, said);
+  made->info = made->output->info();
+  std::string& warnings = made->info.warnings;
   for (const nacre::Diagnostic& one : said) {
     if (one.severity == NACRE_NOTE) continue;
-    made->warnings.append(made->warnings.empty() ? "" : "\n").append(one.text);
+    warnings.append(warnings.empty() ? "" : "\n").append(one.text);
   }
   return made;
 }

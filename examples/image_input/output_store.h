@@ -25,7 +25,7 @@ struct FileStamp {
 /// An output, ready to be shaded, and what there was to say of it.
 struct ReadyOutput {
   std::unique_ptr<const GraphOutput> output;
-  std::string warnings;          ///< A line each.
+  GraphInfo info;
   std::vector<FileStamp> files;  ///< The document, what it includes, and the profile.
 };
 

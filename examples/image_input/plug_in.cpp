@@ -1,10 +1,6 @@
 // What OpenImageIO looks for in mtlx.imageio.so: nothing else is visible (plug_in.map).
-#include <nacre/nacre.h>
-
-#include <string>
-
 #include "examples/image_input/graph_input.h"
-#include "examples/image_input/output_store.h"
+#include "examples/image_input/graph_module.h"
 
 extern "C" {
 
@@ -17,12 +13,9 @@ const int mtlx_imageio_version = OIIO_PLUGIN_VERSION;
 
 const char* const mtlx_input_extensions[] = {"mtlx", "mtlxtex", nullptr};
 
-const char* mtlx_imageio_library_version() {
-  static const std::string text = std::string("Nacre ") + nacre_version_text();
-  return text.c_str();
-}
+const char* mtlx_imageio_library_version() { return "Nacre " NACRE_PLUG_IN_VERSION; }
 
 OIIO::ImageInput* mtlx_input_imageio_create() {
-  return new graph_image::GraphInput(graph_image::shared_store());
+  return new graph_image::GraphInput(graph_image::open_by_module);
 }
 }

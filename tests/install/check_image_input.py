@@ -7,6 +7,7 @@ told but where its plug-in is, read graph outputs. LIBDIR is the library's folde
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -27,12 +28,12 @@ class ImageInput(unittest.TestCase):
         shutil.copytree(PREFIX, self.moved, symlinks=True)
         self.plug_ins = self.moved / LIBDIR / "nacre" / "openimageio"
 
-    def run_program(self, *command):
+    def run_program(self, *command, status=0):
         done = subprocess.run(command, cwd=self.folder, text=True, check=False,
                               env={"PATH": os.environ["PATH"],
                                    "OIIO_LIBRARY_PATH": str(self.plug_ins)},
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(done.returncode, status, done.stdout)
         return done.stdout
 
     def test_the_folder_has_the_plug_in_alone(self):
@@ -52,6 +53,17 @@ class ImageInput(unittest.TestCase):
         (self.moved / "libexec" / "nacre" / "nacre-compile-worker").unlink()
         printed = self.run_program("oiiotool", "--info", "-v", NAME)
         self.assertIn("[no-worker]", printed)
+
+    def test_the_module_is_of_the_same_build(self):
+        module = self.plug_ins.parent / "nacre_graphs.so"
+        content = module.read_bytes()
+        # The version and sixteen digits, of which the last one becomes another.
+        key = re.search(rb"\d+\.\d+\.\d+ [0-9a-f]{16}\0", content)
+        last = key.end() - 2
+        other = b"1" if content[last:last + 1] == b"0" else b"0"
+        module.write_bytes(content[:last] + other + content[last + 1:])
+        self.assertIn("of another build than the plug-in",
+                      self.run_program("iinfo", NAME, status=1))
 
 
 if __name__ == "__main__":

@@ -27,8 +27,11 @@ class Programs(unittest.TestCase):
 
     def run_program(self, *command):
         """Status, and all that is printed."""
+        return self.run_with({"OIIO_LIBRARY_PATH": str(FOLDER)}, *command)
+
+    def run_with(self, environment, *command):
         done = subprocess.run(command, cwd=self.folder, text=True, check=False,
-                              env={"PATH": os.environ["PATH"], "OIIO_LIBRARY_PATH": str(FOLDER)},
+                              env={"PATH": os.environ["PATH"]} | environment,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         return done.returncode, done.stdout
 
@@ -47,6 +50,34 @@ class Programs(unittest.TestCase):
         self.assertEqual(sorted(line.split()[2] for line in printed.splitlines()),
                          ["mtlx_imageio_library_version", "mtlx_imageio_version",
                           "mtlx_input_extensions", "mtlx_input_imageio_create"])
+
+    def test_only_graphs_load_what_shades_them(self):
+        self.good("oiiotool", "--create", "8x8", "3", "-o", "black.exr")
+        watched = {"OIIO_LIBRARY_PATH": str(FOLDER), "LD_DEBUG": "files"}
+        status, printed = self.run_with(watched, "iinfo", "black.exr")
+        self.assertEqual(status, 0)
+        self.assertIn("mtlx.imageio.so", printed)
+        self.assertNotIn("libnacre", printed)
+        self.assertNotIn("libLLVM", printed)
+        status, printed = self.run_with(watched, "iinfo", f"marble.mtlx?{COLOR}")
+        self.assertEqual(status, 0)
+        self.assertIn("libnacre", printed)
+
+    def test_a_plug_in_without_its_module_says_so(self):
+        moved = self.folder / "moved" / "openimageio"
+        shutil.copytree(FOLDER, moved)
+        module = moved.parent / "nacre_graphs.so"
+        name = f"marble.mtlx?{COLOR}&size=64"
+        for said in ("cannot be loaded", "file too short", "of another build"):
+            status, printed = self.run_with({"OIIO_LIBRARY_PATH": str(moved)}, "iinfo", name)
+            self.assertGreaterEqual(status, 0, printed)
+            self.assertIn(f"{module}: error: what shades graphs", printed)
+            self.assertIn(said, printed)
+            self.assertIn("[no-module]", printed)
+            if module.exists():
+                shutil.copy(moved / "mtlx.imageio.so", module)  # A library, but not that one.
+            else:
+                module.write_text("no library\n", "utf-8")
 
     def test_information(self):
         printed = self.good("oiiotool", "--info", "-v", f"marble.mtlx?{COLOR}&size=2048")

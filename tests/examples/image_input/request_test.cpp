@@ -1,8 +1,7 @@
-#include "examples/image_input/request.h"
-
 #include <gtest/gtest.h>
 
 #include "examples/image_input/image_name.h"
+#include "examples/image_input/read_request.h"
 #include "examples/image_input/wrong.h"
 #include "tests/support/temporary_folder.h"
 
@@ -43,7 +42,7 @@ TEST(GraphImageRequest, SaysAllThatIsWanted) {
   EXPECT_EQ(request.document, "x.mtlx");
   EXPECT_EQ(request.output, "NG/c");
   EXPECT_EQ(request.profile, "p.json");
-  EXPECT_EQ(request.accuracy, NACRE_FAST);
+  EXPECT_EQ(request.accuracy, Accuracy::fast);
   EXPECT_EQ(request.anisotropy, 2);
   EXPECT_EQ(request.frame, 7.5f);
   EXPECT_EQ(request.time, -2.0f);
@@ -53,16 +52,16 @@ TEST(GraphImageRequest, SaysAllThatIsWanted) {
   EXPECT_EQ(request.corner_v, 1);
   EXPECT_EQ(request.samples, 4);
   EXPECT_EQ(request.wrap, "mirror");
-  EXPECT_EQ(request.format, OIIO::TypeDesc::HALF);
+  EXPECT_TRUE(request.is_half);
 }
 
 TEST(GraphImageRequest, LeavesTheRestAsUsual) {
   const Request request = read_request("x.mtlx", nullptr);
-  EXPECT_EQ(request.accuracy, NACRE_STANDARD);
+  EXPECT_EQ(request.accuracy, Accuracy::standard);
   EXPECT_EQ(request.frame, 1.0f);
   EXPECT_EQ(request.width, 0);
   EXPECT_EQ(request.wrap, "periodic");
-  EXPECT_EQ(request.format, OIIO::TypeDesc::FLOAT);
+  EXPECT_FALSE(request.is_half);
   EXPECT_EQ(read_request("x.mtlx?udim=1001", nullptr).wrap, "clamp");
   EXPECT_EQ(read_request("x.mtlx?size=64", nullptr).height, 64);
 }

@@ -8,8 +8,9 @@
 #include <thread>
 
 #include "examples/image_input/graph_input.h"
+#include "examples/image_input/open_graph.h"
 #include "examples/image_input/output_store.h"
-#include "examples/image_input/request.h"
+#include "examples/image_input/read_request.h"
 #include "tests/examples/image_input/image_fixture.h"
 
 namespace graph_image {
@@ -96,7 +97,7 @@ TEST_F(GraphImageTextures, AWaveIsThereWithinWhatFiltersLose) {
 TEST_F(GraphImageTextures, OnlyTilesThatAreLookedAtAreShaded) {
   const std::string name = write("huge.mtlx", ramp()) + "?size=65536";
   ASSERT_TRUE(cache_->add_file(OIIO::ustring(name), [] {
-    return static_cast<OIIO::ImageInput*>(new GraphInput(shared_store()));
+    return static_cast<OIIO::ImageInput*>(new GraphInput(open_graph));
   }));
   const int tiles_before = statistic("stat:tiles_created");
   for (const float s : {0.1f, 0.5f, 0.9f}) {

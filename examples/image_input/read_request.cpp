@@ -1,4 +1,4 @@
-#include "examples/image_input/request.h"
+#include "examples/image_input/read_request.h"
 
 #include <array>
 #include <charconv>
@@ -57,15 +57,14 @@ bool read_udim(std::string_view text, Request& request) {
 }
 
 bool read_accuracy(std::string_view text, Request& request) {
-  if (text == "precise") request.accuracy = NACRE_PRECISE;
-  if (text == "standard") request.accuracy = NACRE_STANDARD;
-  if (text == "fast") request.accuracy = NACRE_FAST;
+  if (text == "precise") request.accuracy = Accuracy::precise;
+  if (text == "standard") request.accuracy = Accuracy::standard;
+  if (text == "fast") request.accuracy = Accuracy::fast;
   return text == "precise" || text == "standard" || text == "fast";
 }
 
 bool read_format(std::string_view text, Request& request) {
-  if (text == "half") request.format = OIIO::TypeDesc::HALF;
-  if (text == "float") request.format = OIIO::TypeDesc::FLOAT;
+  request.is_half = text == "half";
   return text == "half" || text == "float";
 }
 
