@@ -109,9 +109,8 @@ OIIO::ImageSpec GraphInput::spec(int subimage, int level) {
 }
 
 OIIO::ImageSpec GraphInput::spec_dimensions(int subimage, int level) {
-  OIIO::ImageSpec dimensions;
-  dimensions.copy_dimensions(spec(subimage, level));
-  return dimensions;
+  if (!has_level(subimage, level)) return {};
+  return dimensions_of(graph_->info(), request_, level_of(request_, level));
 }
 
 Texels GraphInput::tile_at(int level, int x, int y) const {
@@ -135,8 +134,9 @@ bool GraphInput::shade(int level, const Texels& texels, int row_texels, void* da
 bool GraphInput::read_native_scanline(int subimage, int level, int y, int /*z*/, void* data) {
   if (!has_level(subimage, level)) return false;
   const Level size = level_of(request_, level);
-  std::string problem;
-  if (shade(level, {0, y, size.width, 1}, size.width, data, problem)) return true;
+  std::string problem = "the image has no such row";
+  const bool is_there = y >= 0 && y < size.height;
+  if (is_there && shade(level, {0, y, size.width, 1}, size.width, data, problem)) return true;
   errorfmt("{}", problem);
   return false;
 }

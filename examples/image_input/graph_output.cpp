@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -134,7 +133,8 @@ GraphOutput::GraphOutput(nacre::System& system, const nacre::Document& document,
                          const Request& request, std::vector<nacre::Diagnostic>& said) {
   info_.output = chosen_output(document, request);
   info_.type = attribute_of(document, info_.output, "type");
-  shader_.emplace(system.compile_outputs(document, {info_.output}, options_of(request), &said));
+  shader_ = std::make_unique<const nacre::Shader>(
+      system.compile_outputs(document, {info_.output}, options_of(request), &said));
   const std::vector<nacre::Channel> results = shader_->results(NACRE_OUTPUTS);
   if (results.empty()) {
     throw Wrong(request.document, "no-output", "the output '" + info_.output + "' has no numbers",
@@ -152,7 +152,7 @@ GraphOutput::GraphOutput(nacre::System& system, const nacre::Document& document,
     const auto offset = static_cast<std::ptrdiff_t>(i * sizeof(float));
     binder.array(results[i].name, {array_result, offset, stride});
   }
-  binding_.emplace(binder, *shader_);
+  binding_ = std::make_unique<const nacre::Binding>(binder, *shader_);
 }
 
 nacre::Instance GraphOutput::instance(const Request& request) const {

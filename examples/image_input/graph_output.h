@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <nacre/nacre.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,8 +42,8 @@ class GraphOutput {
 
   GraphInfo info_;
   bool is_float_ = true;
-  std::optional<nacre::Shader> shader_;
-  std::optional<nacre::Binding> binding_;
+  std::unique_ptr<const nacre::Shader> shader_;
+  std::unique_ptr<const nacre::Binding> binding_;
   mutable std::atomic<std::uint64_t> points_ = 0;
 };
 

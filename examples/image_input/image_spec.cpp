@@ -25,9 +25,14 @@ OIIO::TypeDesc format_of(const Request& request) {
   return request.is_half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
 }
 
-OIIO::ImageSpec spec_of(const GraphInfo& info, const Request& request, const Level& level) {
+OIIO::ImageSpec dimensions_of(const GraphInfo& info, const Request& request, const Level& level) {
   OIIO::ImageSpec spec(level.width, level.height, info.components, format_of(request));
   spec.tile_width = spec.tile_height = tile_side;
+  return spec;
+}
+
+OIIO::ImageSpec spec_of(const GraphInfo& info, const Request& request, const Level& level) {
+  OIIO::ImageSpec spec = dimensions_of(info, request, level);
   spec.channelnames = channel_names(info.components);
   spec.alpha_channel = info.type == "color4" ? 3 : -1;
   // As the document means it: nothing is multiplied by it.

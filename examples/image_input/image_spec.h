@@ -12,6 +12,9 @@ constexpr int tile_side = 64;
 /// Of samples.
 OIIO::TypeDesc format_of(const Request& request);
 
+/// The numbers alone that a level has.
+OIIO::ImageSpec dimensions_of(const GraphInfo& info, const Request& request, const Level& level);
+
 /// What OpenImageIO is told of a level: its size in tiles of 64 x 64, channels (Y; R, G, B, A; of
 /// matrices m0, m1, ...), and of the whole that it is a texture with its wrap modes, of colours
 /// that they are linear, and as "mtlx:output", "mtlx:type" and, where there are any,

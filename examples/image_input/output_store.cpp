@@ -59,13 +59,13 @@ std::set<std::string> files_of(const nacre::Document& document) {
 std::shared_ptr<const ReadyOutput> make(nacre::System& system, const Request& request,
                                         std::vector<nacre::Diagnostic> said) {
   auto made = std::make_shared<ReadyOutput>();
-  // Before they are read: who changes one meanwhile changes its stamp.
+  // Before it is read: who changes it meanwhile changes its stamp.
   const FileStamp itself = stamp_of(fs::absolute(request.document));
   const nacre::Document document = nacre::Document::read(request.document, {}, &said);
   made->files.push_back(itself);
   for (const std::string& file : files_of(document)) {
-    if (!file.empty() && file != request.document)
-      made->files.push_back(stamp_of(fs::absolute(file)));
+    const bool is_included = !file.empty() && file != request.document;
+    if (is_included) made->files.push_back(stamp_of(fs::absolute(file)));
   }
   if (!request.profile.empty()) {
     made->files.push_back(

@@ -154,6 +154,9 @@ TEST_F(GraphImageInput, RowsCanBeReadToo) {
   std::vector<float> row(200);
   ASSERT_TRUE(image->read_scanline(37, 0, OIIO::TypeDesc::FLOAT, row.data()));
   EXPECT_TRUE(std::equal(row.begin(), row.end(), all.begin() + 37 * 200));
+  EXPECT_FALSE(image->read_native_scanline(0, 0, 100, 0, row.data()));
+  EXPECT_FALSE(image->read_native_scanline(0, 0, -1, 0, row.data()));
+  EXPECT_NE(image->geterror(), "");
 }
 
 TEST_F(GraphImageInput, BuffersReadAnyChannelsOfAnyLevel) {

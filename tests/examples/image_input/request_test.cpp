@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <random>
+#include <string>
+#include <vector>
+
 #include "examples/image_input/image_name.h"
 #include "examples/image_input/read_request.h"
 #include "examples/image_input/wrong.h"
@@ -104,6 +108,31 @@ TEST(GraphImageRequest, ValuesThatMakeNoSenseAreRefused) {
             "found 'size' [bad-query]");
   EXPECT_EQ(fault_of("x.mtlx?size=1&size=2"),
             "x.mtlx: error: 'size' is asked for twice [bad-query]");
+}
+
+TEST(GraphImageRequest, AnyTextIsReadOrRefused) {
+  const std::vector<std::string> parts{"x.mtlx", "?", "&",   "=",       "size",    "64",   "x",
+                                       "-",      "0", "1e9", "output",  "udim",    "1001", "frame",
+                                       "nan",    "/", "\n",  "%",       "samples", "wrap", "clamp",
+                                       "{}",     "",  "é",   "profile", "\\"};
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string name = "x.mtlx?";
+    for (std::size_t count = random() % 12; count > 0; --count) {
+      name += parts[random() % parts.size()];
+    }
+    try {
+      const Request request = read_request(name, nullptr);
+      EXPECT_EQ(request.document, "x.mtlx") << name;
+      EXPECT_TRUE(request.width >= 0 && request.width <= 65536) << name;
+      EXPECT_TRUE(request.samples >= 1 && request.samples <= 64) << name;
+    } catch (const Wrong&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10000);
+  EXPECT_LT(refused, 20000);
 }
 
 TEST(GraphImageTextFile, StandsForTheNameInIt) {
