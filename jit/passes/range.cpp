@@ -14,8 +14,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Larger than what rounding to float moves a number by, in parts of it.
 constexpr double rounding = 1e-6;
 
-/// Wider by what floats round, which makes zero of what is denormal; nothing is known of what leaves
-/// their range.
+/// Wider by what floats round, which makes zero of what is denormal; nothing is known of what
+/// leaves their range.
 Range rounded(double low, double high) {
   constexpr double largest = 1e38, smallest = 1.2e-38;
   if (!(low >= -largest && high <= largest)) return {};

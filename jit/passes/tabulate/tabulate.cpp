@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <optional>
-#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "jit/passes/range.h"
+#include "jit/passes/tabulate/groups.h"
 #include "jit/passes/tabulate/piecewise.h"
+#include "jit/passes/tabulate/sampler.h"
 #include "runtime/program/recorder.h"
-#include "runtime/program/slice.h"
 #include "runtime/program/transform.h"
-#include "runtime/reference/reference.h"
 
 namespace nacre {
 
@@ -25,89 +21,8 @@ namespace {
 constexpr double least_saving = 12;
 /// A value that costs no more beside others of its group is computed.
 constexpr double least_cost = 8;
-/// Wider ranges have no cells worth the name.
-constexpr double widest_range = 64;
 /// As many entries as CPUs keep in registers.
 constexpr double most_cells = 32;
-
-bool is_pure(Op op) {
-  switch (op) {
-    case Op::constant:
-    case Op::parameter:
-    case Op::input:
-    case Op::argument:
-    case Op::texel:
-    case Op::texture_call:
-    case Op::result:
-    case Op::call:
-    case Op::keep:
-    case Op::ddx: return false;
-    default: return !is_structural(op);
-  }
-}
-
-/// Values of the entry by what they depend on.
-class Groups {
- public:
-  explicit Groups(const Program& program)
-      : code_(program.entry().code), function_(program.entry()), ranges_(ranges_of(program)) {
-    for (ValueId i = 0; i < code_.size(); ++i) keys_.push_back(key_of(i));
-    for (ValueId i = 0; i < code_.size(); ++i) note_uses(i);
-  }
-
-  /// Numbers that others depend on alone, bounded and different from point to point, and what of
-  /// those others is used elsewhere: in order.
-  const std::map<ValueId, std::vector<ValueId>>& outputs() const { return outputs_; }
-  const Range& range(ValueId value) const { return ranges_[value]; }
-
-  /// Adds what a value is computed from, but for its key; itself included.
-  void add_cone(ValueId value, std::vector<bool>& cone) const {
-    const ValueId key = keys_[value];
-    if (key == value || key == no_value || cone[value]) return;
-    cone[value] = true;
-    for (const ValueId operand : function_.operands(code_[value])) add_cone(operand, cone);
-  }
-
- private:
-  /// Whether it may be the number of a table.
-  bool is_bounded(ValueId value) const {
-    const Range& range = ranges_[value];
-    return is_pure(code_[value].op) && code_[value].type == Scalar::f32 && range.is_bounded() &&
-           range.high > range.low && range.high - range.low <= widest_range;
-  }
-
-  /// The last value that everything of this one goes through, from which a bounded one may begin
-  /// anew; no_value of constants.
-  ValueId key_of(ValueId i) const {
-    if (code_[i].op == Op::constant) return no_value;
-    if (!is_pure(code_[i].op)) return i;
-    ValueId key = no_value;
-    for (const ValueId operand : function_.operands(code_[i])) {
-      const ValueId of = keys_[operand];
-      if (of == no_value || of == key) continue;
-      if (key != no_value) return i;
-      key = of;
-    }
-    if (key == no_value) return i;
-    return is_bounded(i) && !is_bounded(key) ? i : key;
-  }
-
-  void note_uses(ValueId user) {
-    for (const ValueId used : function_.operands(code_[user])) {
-      const ValueId key = keys_[used];
-      if (key == no_value || key == used || keys_[user] == key) continue;
-      if (!is_bounded(key) || !code_[key].varying) continue;
-      std::vector<ValueId>& list = outputs_[key];
-      if (std::ranges::find(list, used) == list.end()) list.push_back(used);
-    }
-  }
-
-  const std::vector<Instruction>& code_;
-  const Function& function_;
-  std::vector<Range> ranges_;
-  std::vector<ValueId> keys_;
-  std::map<ValueId, std::vector<ValueId>> outputs_;
-};
 
 /// A group that is looked up: its values, in the order of the functions.
 struct Looked {
@@ -116,26 +31,6 @@ struct Looked {
   Piecewise fitted;
   ValueId place;  ///< Of an axis that is given by a value of the group.
 };
-
-using Cone = std::vector<bool>;
-
-/// Records the values of a group again: what is in `cone`, of another key.
-std::unordered_map<ValueId, Ref> record_again(Recorder& recorder, const Function& function,
-                                              const Cone& cone, ValueId key, Ref number) {
-  std::unordered_map<ValueId, Ref> again{{key, number}};
-  std::vector<Ref> operands;
-  for (ValueId i = key + 1; i < cone.size(); ++i) {
-    if (!cone[i]) continue;
-    operands.clear();
-    for (const ValueId operand : function.operands(function.code[i])) {
-      const Instruction& found = function.code[operand];
-      operands.push_back(found.op == Op::constant ? Ref{nullptr, found.imm, found.type}
-                                                  : again.at(operand));
-    }
-    again[i] = recorder.emit(function.code[i].op, operands, function.code[i].imm);
-  }
-  return again;
-}
 
 class Tabulator {
  public:
@@ -188,24 +83,26 @@ class Tabulator {
 
   std::optional<Looked> look_up(ValueId key, std::vector<ValueId> outputs) const {
     Cone computed = no_cone();
+    if (cost(cone_of(outputs), computed) < least_cost_of_tables(1) + least_saving) {
+      return std::nullopt;  // Most groups.
+    }
     while (true) {
       sort_out(outputs, computed);
       const Cone looked = cone_of(outputs);
       const double saved = cost(looked, computed);
-      if (saved < least_saving) return std::nullopt;
-      const auto sampled_outputs = [&](auto numbers) { return sampled(key, outputs, numbers); };
-      const Range& range = groups_.range(key);
-      std::vector<Axis> axes;
-      for (const Axis::Along along : {Axis::Along::number, Axis::Along::root}) {
-        for (const int cells : {16, 32}) {
-          axes.push_back(axis_of(range.low, range.high, cells, along));
-        }
-      }
-      const std::optional<ValueId> place = place_in(looked);
+      if (saved < least_cost_of_tables(outputs.size()) + least_saving) return std::nullopt;
+      const Sampler sampler(program_, cone_of(outputs), key, outputs);
+      const auto fit = [&](std::span<const Axis> axes) {
+        return fit_piecewise(axes, error_, [&](auto numbers) { return sampler.run(numbers); });
+      };
+      auto fitted = fit(axes_of(groups_.range(key)));
+      std::optional<ValueId> place;
+      if (!fitted || has_gaps(*fitted)) place = place_in(looked);
       if (place) {
-        if (auto axis = given_axis(key, *place, computed)) axes.push_back(std::move(*axis));
+        const std::optional<Axis> axis = given_axis(key, *place, computed);
+        auto along = axis ? fit({&*axis, 1}) : std::nullopt;
+        if (along && (!fitted || !has_gaps(*along))) fitted = std::move(along);
       }
-      auto fitted = fit_piecewise(axes, error_, sampled_outputs);
       if (!fitted) return std::nullopt;
       const std::size_t before = outputs.size();
       // Again without those that no table is close to.
@@ -219,6 +116,23 @@ class Tabulator {
       if (saved < fitted->cost() + least_saving) return std::nullopt;
       return Looked{key, std::move(outputs), std::move(*fitted), place.value_or(no_value)};
     }
+  }
+
+  static std::vector<Axis> axes_of(const Range& range) {
+    std::vector<Axis> axes;
+    for (const Axis::Along along : {Axis::Along::number, Axis::Along::root}) {
+      for (const int cells : {16, 32}) axes.push_back(axis_of(range.low, range.high, cells, along));
+    }
+    return axes;
+  }
+
+  static bool has_gaps(const Piecewise& fitted) {
+    return std::ranges::any_of(fitted.functions, [](const auto& each) { return each.empty(); });
+  }
+
+  /// Of straight lines in equal cells.
+  static double least_cost_of_tables(std::size_t functions) {
+    return 6 + 3 * static_cast<double>(functions);
   }
 
   /// A value whose whole part is looked at, as an index of another table is made: there functions
@@ -236,8 +150,9 @@ class Tabulator {
   /// Its cells; nothing where it does not grow with the number.
   std::optional<Axis> given_axis(ValueId key, ValueId place, const Cone& computed) const {
     const Range& range = groups_.range(key);
+    const Sampler sampler(program_, cone_of({place}), key, {place});
     const auto places = [&](std::span<const float> numbers) {
-      auto all = sampled(key, {place}, numbers);
+      auto all = sampler.run(numbers);
       return all.empty() ? std::vector<double>{} : std::move(all.front());
     };
     const double ends_at = groups_.range(place).high;
@@ -250,30 +165,6 @@ class Tabulator {
     if (!numbers) return std::nullopt;
     axis.numbers = std::move(*numbers);
     return axis;
-  }
-
-  /// In double precision.
-  std::vector<std::vector<double>> sampled(ValueId key, const std::vector<ValueId>& values,
-                                           std::span<const float> numbers) const {
-    Recorder recorder;
-    recorder.adopt_interface(program_);
-    const auto again = record_again(recorder, program_.entry(), cone_of(values), key,
-                                    recorder.input("tabulated number", Scalar::f32));
-    std::vector<SliceOutput> wanted;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      wanted.push_back({std::to_string(k), again.at(values[k])});
-    }
-    const auto kernel = make_reference(slice(recorder.program(), "tabulated", wanted));
-    std::vector<std::vector<double>> found(values.size(), std::vector<double>(numbers.size()));
-    std::vector<void*> columns;
-    for (std::vector<double>& column : found) columns.push_back(column.data());
-    const void* const input = numbers.data();
-    KernelArguments arguments;
-    arguments.inputs = &input;
-    arguments.outputs = columns.data();
-    arguments.count = numbers.size();
-    if (kernel->run_double(arguments) != RunStatus::done) found.clear();
-    return found;
   }
 
   const Program& program_;

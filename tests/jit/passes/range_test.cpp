@@ -34,8 +34,8 @@ TEST(Ranges, HoldWhatProgramsCompute) {
           RandomBatch(part, seed, order).run(*make_interpreter(part), 0, order.size());
       for (const std::uint32_t bits : found.at(0)) {
         const double number = std::bit_cast<float>(bits);
-        const bool is_in = std::isnan(number) ? range.nan
-                                              : range.low <= number && number <= range.high;
+        const bool is_in =
+            std::isnan(number) ? range.nan : range.low <= number && number <= range.high;
         ASSERT_TRUE(is_in) << number << " of seed " << seed << ", value " << value << ": ["
                            << range.low << ", " << range.high << ']' << (range.nan ? ", NaN" : "");
       }

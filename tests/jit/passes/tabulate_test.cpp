@@ -29,8 +29,7 @@ Program program_of(float low, float high, const Body& body) {
 }
 
 std::size_t count(const Program& program, Op op) {
-  return static_cast<std::size_t>(
-      std::ranges::count(program.entry().code, op, &Instruction::op));
+  return static_cast<std::size_t>(std::ranges::count(program.entry().code, op, &Instruction::op));
 }
 
 std::vector<float> numbers(float low, float high) {
@@ -194,12 +193,12 @@ TEST(Tabulate, LooksUpWhatItCanOfAGroup) {
 }
 
 TEST(Tabulate, TakesAnythingAsItsNumber) {
-  const Program made = tabulate(program_of(0, 1,
-                                           [](Recorder&, Float x) {
-                                             return std::vector<SliceOutput>{
-                                                 {"y", recorded_fresnel(x, 0.2f, 3.5f).ref()}};
-                                           }),
-                                1e-4);
+  const Program made = tabulate(
+      program_of(0, 1,
+                 [](Recorder&, Float x) {
+                   return std::vector<SliceOutput>{{"y", recorded_fresnel(x, 0.2f, 3.5f).ref()}};
+                 }),
+      1e-4);
   const float infinity = std::numeric_limits<float>::infinity();
   const std::vector<float> x{-infinity, -1e30f, -0.0f, 1e-40f, 1.0f, 2.0f, infinity, NAN};
   const std::vector<float> y = run(*make_interpreter(made), {{"x", x}}).at("y");

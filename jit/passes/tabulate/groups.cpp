@@ -1,0 +1,90 @@
+#include "jit/passes/tabulate/groups.h"
+
+#include <algorithm>
+
+namespace nacre {
+
+namespace {
+
+/// Wider ranges have no cells worth the name.
+constexpr double widest_range = 64;
+
+bool is_pure(Op op) {
+  switch (op) {
+    case Op::constant:
+    case Op::parameter:
+    case Op::input:
+    case Op::argument:
+    case Op::texel:
+    case Op::texture_call:
+    case Op::result:
+    case Op::call:
+    case Op::keep:
+    case Op::ddx: return false;
+    default: return !is_structural(op);
+  }
+}
+
+}  // namespace
+
+Groups::Groups(const Program& program)
+    : function_(program.entry()), code_(function_.code), ranges_(ranges_of(program)) {
+  for (ValueId i = 0; i < code_.size(); ++i) keys_.push_back(key_of(i));
+  for (ValueId i = 0; i < code_.size(); ++i) note_uses(i);
+}
+
+void Groups::add_cone(ValueId value, Cone& cone) const {
+  const ValueId key = keys_[value];
+  if (key == value || key == no_value || cone[value]) return;
+  cone[value] = true;
+  for (const ValueId operand : function_.operands(code_[value])) add_cone(operand, cone);
+}
+
+bool Groups::is_bounded(ValueId value) const {
+  const Range& range = ranges_[value];
+  return is_pure(code_[value].op) && code_[value].type == Scalar::f32 && range.is_bounded() &&
+         range.high > range.low && range.high - range.low <= widest_range;
+}
+
+ValueId Groups::key_of(ValueId value) const {
+  if (code_[value].op == Op::constant) return no_value;
+  if (!is_pure(code_[value].op)) return value;
+  ValueId key = no_value;
+  for (const ValueId operand : function_.operands(code_[value])) {
+    const ValueId of = keys_[operand];
+    if (of == no_value || of == key) continue;
+    if (key != no_value) return value;
+    key = of;
+  }
+  if (key == no_value) return value;
+  return is_bounded(value) && !is_bounded(key) ? value : key;
+}
+
+void Groups::note_uses(ValueId user) {
+  for (const ValueId used : function_.operands(code_[user])) {
+    const ValueId key = keys_[used];
+    if (key == no_value || key == used || keys_[user] == key) continue;
+    if (!is_bounded(key) || !code_[key].varying) continue;
+    std::vector<ValueId>& list = outputs_[key];
+    if (std::ranges::find(list, used) == list.end()) list.push_back(used);
+  }
+}
+
+std::unordered_map<ValueId, Ref> record_again(Recorder& recorder, const Function& function,
+                                              const Cone& cone, ValueId key, Ref number) {
+  std::unordered_map<ValueId, Ref> again{{key, number}};
+  std::vector<Ref> operands;
+  for (ValueId i = key + 1; i < cone.size(); ++i) {
+    if (!cone[i]) continue;
+    operands.clear();
+    for (const ValueId operand : function.operands(function.code[i])) {
+      const Instruction& found = function.code[operand];
+      operands.push_back(found.op == Op::constant ? Ref{nullptr, found.imm, found.type}
+                                                  : again.at(operand));
+    }
+    again[i] = recorder.emit(function.code[i].op, operands, function.code[i].imm);
+  }
+  return again;
+}
+
+}  // namespace nacre

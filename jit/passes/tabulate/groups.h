@@ -1,0 +1,48 @@
+#pragma once
+
+#include <map>
+#include <unordered_map>
+#include <vector>
+
+#include "jit/passes/range.h"
+#include "runtime/program/program.h"
+#include "runtime/program/recorder.h"
+
+namespace nacre {
+
+/// Some of a function's values, by id.
+using Cone = std::vector<bool>;
+
+/// Values of a Program's entry by what they depend on: those of a group on one number alone, its
+/// key. The Program is marked, and outlives this.
+class Groups {
+ public:
+  explicit Groups(const Program& program);
+
+  /// Keys that are bounded and differ from point to point, and what of their groups is used
+  /// elsewhere: in order.
+  const std::map<ValueId, std::vector<ValueId>>& outputs() const { return outputs_; }
+  const Range& range(ValueId value) const { return ranges_[value]; }
+
+  /// Adds what a value is computed from, but for its key; itself included.
+  void add_cone(ValueId value, Cone& cone) const;
+
+ private:
+  bool is_bounded(ValueId value) const;
+  /// The last value that everything of this one goes through, from which a bounded one may begin
+  /// anew; no_value of constants.
+  ValueId key_of(ValueId value) const;
+  void note_uses(ValueId user);
+
+  const Function& function_;
+  const std::vector<Instruction>& code_;
+  std::vector<Range> ranges_;
+  std::vector<ValueId> keys_;
+  std::map<ValueId, std::vector<ValueId>> outputs_;
+};
+
+/// Records what is in a cone again, of another number than its key: by value.
+std::unordered_map<ValueId, Ref> record_again(Recorder& recorder, const Function& function,
+                                              const Cone& cone, ValueId key, Ref number);
+
+}  // namespace nacre
