@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <stop_token>
 #include <vector>
@@ -8,27 +9,41 @@
 
 namespace nacre::host {
 
+/// How a texel becomes the mean of samples in it: a box filter of the texel's size. Image
+/// look-ups and derivatives are of footprints as wide as samples lie apart.
+struct Sampling {
+  int count = 1;  ///< Of each texel; 0: as many as `error` asks for.
+  /// Of a texel, in units of the output, of its own value where that is above 1: samples are
+  /// added until the estimated error is as small. See adaptive_texels.h.
+  float error = 1.0f / 510.0f;
+};
+
 struct BakeSettings {
   int width = 1024, height = 1024;
   int corner_u = 0, corner_v = 0;  ///< uv of the image's lower left: the tile of a set.
   int threads = 0;                 ///< 0: as many as the machine has.
   float frame = 1.0f;
   float time = 0.0f;
-  /// Bytes for the rows being computed; the image itself is the sink's business.
-  std::size_t memory = std::size_t{64} << 20;
+  Sampling sampling = {};  ///< Of outputs of floats; others have one sample a texel.
 };
 
-/// Texels of whole rows of one output, interleaved, booleans and integers as
-/// floats: (rows * width * components) of them.
+/// Texels of whole rows of one output, width * rows of each component, booleans and integers
+/// as floats.
 struct BakedRows {
   int first = 0;
   int rows = 0;
-  std::vector<float> texels;
+  std::vector<std::vector<float>> planes;
+};
+
+/// What it took.
+struct BakeCounts {
+  std::uint64_t samples = 0;
+  std::uint64_t unfinished = 0;  ///< Texels that had the most samples and wanted more.
 };
 
 struct BakeControl {
   std::stop_token stop;
-  /// The finished share, 0 to 1; called by the thread that called bake().
+  /// The finished share, 0 to 1; called by any thread, one at a time.
   std::function<void(double)> progress;
 };
 
@@ -40,15 +55,23 @@ enum class BakeResult {
   too_many_steps,  ///< The kernel did: RunStatus.
 };
 
-/// Shades the plane with one output of a kernel and hands over the rows from top
-/// to bottom. The texels do not depend on threads or memory.
+/// Gets blocks of rows, in any order, on several threads at once, and may change them. What it
+/// returns is called for one block after another, from top to bottom; false ends the bake.
+using RowSink = std::function<std::function<bool()>(BakedRows&)>;
+
+/// True for outputs that have a mean.
+bool has_mean(Type type);
+
+/// Shades the plane with one output of a kernel and hands over blocks of `block_rows` rows, the
+/// last of which may have fewer. The texels do not depend on threads or blocks.
 BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
-                const std::function<bool(const BakedRows&)>& sink, const BakeControl& control = {});
+                int block_rows, const RowSink& sink, const BakeControl& control = {},
+                BakeCounts* counts = nullptr);
 
 /// The error that BakeResult::too_many_steps is.
 void report_too_many_steps(const OutputKernel::Output& output, Diagnostics& diagnostics);
 
-/// A whole output in memory; empty if the kernel takes too many steps.
+/// A whole output in memory, components side by side; empty if the kernel takes too many steps.
 std::vector<float> bake_image(const OutputKernel& kernel, std::size_t output,
                               const BakeSettings& settings);
 

@@ -38,19 +38,29 @@ Linear meaning(std::string_view channel, float du, float dv) {
 
 }  // namespace
 
-void Plane::fill(std::string_view channel, int first, int rows, std::vector<float>& values) const {
+void Plane::fill(std::string_view channel, const TexelPoints& points,
+                 std::vector<float>& values) const {
   const float du = 1.0f / static_cast<float>(width_);
   const float dv = 1.0f / static_cast<float>(height_);
-  const Linear line = meaning(channel, du, dv);
-  values.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width_));
-  std::size_t next = 0;
-  for (int j = first; j < first + rows; ++j) {
-    const float v = static_cast<float>(corner_v_) + (1.0f - (static_cast<float>(j) + 0.5f) * dv);
-    for (int i = 0; i < width_; ++i) {
-      const float u = static_cast<float>(corner_u_) + (static_cast<float>(i) + 0.5f) * du;
-      values[next++] = line.constant + line.u * u + line.v * v;
-    }
+  const Linear line = meaning(channel, du * points.footprint, dv * points.footprint);
+  const std::size_t count = points.x.size();
+  if (line.u == 0.0f && line.v == 0.0f) {
+    values.assign(count, line.constant);
+    return;
   }
+  values.resize(count);
+  const auto corner_u = static_cast<float>(corner_u_);
+  const auto corner_v = static_cast<float>(corner_v_);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float u = corner_u + points.x[i] * du;
+    const float v = corner_v + (1.0f - points.y[i] * dv);
+    values[i] = line.constant + line.u * u + line.v * v;
+  }
+}
+
+bool Plane::is_constant(std::string_view channel) const {
+  const Linear line = meaning(channel, 1.0f, 1.0f);
+  return line.u == 0.0f && line.v == 0.0f;
 }
 
 }  // namespace nacre::host

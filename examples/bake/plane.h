@@ -7,10 +7,16 @@
 
 namespace nacre::host {
 
-/// The plane that `bake` shades. Texel (i, j) of a width x height image, j
-/// counted from the top row, has uv = corner + ((i+1/2)/width, 1-(j+1/2)/height),
-/// P = (u, v, 0) in every space, N = (0,0,1), T = (1,0,0), B = (0,1,0), a viewer
-/// straight above, and a footprint of one texel.
+/// Where an image is sampled, in texels from its upper left corner: the middle of the first
+/// one is (1/2, 1/2). Footprints are so many texels wide and high.
+struct TexelPoints {
+  std::vector<float> x, y;
+  float footprint = 1.0f;
+};
+
+/// The plane that `bake` shades. A point (x, y) of a width x height image has uv =
+/// corner + (x/width, 1-y/height), P = (u, v, 0) in every space, N = (0,0,1), T = (1,0,0),
+/// B = (0,1,0), and a viewer straight above.
 class Plane {
  public:
   Plane(int width, int height, int corner_u = 0, int corner_v = 0)
@@ -19,9 +25,10 @@ class Plane {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Values of an input channel (runtime/node/geometry.h) for the texels of rows
-  /// [first, first + rows), row by row. Unknown channels are 0.
-  void fill(std::string_view channel, int first, int rows, std::vector<float>& values) const;
+  /// Values of an input channel (runtime/node/geometry.h) for points. Unknown channels are 0.
+  void fill(std::string_view channel, const TexelPoints& points, std::vector<float>& values) const;
+  /// Whether that depends on `points` by their number and footprint only.
+  bool is_constant(std::string_view channel) const;
 
  private:
   int width_, height_;

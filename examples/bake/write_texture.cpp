@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
 
+#include "examples/bake/adaptive_texels.h"
 #include "examples/bake/texture_format.h"
 #include "examples/common/atomic_file.h"
 #include "examples/common/image_writer.h"
@@ -42,6 +44,17 @@ struct Cut {
   std::size_t count = 0;
   float least = std::numeric_limits<float>::infinity();
   float most = -std::numeric_limits<float>::infinity();
+
+  void add(const Cut& other) {
+    count += other.count;
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+  }
+};
+
+/// The numbers that a file holds.
+struct Span {
+  float least, most;
 };
 
 /// One output on its way into one file.
@@ -52,9 +65,9 @@ struct Job {
   const TextureEncoding& encoding;
   const Format& format;
   const BakeControl& control;
-  TexelRange* range;
-  Cut* cut;
-  bool& too_many_steps;  ///< Set if the kernel took too many.
+  TextureReport& report;
+  Cut& cut;
+  BakeResult& result;
 
   const OutputKernel::Output& output() const { return kernel.outputs[index]; }
   int components() const { return component_count(output().type); }
@@ -84,68 +97,74 @@ ImageHeader header_of(const Job& job) {
           .channels = channel_names(job.channels()),
           .samples = job.type().value(),
           .colorspace = job.file_colorspace(),
-          .is_multiplied = false,  // A fourth channel is a number like the others.
+          .codes_srgb = job.format.is_integer && job.is_srgb(),
           .repeats = !job.encoding.is_tile};
 }
 
-void widen(TexelRange& range, const std::vector<float>& texels, std::size_t channels) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  range.least.resize(channels, infinity);
-  range.most.resize(channels, -infinity);
-  for (std::size_t i = 0; i < texels.size(); ++i) {
-    float& least = range.least[i % channels];
-    float& most = range.most[i % channels];
-    if (texels[i] < least) least = texels[i];
-    if (texels[i] > most) most = texels[i];
-  }
-}
-
-/// Notes what lies outside the numbers that the file holds, or is none.
-void note(Cut& cut, float value, float least, float most) {
+/// Counts what lies outside the numbers that the file holds, or is none.
+Cut cut_of(const std::vector<float>& plane, Span held) {
   constexpr float rounding = 1e-5f;
-  if (!(value >= least - rounding && value <= most + rounding)) ++cut.count;
-  cut.least = std::min(cut.least, value);
-  cut.most = std::max(cut.most, value);
+  held = {held.least - rounding, held.most + rounding};
+  Cut cut;
+  for (const float value : plane) {
+    cut.count += value >= held.least && value <= held.most ? 0 : 1;
+    cut.least = value < cut.least ? value : cut.least;
+    cut.most = value > cut.most ? value : cut.most;
+  }
+  return cut;
 }
 
-BakedRows chosen_channels(const Job& job, const BakedRows& rows) {
-  if (job.channels() == job.components()) return rows;
-  BakedRows chosen{rows.first, rows.rows, {}};
-  const auto first = static_cast<std::size_t>(job.encoding.first_channel);
-  const auto stride = static_cast<std::size_t>(job.components());
-  for (std::size_t i = first; i < rows.texels.size(); i += stride) {
-    for (int c = 0; c < job.channels(); ++c) {
-      chosen.texels.push_back(rows.texels[i + static_cast<std::size_t>(c)]);
+/// Of halves, which have infinity and NaN.
+Cut cut_of_halves(const std::vector<float>& plane) {
+  std::vector<float> finite;
+  std::copy_if(plane.begin(), plane.end(), std::back_inserter(finite),
+               [](float value) { return std::isfinite(value); });
+  return cut_of(finite, {-largest_half, largest_half});
+}
+
+/// Turns numbers as computed into those that the file is to hold, but for what its writer does.
+Cut encode(const Job& job, std::span<std::vector<float>> planes) {
+  const bool direction = job.is_direction();
+  const Span unit{direction ? -1.0f : 0.0f, 1.0f};
+  Cut cut;
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    std::vector<float>& plane = planes[c];
+    const bool is_coded = job.is_srgb() && c != 3;  // Alpha never is.
+    if (job.format.is_integer || is_coded) {
+      cut.add(cut_of(plane, unit));
+    } else if (job.type() == SampleType::half) {
+      cut.add(cut_of_halves(plane));
+    }
+    if (is_coded && !job.format.is_integer) {
+      for (float& texel : plane) texel = srgb_encode(texel);
+    }
+    if (direction) {
+      for (float& texel : plane) texel = 0.5f * texel + 0.5f;
     }
   }
-  return chosen;
+  return cut;
 }
 
-/// Bakes, and hands rows to `sink` as the numbers that the file is to hold.
-BakeResult bake_encoded(const Job& job, const std::function<bool(const BakedRows&)>& sink) {
-  const auto channels = static_cast<std::size_t>(job.channels());
-  const bool srgb = job.is_srgb();
-  const bool direction = job.is_direction();
-  const bool is_half = job.type() == SampleType::half;
-  BakedRows encoded;
-  const auto encode = [&](const BakedRows& rows) {
-    encoded = chosen_channels(job, rows);
-    if (job.range != nullptr) widen(*job.range, encoded.texels, channels);
-    for (std::size_t i = 0; i < encoded.texels.size(); ++i) {
-      float& texel = encoded.texels[i];
-      const bool is_coded = srgb && !(channels == 4 && i % 4 == 3);  // Alpha never is.
-      if (job.format.is_integer || is_coded) {
-        note(*job.cut, texel, direction ? -1.0f : 0.0f, 1.0f);
-      } else if (is_half && std::isfinite(texel)) {
-        note(*job.cut, texel, -largest_half, largest_half);
-      }
-      if (is_coded) texel = srgb_encode(texel);
-      if (direction) texel = 0.5f * texel + 0.5f;
-    }
-    return sink(encoded);
+/// Bakes into an image that is open.
+BakeResult bake_into(const Job& job, ImageWriter& image) {
+  const StatisticsRequest request{job.report.histogram, job.is_direction() ? -1.0f : 0.0f, 1.0f};
+  const auto sink = [&](BakedRows& rows) -> std::function<bool()> {
+    const auto planes = std::span(rows.planes)
+                            .subspan(static_cast<std::size_t>(job.encoding.first_channel),
+                                     static_cast<std::size_t>(job.channels()));
+    const TexelStatistics statistics = statistics_of(planes, request);
+    const Cut cut = encode(job, planes);
+    return [&, statistics, cut, encoded = image.encode({rows.first, rows.rows, planes})] {
+      job.report.statistics.add(statistics);
+      job.cut.add(cut);
+      return image.append(encoded);
+    };
   };
-  const BakeResult result = bake(job.kernel, job.index, job.settings, encode, job.control);
-  job.too_many_steps = result == BakeResult::too_many_steps;
+  BakeCounts counts;
+  const BakeResult result =
+      bake(job.kernel, job.index, job.settings, image.block_rows(), sink, job.control, &counts);
+  job.report.statistics.samples += counts.samples;
+  job.report.statistics.unfinished += counts.unfinished;
   return result;
 }
 
@@ -165,15 +184,13 @@ std::string write_image(const Job& job, const std::string& file) {
   std::string problem;
   const auto image = open_image(file, header_of(job), problem);
   if (image == nullptr) return problem;
-  const BakeResult result = bake_encoded(job, [&](const BakedRows& rows) {
-    return image->write(rows.first, rows.rows, rows.texels.data());
-  });
-  return result == BakeResult::done ? image->finish() : reason(result, image->problem());
+  job.result = bake_into(job, *image);
+  return job.result == BakeResult::done ? image->finish() : reason(job.result, image->problem());
 }
 
 /// What there is to say of numbers that were cut off; nothing if there are none.
 std::optional<Diagnostic> complaint_of(const Job& job, const std::string& path) {
-  const Cut& cut = *job.cut;
+  const Cut& cut = job.cut;
   if (cut.count == 0) return std::nullopt;
   const bool is_refused = is_vector(job.output().type);
   const bool is_half = job.type() == SampleType::half;
@@ -192,6 +209,19 @@ std::optional<Diagnostic> complaint_of(const Job& job, const std::string& path) 
   complaint.found =
       fmt::format("{} to {}, {} of {} numbers outside", cut.least, cut.most, cut.count, all);
   return complaint;
+}
+
+/// Says how many texels have the most samples that there are, and were to have more.
+void report_unfinished(std::uint64_t texels, const BakeSettings& settings, const std::string& path,
+                       Diagnostics& diagnostics) {
+  if (texels == 0) return;
+  diagnostics.warning(
+      "most-samples", {path, 0, 0, {}},
+      fmt::format(
+          "{} of {} texels have {} samples and may still be less exact", texels,
+          static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height),
+          AdaptiveTexels::most_samples),
+      fmt::format("an error of at most {}", settings.sampling.error));
 }
 
 /// What makes a job impossible, or "".
@@ -213,19 +243,22 @@ std::unique_ptr<PartialFile> bake_to_partial_file(const OutputKernel& kernel, st
                                                   const BakeSettings& settings,
                                                   const TextureEncoding& encoding,
                                                   const std::string& path, Diagnostics& diagnostics,
-                                                  const BakeControl& control, TexelRange* range) {
+                                                  const BakeControl& control,
+                                                  TextureReport* report) {
   const Format* format = format_of(std::filesystem::path(path).extension().string());
   Cut cut;
   std::optional<Diagnostic> complaint;
-  bool too_many_steps = false;
+  TextureReport own;
+  TextureReport& said = report == nullptr ? own : *report;
+  const std::uint64_t unfinished = said.statistics.unfinished;
+  BakeResult result = BakeResult::refused;
   const auto write = [&](const std::string& file) -> std::string {
     if (format == nullptr) return "unknown extension; .exr, .png and .tx can be written";
-    const Job job{kernel,  output, settings, encoding,      *format,
-                  control, range,  &cut,     too_many_steps};
+    const Job job{kernel, output, settings, encoding, *format, control, said, cut, result};
     const std::string fault = fault_of(job);
     if (!fault.empty()) return fault;
     const std::string problem = write_image(job, file);
-    if (problem.empty() && (range == nullptr || job.type() == SampleType::half)) {
+    if (problem.empty() && (!said.is_judged || job.type() == SampleType::half)) {
       complaint = complaint_of(job, path);
     }
     return problem;
@@ -234,13 +267,16 @@ std::unique_ptr<PartialFile> bake_to_partial_file(const OutputKernel& kernel, st
   std::string problem = file->problem();
   if (problem.empty()) problem = write(file->name());
   if (control.stop.stop_requested()) return nullptr;
-  if (too_many_steps) {
+  if (result == BakeResult::too_many_steps) {
     report_too_many_steps(kernel.outputs[output], diagnostics);
     return nullptr;
   }
   if (complaint) diagnostics.add(*complaint);
   if (complaint && complaint->severity == Severity::error) return nullptr;
-  if (problem.empty()) return file;
+  if (problem.empty()) {
+    report_unfinished(said.statistics.unfinished - unfinished, settings, path, diagnostics);
+    return file;
+  }
   write_failed(path, problem, diagnostics);
   return nullptr;
 }
@@ -252,9 +288,9 @@ bool commit(PartialFile& file, Diagnostics& diagnostics) {
 
 bool bake_to_file(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
                   const TextureEncoding& encoding, const std::string& path,
-                  Diagnostics& diagnostics, const BakeControl& control, TexelRange* range) {
+                  Diagnostics& diagnostics, const BakeControl& control, TextureReport* report) {
   const auto file =
-      bake_to_partial_file(kernel, output, settings, encoding, path, diagnostics, control, range);
+      bake_to_partial_file(kernel, output, settings, encoding, path, diagnostics, control, report);
   return file != nullptr && commit(*file, diagnostics);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,37 +23,62 @@ struct ImageHeader {
   std::vector<std::string> channels;           ///< Their names.
   SampleType samples = SampleType::unsigned8;  ///< As the file has them.
   std::string colorspace;                      ///< As OpenImageIO calls it.
-  bool is_multiplied = false;                  ///< By the fourth channel, alpha.
-  bool repeats = true;                         ///< Of a .tx.
+  /// Of integers: all but a fourth channel get the codes of sRGB for linear values.
+  bool codes_srgb = false;
+  bool repeats = true;  ///< Of a .tx.
 };
 
-/// An image on its way into a file.
+/// Rows on their way into a file: `planes` has a plane of width * rows floats for each channel.
+struct ImageRows {
+  int first = 0;  ///< Counted from the top.
+  int rows = 0;
+  std::span<const std::vector<float>> planes;
+};
+
+/// Rows as the file has them, or nearly.
+struct EncodedRows {
+  int first = 0;
+  int rows = 0;
+  std::vector<unsigned char> bytes;
+  std::uint32_t checksum = 0;
+  std::uint64_t raw_bytes = 0;  ///< That the checksum is of.
+};
+
+/// An image on its way into a file, by blocks of rows: what takes time, `encode`, any threads
+/// may do for several blocks at once. The file's bytes are the same whoever did.
 class ImageWriter {
  public:
   virtual ~ImageWriter() = default;
 
-  /// Rows [first, first + rows), counted from the top, which come in order: channels side by
-  /// side. Integers are value * largest. False: see problem().
-  virtual bool write(int first, int rows, const float* samples) = 0;
+  /// The rows of a block; the last one may have fewer.
+  virtual int block_rows() const = 0;
+  /// Of one block. Integers are value * largest, rounded.
+  virtual EncodedRows encode(const ImageRows& rows) const = 0;
+  /// Blocks in order, from the top. False: see problem().
+  virtual bool append(const EncodedRows& rows) = 0;
   /// After all rows. "", or what went wrong first.
   virtual std::string finish() = 0;
   /// What went wrong; not "".
   virtual std::string problem() const = 0;
 };
 
-/// The module nacre_image_writer: what needs OpenImageIO.
+/// Writes a whole image. "", or what went wrong first.
+std::string write_planes(ImageWriter& image, const ImageHeader& header,
+                         std::span<const std::vector<float>> planes);
+
+/// The module nacre_image_writer: what needs OpenImageIO, so .tx.
 struct ImageWriterModule : ModuleHead {
   /// Null, with the problem, if there can be no such file.
   std::unique_ptr<ImageWriter> (*open)(const std::string& file, const ImageHeader& header,
                                        std::string& problem);
 };
 
-/// As that does; the first one loads OpenImageIO.
+/// As that does, for all kinds; the first .tx loads OpenImageIO.
 std::unique_ptr<ImageWriter> open_image(const std::string& file, const ImageHeader& header,
                                         std::string& problem);
 
 /// As prepare_output (atomic_file.h) for an image: false, with an error, also where this
-/// program writes none.
+/// program writes none of that kind, by its extension.
 bool prepare_image(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace nacre::host

@@ -3,6 +3,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
+#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -18,9 +19,25 @@ class LevelWriter final : public ImageWriter {
   LevelWriter(std::string file, const ImageHeader& header)
       : file_(std::move(file)), repeats_(header.repeats), image_(spec_of(header)) {}
 
-  bool write(int first, int rows, const float* samples) override {
-    const OIIO::ROI roi(0, image_.spec().width, first, first + rows, 0, 1, 0, image_.nchannels());
-    return image_.set_pixels(roi, OIIO::TypeDesc::FLOAT, samples);
+  int block_rows() const override { return 16; }
+
+  EncodedRows encode(const ImageRows& rows) const override {
+    const std::size_t channels = rows.planes.size();
+    const std::size_t texels = rows.planes[0].size();
+    std::vector<float> samples(channels * texels);
+    for (std::size_t c = 0; c < channels; ++c) {
+      for (std::size_t i = 0; i < texels; ++i) samples[i * channels + c] = rows.planes[c][i];
+    }
+    EncodedRows encoded{rows.first, rows.rows, {}, 0, 0};
+    encoded.bytes.resize(samples.size() * sizeof(float));
+    std::memcpy(encoded.bytes.data(), samples.data(), encoded.bytes.size());
+    return encoded;
+  }
+
+  bool append(const EncodedRows& rows) override {
+    const OIIO::ROI roi(0, image_.spec().width, rows.first, rows.first + rows.rows, 0, 1, 0,
+                        image_.nchannels());
+    return image_.set_pixels(roi, OIIO::TypeDesc::FLOAT, rows.bytes.data());
   }
 
   std::string finish() override {

@@ -21,7 +21,7 @@ OIIO::ImageSpec spec_of(const ImageHeader& header) {
                        type_of(header.samples));
   spec.channelnames = header.channels;
   spec.attribute("compression", "zip");
-  if (!header.is_multiplied) spec.attribute("oiio:UnassociatedAlpha", 1);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("oiio:ColorSpace", header.colorspace);
   spec.attribute("DateTime", "");  // Else the writers note the time.
   spec.attribute("tiff:half", 1);  // Else 16-bit floats become 32-bit ones.

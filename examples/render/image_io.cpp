@@ -28,32 +28,39 @@ Vec3 toned(Vec3 pixel, const WriteOptions& options) {
   return {srgb_encode(rgb.x), srgb_encode(rgb.y), srgb_encode(rgb.z)};
 }
 
-std::vector<float> developed(const Film& film, const WriteOptions& options) {
-  std::vector<float> values;
-  values.reserve(film.pixels().size() * (film.has_alpha() ? 4 : 3));
+using Planes = std::vector<std::vector<float>>;
+
+Planes planes_of(const Film& film) {
+  Planes planes(film.has_alpha() ? 4 : 3);
+  for (std::vector<float>& plane : planes) plane.reserve(film.pixels().size());
+  return planes;
+}
+
+void append(Planes& planes, Vec3 rgb, float alpha) {
+  planes[0].push_back(rgb.x);
+  planes[1].push_back(rgb.y);
+  planes[2].push_back(rgb.z);
+  if (planes.size() == 4) planes[3].push_back(alpha);
+}
+
+Planes developed(const Film& film, const WriteOptions& options) {
+  Planes planes = planes_of(film);
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) {
       const float alpha = film.alpha(x, y);
       const Vec3 rgb = toned(alpha > 0.f ? (1.f / alpha) * film.mean(x, y) : Vec3{}, options);
-      for (const float v : {rgb.x, rgb.y, rgb.z}) values.push_back(rounded(v));
-      if (film.has_alpha()) values.push_back(rounded(alpha));
+      append(planes, {rounded(rgb.x), rounded(rgb.y), rounded(rgb.z)}, rounded(alpha));
     }
   }
-  return values;
+  return planes;
 }
 
-/// The linear channels, side by side.
-std::vector<float> interleaved(const Film& film) {
-  std::vector<float> values;
-  values.reserve(film.pixels().size() * (film.has_alpha() ? 4 : 3));
+Planes linear(const Film& film) {
+  Planes planes = planes_of(film);
   for (int y = 0; y < film.height(); ++y) {
-    for (int x = 0; x < film.width(); ++x) {
-      const Vec3 rgb = film.mean(x, y);
-      values.insert(values.end(), {rgb.x, rgb.y, rgb.z});
-      if (film.has_alpha()) values.push_back(film.alpha(x, y));
-    }
+    for (int x = 0; x < film.width(); ++x) append(planes, film.mean(x, y), film.alpha(x, y));
   }
-  return values;
+  return planes;
 }
 
 /// Empty when written; otherwise why not.
@@ -64,15 +71,13 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
                      .height = film.height(),
                      .channels = {"R", "G", "B"},
                      .samples = SampleType::unsigned8,
-                     .colorspace = exr ? "Linear" : "sRGB",
-                     .is_multiplied = exr};
+                     .colorspace = exr ? "Linear" : "sRGB"};
   if (exr) header.samples = options.half ? SampleType::half : SampleType::floating;
   if (film.has_alpha()) header.channels.emplace_back("A");
   std::string problem;
   const auto image = open_image(path, header, problem);
   if (image == nullptr) return problem;
-  const std::vector<float> pixels = exr ? interleaved(film) : developed(film, options);
-  return image->write(0, film.height(), pixels.data()) ? image->finish() : image->problem();
+  return write_planes(*image, header, exr ? linear(film) : developed(film, options));
 }
 
 }  // namespace

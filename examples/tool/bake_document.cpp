@@ -38,6 +38,13 @@ int matrix_rows(Type type) {
 /// The whole numbers that channels of so many bits hold without a gap.
 float largest_integer(int bits) { return bits == 16 ? 2048.0f : 16777216.0f; }
 
+/// The texel of a uniform map.
+std::vector<float> least_of(const host::TexelStatistics& statistics) {
+  std::vector<float> texel;
+  for (const host::ChannelStatistics& channel : statistics.channels) texel.push_back(channel.least);
+  return texel;
+}
+
 class MaterialBaker {
  public:
   MaterialBaker(const DocumentBake& options, const Opened& opened, const Definitions& definitions,
@@ -127,10 +134,11 @@ class MaterialBaker {
     const std::string whole = stems_.stem_of(job.stem, where_of(job), diagnostics_);
     std::vector<std::unique_ptr<host::PartialFile>> files;
     std::vector<std::string> names;
-    host::TexelRange all;
+    host::TexelStatistics all;
     const int rows = matrix_rows(job.type);
     for (int row = 0; row < rows; ++row) {
-      host::TexelRange range;
+      host::TextureReport report;
+      report.is_judged = true;
       texture.encoding.first_channel = row * rows;
       texture.encoding.channels = rows == 1 ? 0 : rows;
       const std::string stem = rows == 1 ? whole : fmt::format("{}.row{}", whole, row + 1);
@@ -138,15 +146,15 @@ class MaterialBaker {
         settings.corner_u = tile.u;
         settings.corner_v = tile.v;
         const fs::path file = file_of(stem, options_.tiles.empty() ? "" : tile.number(), texture);
-        files.push_back(bake_file(kernel, settings, texture, file, range));
+        files.push_back(bake_file(kernel, settings, texture, file, report));
         if (files.back() == nullptr) return;
       }
       names.push_back(relative(file_of(stem, options_.tiles.empty() ? "" : "<UDIM>", texture)));
-      all.least.insert(all.least.end(), range.least.begin(), range.least.end());
-      all.most.insert(all.most.end(), range.most.begin(), range.most.end());
+      const host::TexelStatistics& row_all = report.statistics;
+      all.channels.insert(all.channels.end(), row_all.channels.begin(), row_all.channels.end());
     }
     if (all.is_uniform()) {
-      return set_value(job, all.least, host::output_space(texture.extension, texture.encoding));
+      return set_value(job, least_of(all), host::output_space(texture.extension, texture.encoding));
     }
     if (!check_range(job, texture, all)) return;
     for (const auto& file : files) {
@@ -192,13 +200,13 @@ class MaterialBaker {
   std::unique_ptr<host::PartialFile> bake_file(const OutputKernel& kernel,
                                                const host::BakeSettings& settings,
                                                const TextureSettings& texture, const fs::path& file,
-                                               host::TexelRange& range) {
+                                               host::TextureReport& report) {
     if (!host::prepare_image(file.string(), diagnostics_)) return nullptr;
     ProgressLine line(file.stem().string(), options_.quiet);
     const host::BakeControl control{.stop = stop().token(),
                                     .progress = [&](double share) { line.update(share); }};
     return host::bake_to_partial_file(kernel, 0, settings, texture.encoding, file.string(),
-                                      diagnostics_, control, &range);
+                                      diagnostics_, control, &report);
   }
 
   void set_value(const BakedDocument::Job& job, const std::vector<float>& texel,
@@ -212,8 +220,8 @@ class MaterialBaker {
 
   /// Whole numbers hold 0 to 1, or -1 to 1 for directions; more would be cut off.
   bool check_range(const BakedDocument::Job& job, const TextureSettings& texture,
-                   const host::TexelRange& range) {
-    if (job.type == Type::integer && !check_integers(job, texture.encoding.bits, range)) {
+                   const host::TexelStatistics& all) {
+    if (job.type == Type::integer && !check_integers(job, texture.encoding.bits, all)) {
       return false;
     }
     const bool is_limited =
@@ -222,8 +230,12 @@ class MaterialBaker {
     if (!is_limited) return true;
     constexpr float rounding = 1e-5f;
     const float lowest = job.frame.empty() ? 0.0f : -1.0f;
-    const float least = *std::min_element(range.least.begin(), range.least.end());
-    const float most = *std::max_element(range.most.begin(), range.most.end());
+    float least = all.channels[0].least;
+    float most = all.channels[0].most;
+    for (const host::ChannelStatistics& channel : all.channels) {
+      least = std::min(least, channel.least);
+      most = std::max(most, channel.most);
+    }
     if (least >= lowest - rounding && most <= 1.0f + rounding) return true;
     diagnostics_.error("out-of-range", {options_.document, 0, 0, job.stem},
                        "the texture cannot hold these values; exr and tx can",
@@ -231,12 +243,13 @@ class MaterialBaker {
     return false;
   }
 
-  bool check_integers(const BakedDocument::Job& job, int bits, const host::TexelRange& range) {
+  bool check_integers(const BakedDocument::Job& job, int bits, const host::TexelStatistics& all) {
     const float limit = largest_integer(bits);
-    if (range.least[0] >= -limit && range.most[0] <= limit) return true;
+    const host::ChannelStatistics& channel = all.channels[0];
+    if (channel.least >= -limit && channel.most <= limit) return true;
     diagnostics_.error("out-of-range", {options_.document, 0, 0, job.stem},
                        "the texture cannot hold these integers", fmt::format("-{0} to {0}", limit),
-                       fmt::format("{} to {}", range.least[0], range.most[0]));
+                       fmt::format("{} to {}", channel.least, channel.most));
     return false;
   }
 

@@ -134,7 +134,7 @@ TEST_F(Resources, Memory) {
   if (is_sanitized) GTEST_SKIP() << "a sanitizer's own memory does not fit";
   const bool all = std::getenv("NACRE_TEST_FULL") != nullptr;
   int failed = 0;
-  for (long kilobytes = 500'000; kilobytes <= 1'300'000; kilobytes += all ? 20'000 : 80'000) {
+  for (long kilobytes = 180'000; kilobytes <= 1'300'000; kilobytes += all ? 20'000 : 80'000) {
     std::filesystem::remove_all(file("out"));
     const int status = shell("(ulimit -c 0; ulimit -v " + std::to_string(kilobytes) + "; $NACRE" +
                              bake("--size 2048 --threads 3") + ")");

@@ -1,0 +1,145 @@
+#include "examples/bake/adaptive_texels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nacre::host {
+
+namespace {
+
+int set_size(std::size_t set) { return 4 << (2 * set); }
+
+}  // namespace
+
+AdaptiveTexels::AdaptiveTexels(PointShader& shader, float error)
+    : shader_(shader),
+      error_(error),
+      width_(static_cast<std::size_t>(shader.plane().width())),
+      means_(static_cast<std::size_t>(shader.components())) {
+  for (std::size_t set = 0; set < sets; ++set) places_[set] = sample_places(set_size(set));
+}
+
+RunStatus AdaptiveTexels::rows(int first, int rows, std::vector<std::vector<float>>& planes,
+                               const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
+  const int above = first > 0 ? 1 : 0;
+  const int below = first + rows < shader_.plane().height() ? 1 : 0;
+  const std::size_t begin = static_cast<std::size_t>(above) * width_;
+  const std::size_t count = static_cast<std::size_t>(rows) * width_;
+  RunStatus status = first_set(first - above, rows + above + below, stop, counts);
+  if (status != RunStatus::done) return status;
+  find_edges();
+  std::vector<std::size_t> texels;
+  for (std::size_t i = begin; i < begin + count; ++i) {
+    if (is_near_error(i) || wants_more(i, 0)) texels.push_back(i);
+  }
+  for (std::size_t set = 1; set < sets && !texels.empty(); ++set) {
+    status = next_set(set, first - above, texels, stop, counts);
+    if (status != RunStatus::done) return status;
+    std::erase_if(texels, [&](std::size_t i) { return !wants_more(i, set); });
+  }
+  counts.unfinished += texels.size();
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    const auto from = means_[c].begin() + static_cast<std::ptrdiff_t>(begin);
+    planes[c].assign(from, from + static_cast<std::ptrdiff_t>(count));
+  }
+  return RunStatus::done;
+}
+
+RunStatus AdaptiveTexels::first_set(int first, int rows, const std::atomic<std::uint32_t>& stop,
+                                    BakeCounts& counts) {
+  const std::size_t count = static_cast<std::size_t>(rows) * width_;
+  errors_.assign(count, 0.0f);
+  for (std::vector<float>& mean : means_) mean.resize(count);
+  std::vector<std::size_t> texels(count);
+  for (std::size_t i = 0; i < count; ++i) texels[i] = i;
+  return next_set(0, first, texels, stop, counts);
+}
+
+RunStatus AdaptiveTexels::next_set(std::size_t set, int first,
+                                   const std::vector<std::size_t>& texels,
+                                   const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
+  const std::vector<SamplePlace>& places = places_[set];
+  const std::size_t samples = places.size();
+  // What earlier sets count for.
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < set; ++i) before += places_[i].size();
+  points_.footprint = 1.0f / std::sqrt(static_cast<float>(samples));
+  const std::size_t step = std::max<std::size_t>(1, shader_.points_of_a_run() / samples);
+  for (std::size_t begin = 0; begin < texels.size(); begin += step) {
+    const std::size_t count = std::min(step, texels.size() - begin);
+    points_.x.clear();
+    points_.y.clear();
+    for (std::size_t i = begin; i < begin + count; ++i) {
+      const auto column = static_cast<float>(texels[i] % width_);
+      const auto row = static_cast<float>(static_cast<std::size_t>(first) + texels[i] / width_);
+      for (const SamplePlace& place : places) {
+        points_.x.push_back(column + place.x);
+        points_.y.push_back(row + place.y);
+      }
+    }
+    const RunStatus status = shader_.run(points_, stop);
+    if (status != RunStatus::done) return status;
+    counts.samples += points_.x.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t texel = texels[begin + i];
+      float error = 0.0f;
+      for (std::size_t c = 0; c < means_.size(); ++c) {
+        const float* values = shader_.result(c).data() + i * samples;
+        double sum = 0.0;
+        for (std::size_t k = 0; k < samples; ++k) sum += static_cast<double>(values[k]);
+        const float old = means_[c][texel];
+        const double all = sum + (set == 0 ? 0.0 : static_cast<double>(old) * double(before));
+        means_[c][texel] = static_cast<float>(all / static_cast<double>(before + samples));
+        // The four places of the first set are 0, 3 and 1, 2 across its middle.
+        const float difference = set == 0
+                                     ? 0.5f * ((values[0] + values[3]) - (values[1] + values[2]))
+                                     : means_[c][texel] - old;
+        error = std::max(error, relative(0.5f * difference, c, texel));
+      }
+      errors_[texel] = error;
+    }
+  }
+  return RunStatus::done;
+}
+
+float AdaptiveTexels::relative(float difference, std::size_t component, std::size_t texel) const {
+  return std::abs(difference) / std::max(1.0f, std::abs(means_[component][texel]));
+}
+
+/// At the image's edges a texel stands for the one that is not there.
+void AdaptiveTexels::find_edges() {
+  edges_.assign(errors_.size(), 0.0f);
+  for (std::size_t c = 0; c < means_.size(); ++c) {
+    const std::vector<float>& mean = means_[c];
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      const std::size_t x = i % width_;
+      const float here = mean[i];
+      const float left = x > 0 ? mean[i - 1] : here;
+      const float right = x + 1 < width_ ? mean[i + 1] : here;
+      const float up = i >= width_ ? mean[i - width_] : here;
+      const float down = i + width_ < mean.size() ? mean[i + width_] : here;
+      const float along = relative(left + right - 2.0f * here, c, i);
+      const float across = relative(up + down - 2.0f * here, c, i);
+      edges_[i] = std::max({edges_[i], along, across});
+    }
+  }
+}
+
+bool AdaptiveTexels::wants_more(std::size_t texel, std::size_t set) const {
+  const float unseen = edges_[texel] / static_cast<float>(2 * set_size(set));
+  return errors_[texel] > error_ || unseen > 4.0f * error_;
+}
+
+bool AdaptiveTexels::is_near_error(std::size_t texel) const {
+  const std::size_t x = texel % width_;
+  const std::size_t y = texel / width_;
+  const std::size_t rows = errors_.size() / width_;
+  for (std::size_t j = y > 0 ? y - 1 : 0; j < std::min(y + 2, rows); ++j) {
+    for (std::size_t i = x > 0 ? x - 1 : 0; i < std::min(x + 2, width_); ++i) {
+      if (errors_[j * width_ + i] > error_) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace nacre::host

@@ -1,0 +1,100 @@
+#include "examples/bake/texel_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nacre::host {
+
+namespace {
+
+/// Side by side, so that the compiler can do them at once.
+constexpr std::size_t lanes = 8;
+
+void count_others(const std::vector<float>& plane, ChannelStatistics& channel) {
+  for (const float value : plane) {
+    if (std::isnan(value)) ++channel.no_number;
+    if (std::isinf(value)) ++channel.unbounded;
+  }
+  channel.finite -= channel.no_number + channel.unbounded;
+}
+
+void add_range(const std::vector<float>& plane, ChannelStatistics& channel) {
+  std::array<float, lanes> least, most;
+  std::array<double, lanes> sum{};
+  least.fill(channel.least);
+  most.fill(channel.most);
+  const auto add = [&](std::size_t lane, float value) {
+    least[lane] = value < least[lane] ? value : least[lane];
+    most[lane] = value > most[lane] ? value : most[lane];
+    sum[lane] += static_cast<double>(value);
+  };
+  std::size_t i = 0;
+  for (; i + lanes <= plane.size(); i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) add(lane, plane[i + lane]);
+  }
+  for (; i < plane.size(); ++i) add(i % lanes, plane[i]);
+  channel.least = *std::min_element(least.begin(), least.end());
+  channel.most = *std::max_element(most.begin(), most.end());
+  for (const double part : sum) channel.sum += part;
+  channel.finite = plane.size();
+  if (std::isfinite(channel.sum)) return;
+  count_others(plane, channel);
+  channel.sum = 0.0;
+  for (const float value : plane) channel.sum += std::isfinite(value) ? double(value) : 0.0;
+}
+
+void add_histogram(const std::vector<float>& plane, const StatisticsRequest& request,
+                   ChannelStatistics& channel) {
+  constexpr std::size_t bins = ChannelStatistics::bins;
+  const float scale = static_cast<float>(bins) / (request.to - request.from);
+  for (const float value : plane) {
+    if (!std::isfinite(value)) continue;
+    const float place = (value - request.from) * scale;
+    const std::size_t bin = place < 0.0f ? 0
+                            : value > request.to
+                                ? bins + 1
+                                : 1 + std::min(static_cast<std::size_t>(place), bins - 1);
+    ++channel.histogram[bin];
+  }
+}
+
+}  // namespace
+
+bool TexelStatistics::is_uniform() const {
+  return std::all_of(channels.begin(), channels.end(), [](const ChannelStatistics& channel) {
+    return channel.least == channel.most;
+  });
+}
+
+void TexelStatistics::add(const TexelStatistics& other) {
+  texels += other.texels;
+  samples += other.samples;
+  unfinished += other.unfinished;
+  if (channels.empty()) channels.resize(other.channels.size());
+  for (std::size_t c = 0; c < other.channels.size(); ++c) {
+    ChannelStatistics& mine = channels[c];
+    const ChannelStatistics& theirs = other.channels[c];
+    mine.least = std::min(mine.least, theirs.least);
+    mine.most = std::max(mine.most, theirs.most);
+    mine.sum += theirs.sum;
+    mine.finite += theirs.finite;
+    mine.unbounded += theirs.unbounded;
+    mine.no_number += theirs.no_number;
+    for (std::size_t i = 0; i < mine.histogram.size(); ++i)
+      mine.histogram[i] += theirs.histogram[i];
+  }
+}
+
+TexelStatistics statistics_of(std::span<const std::vector<float>> planes,
+                              const StatisticsRequest& request) {
+  TexelStatistics statistics;
+  statistics.texels = planes.empty() ? 0 : planes[0].size();
+  for (const std::vector<float>& plane : planes) {
+    ChannelStatistics& channel = statistics.channels.emplace_back();
+    add_range(plane, channel);
+    if (request.histogram) add_histogram(plane, request, channel);
+  }
+  return statistics;
+}
+
+}  // namespace nacre::host

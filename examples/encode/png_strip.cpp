@@ -1,0 +1,78 @@
+#include "examples/encode/png_strip.h"
+
+#include <zlib.h>
+
+#include <cstring>
+#include <new>
+
+namespace nacre::host {
+
+namespace {
+
+/// PNG's number of the filter that subtracts what is on the left.
+constexpr unsigned char filter_sub = 1;
+
+std::vector<unsigned char> filtered(const std::vector<unsigned char>& rows, std::size_t row_bytes,
+                                    std::size_t texel_bytes) {
+  const std::size_t count = rows.size() / row_bytes;
+  std::vector<unsigned char> bytes(count * (row_bytes + 1));
+  for (std::size_t y = 0; y < count; ++y) {
+    const unsigned char* from = rows.data() + y * row_bytes;
+    unsigned char* to = bytes.data() + y * (row_bytes + 1);
+    *to++ = filter_sub;
+    std::memcpy(to, from, texel_bytes);
+    for (std::size_t i = texel_bytes; i < row_bytes; ++i) {
+      to[i] = static_cast<unsigned char>(from[i] - from[i - texel_bytes]);
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
+PngStrip compress_strip(const std::vector<unsigned char>& rows, std::size_t row_bytes,
+                        std::size_t texel_bytes, bool is_last) {
+  std::vector<unsigned char> bytes = filtered(rows, row_bytes, texel_bytes);
+  // The quickest level: a bake waits for this more than for shading.
+  z_stream stream{};
+  if (deflateInit2(&stream, 1, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  const auto size = static_cast<uInt>(bytes.size());
+  PngStrip strip;
+  strip.deflated.resize(deflateBound(&stream, size) + 16);  // And the mark of a flush.
+  stream.next_in = bytes.data();
+  stream.avail_in = size;
+  stream.next_out = strip.deflated.data();
+  stream.avail_out = static_cast<uInt>(strip.deflated.size());
+  // A flush ends at a byte, so that the next piece can follow.
+  deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
+  strip.deflated.resize(stream.total_out);
+  deflateEnd(&stream);
+  strip.checksum = static_cast<std::uint32_t>(adler32(adler32(0, nullptr, 0), bytes.data(), size));
+  strip.raw_bytes = bytes.size();
+  return strip;
+}
+
+std::vector<unsigned char> png_chunk(const char* letters, const std::vector<unsigned char>& data) {
+  std::vector<unsigned char> chunk;
+  chunk.reserve(data.size() + 12);
+  append_big_endian(chunk, static_cast<std::uint32_t>(data.size()));
+  chunk.insert(chunk.end(), letters, letters + 4);
+  chunk.insert(chunk.end(), data.begin(), data.end());
+  append_big_endian(chunk,
+                    static_cast<std::uint32_t>(crc32_z(0, chunk.data() + 4, chunk.size() - 4)));
+  return chunk;
+}
+
+std::uint32_t joined_checksum(std::uint32_t first, std::uint32_t second, std::uint64_t bytes) {
+  return static_cast<std::uint32_t>(adler32_combine(first, second, static_cast<z_off_t>(bytes)));
+}
+
+void append_big_endian(std::vector<unsigned char>& bytes, std::uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    bytes.push_back(static_cast<unsigned char>(value >> shift));
+  }
+}
+
+}  // namespace nacre::host
