@@ -7,12 +7,14 @@
 #include "examples/bake/write_texture.h"
 #include "examples/common/image_writer.h"
 #include "examples/tool/bake_document.h"
+#include "examples/tool/bake_report.h"
 #include "examples/tool/file_stems.h"
 #include "examples/tool/material_inputs.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
 #include "examples/tool/plane_reads.h"
 #include "examples/tool/process.h"
+#include "examples/tool/sampling_request.h"
 #include "examples/tool/stop.h"
 #include "examples/tool/texture_request.h"
 #include "examples/tool/udim.h"
@@ -34,6 +36,9 @@ struct BakeOptions {
   std::string material;
   std::string document;
   TextureRequest textures;
+  SamplingRequest sampling;
+  bool report = false;
+  bool json = false;
   std::string out;   ///< "": beside the document that is written, or here.
   std::string udim;  ///< --udim: numbers, or "auto".
   float frame = 1.0f;
@@ -107,7 +112,8 @@ std::vector<Piece> pieces(const BakeOptions& options, const Opened& opened,
 /// One output into its files.
 void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& piece,
                 host::BakeSettings settings, const std::vector<UdimTile>& tiles,
-                ShaderOptions shader, PlaneReads& reads, Diagnostics& diagnostics) {
+                ShaderOptions shader, PlaneReads& reads, BakeReport& report,
+                Diagnostics& diagnostics) {
   shader = with_profile(opened, piece.name, false, std::move(shader), diagnostics);
   shader.compile.stop = stop_from_now(shader.compile);
   const auto graph = build_graph(*opened.document, opened.system->library(),
@@ -118,6 +124,8 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
   reads.warn(*graph, kernel->kernel.program(), false, piece.where);
   settings.width = piece.texture.width;
   settings.height = piece.texture.height;
+  const Type type = kernel->outputs[0].type;
+  warn_of_no_mean(settings.sampling, type, piece.where, diagnostics);
   for (std::size_t i = 0; i < piece.files.size(); ++i) {
     const std::string& path = piece.files[i];
     if (!tiles.empty()) settings.corner_u = tiles[i].u;
@@ -125,9 +133,13 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
     ProgressLine line(fs::path(path).stem().string(), options.common.quiet);
     const host::BakeControl control{.stop = stop().token(),
                                     .progress = [&](double share) { line.update(share); }};
-    if (host::bake_to_file(*kernel, 0, settings, piece.texture.encoding, path, diagnostics,
-                           control)) {
-      file_is_written(path, options.common.quiet);
+    const Stopwatch watch;
+    host::TextureReport said;
+    said.histogram = options.json;
+    if (host::bake_to_file(*kernel, 0, settings, piece.texture.encoding, path, diagnostics, control,
+                           &said)) {
+      file_is_written(path, options.common.quiet || options.json);
+      report.add(BakedMap{path, piece.name, type, piece.texture, said.statistics, watch.seconds()});
     }
     if (stop().is_due()) return;
   }
@@ -136,7 +148,7 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
 
 void bake_outputs(const BakeOptions& options, const Opened& opened,
                   const host::BakeSettings& settings, const std::vector<UdimTile>& tiles,
-                  ShaderOptions shader, Diagnostics& diagnostics) {
+                  ShaderOptions shader, BakeReport& report, Diagnostics& diagnostics) {
   const std::vector<Piece> all = pieces(options, opened, tiles, diagnostics);
   for (const Piece& piece : all) {
     promise_files(piece.files);
@@ -148,7 +160,7 @@ void bake_outputs(const BakeOptions& options, const Opened& opened,
   for (const Piece& piece : all) {
     if (stop().is_due()) return;
     shader.graph.output_space = host::output_space(piece.texture.extension, piece.texture.encoding);
-    bake_piece(options, opened, piece, settings, tiles, shader, reads, diagnostics);
+    bake_piece(options, opened, piece, settings, tiles, shader, reads, report, diagnostics);
   }
 }
 
@@ -177,12 +189,16 @@ std::string texture_folder(const BakeOptions& options) {
 
 int run(BakeOptions& options) {
   Diagnostics diagnostics;
-  if (!options.textures.check(diagnostics)) {
+  host::BakeSettings settings;
+  if (!options.textures.check(diagnostics) ||
+      !options.sampling.read(settings.sampling, diagnostics)) {
     report(diagnostics);
     return status_usage;
   }
+  BakeReport told(options.json     ? BakeReport::Form::json
+                  : options.report ? BakeReport::Form::text
+                                   : BakeReport::Form::none);
   options.out = texture_folder(options);
-  host::BakeSettings settings;
   settings.threads = options.common.threads;
   settings.frame = options.frame;
   settings.time = options.time;
@@ -195,7 +211,8 @@ int run(BakeOptions& options) {
   ShaderOptions shader = options.common.shader_options();
   shader.graph.frame = static_cast<int>(options.frame);
   if (options.document.empty()) {
-    bake_outputs(options, opened, settings, tiles, shader, diagnostics);
+    bake_outputs(options, opened, settings, tiles, shader, told, diagnostics);
+    told.print();
     report_texels(*opened.system, diagnostics);
     return report(diagnostics);
   }
@@ -204,8 +221,9 @@ int run(BakeOptions& options) {
       options.document, wanted_materials(options, *opened.document, diagnostics),
       options.out,      options.textures,
       settings,         tiles,
-      shader,           options.common.quiet};
-  if (!bake.materials.empty()) bake_document(bake, opened, diagnostics);
+      shader,           options.common.quiet || options.json};
+  if (!bake.materials.empty()) bake_document(bake, opened, told, diagnostics);
+  told.print();
   report_texels(*opened.system, diagnostics);
   return report(diagnostics);
 }
@@ -232,6 +250,16 @@ void add_bake(CLI::App& app, int& status) {
       ->type_name("FILE.mtlx")
       ->excludes(outputs);
   options->textures.add(command);
+  options->sampling.add(command);
+  CLI::Option* text =
+      command.add_flag("--report", options->report,
+                       "Say of each map how long it took, its samples, and the range and mean of "
+                       "each channel; what is the same everywhere is said to be uniform");
+  command
+      .add_flag("--json", options->json,
+                "The same for programs, with histograms, in place of the names of files: one JSON "
+                "document")
+      ->excludes(text);
   command
       .add_option("--udim", options->udim,
                   "Tiles, an image each: numbers as 1001,1002, or auto for those of the "
@@ -251,7 +279,8 @@ void add_bake(CLI::App& app, int& status) {
   command.footer(
       "Graphs are baked on a plane: texel (i, j) of a W x H image, j from the top, has uv = "
       "((i+1/2)/W, 1-(j+1/2)/H) in every set, position (u, v, 0), normal (0, 0, 1), tangent "
-      "(1, 0, 0), bitangent (0, 1, 0) and a viewer straight above; vertex colours are 0, "
+      "(1, 0, 0), bitangent (0, 1, 0) and a viewer straight above; more samples lie in the texel's "
+      "square; vertex colours are 0, "
       "properties have their defaults. What reads more than uv is named in a warning.");
   options->common.add_compile(command);
   options->common.add_profile(command);

@@ -13,6 +13,7 @@
 #include "examples/tool/file_stems.h"
 #include "examples/tool/plane_reads.h"
 #include "examples/tool/process.h"
+#include "examples/tool/sampling_request.h"
 #include "examples/tool/stop.h"
 #include "jit/graph/build/build.h"
 
@@ -48,9 +49,10 @@ std::vector<float> least_of(const host::TexelStatistics& statistics) {
 class MaterialBaker {
  public:
   MaterialBaker(const DocumentBake& options, const Opened& opened, const Definitions& definitions,
-                Diagnostics& diagnostics)
+                BakeReport& report, Diagnostics& diagnostics)
       : options_(options),
         opened_(opened),
+        report_(report),
         diagnostics_(diagnostics),
         reads_(diagnostics),
         folder_(absolute_path(options.document).parent_path()),
@@ -134,11 +136,12 @@ class MaterialBaker {
     const std::string whole = stems_.stem_of(job.stem, where_of(job), diagnostics_);
     std::vector<std::unique_ptr<host::PartialFile>> files;
     std::vector<std::string> names;
+    std::vector<BakedMap> maps;
     host::TexelStatistics all;
+    warn_of_no_mean(settings.sampling, job.type, where_of(job), diagnostics_);
     const int rows = matrix_rows(job.type);
     for (int row = 0; row < rows; ++row) {
-      host::TextureReport report;
-      report.is_judged = true;
+      host::TexelStatistics row_all;
       texture.encoding.first_channel = row * rows;
       texture.encoding.channels = rows == 1 ? 0 : rows;
       const std::string stem = rows == 1 ? whole : fmt::format("{}.row{}", whole, row + 1);
@@ -146,11 +149,17 @@ class MaterialBaker {
         settings.corner_u = tile.u;
         settings.corner_v = tile.v;
         const fs::path file = file_of(stem, options_.tiles.empty() ? "" : tile.number(), texture);
+        const Stopwatch watch;
+        host::TextureReport report;
+        report.is_judged = !options_.textures.clip;
+        report.histogram = report_.form() == BakeReport::Form::json;
         files.push_back(bake_file(kernel, settings, texture, file, report));
         if (files.back() == nullptr) return;
+        row_all.add(report.statistics);
+        maps.push_back({file.lexically_relative(absolute_path(".")).string(), job.stem, job.type,
+                        texture, report.statistics, watch.seconds()});
       }
       names.push_back(relative(file_of(stem, options_.tiles.empty() ? "" : "<UDIM>", texture)));
-      const host::TexelStatistics& row_all = report.statistics;
       all.channels.insert(all.channels.end(), row_all.channels.begin(), row_all.channels.end());
     }
     if (all.is_uniform()) {
@@ -162,6 +171,7 @@ class MaterialBaker {
       const fs::path path = file->path();
       file_is_written(path.lexically_relative(absolute_path(".")).string(), options_.quiet);
     }
+    for (BakedMap& map : maps) report_.add(std::move(map));
     if (!options_.tiles.empty()) baked_.set_tiles(options_.tiles);
     finish(
         job,
@@ -213,7 +223,10 @@ class MaterialBaker {
                  std::string_view colorspace) {
     const bool finite =
         std::all_of(texel.begin(), texel.end(), [](float x) { return std::isfinite(x); });
-    if (finite) return finish(job, remember(job, {texel, {}, std::string(colorspace)}));
+    if (finite) {
+      report_.add(BakedValue{job.stem, texel, std::string(colorspace)});
+      return finish(job, remember(job, {texel, {}, std::string(colorspace)}));
+    }
     diagnostics_.error("cannot-bake", {options_.document, 0, 0, job.stem},
                        "the value is not a finite number");
   }
@@ -227,7 +240,7 @@ class MaterialBaker {
     const bool is_limited =
         host::holds_unit_range_only(texture.extension) ||
         host::is_srgb(host::texture_colorspace(job.type, texture.extension, texture.encoding));
-    if (!is_limited) return true;
+    if (!is_limited || options_.textures.clip) return true;
     constexpr float rounding = 1e-5f;
     const float lowest = job.frame.empty() ? 0.0f : -1.0f;
     float least = all.channels[0].least;
@@ -256,11 +269,13 @@ class MaterialBaker {
   void write() {
     if (host::write_text_atomically(options_.document, baked_.text(), diagnostics_)) {
       file_is_written(options_.document, options_.quiet);
+      report_.set_document(options_.document);
     }
   }
 
   const DocumentBake& options_;
   const Opened& opened_;
+  BakeReport& report_;
   Diagnostics& diagnostics_;
   PlaneReads reads_;
   FileStems stems_;
@@ -271,10 +286,11 @@ class MaterialBaker {
 
 }  // namespace
 
-void bake_document(const DocumentBake& options, const Opened& opened, Diagnostics& diagnostics) {
+void bake_document(const DocumentBake& options, const Opened& opened, BakeReport& report,
+                   Diagnostics& diagnostics) {
   const Definitions definitions(*opened.document, &opened.system->library().definitions(),
                                 diagnostics);
-  MaterialBaker(options, opened, definitions, diagnostics).run();
+  MaterialBaker(options, opened, definitions, report, diagnostics).run();
 }
 
 }  // namespace nacre::tool

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "examples/bake/write_texture.h"
+#include "examples/tool/bake_report.h"
 #include "examples/tool/options.h"
 #include "examples/tool/texture_request.h"
 #include "examples/tool/udim.h"
@@ -26,6 +27,7 @@ struct DocumentBake {
 /// in place of the graphs. The opened document gets outputs for it. A file that
 /// could not be written is an error, and then there is no document; nor is there if the work
 /// is stopped.
-void bake_document(const DocumentBake& options, const Opened& opened, Diagnostics& diagnostics);
+void bake_document(const DocumentBake& options, const Opened& opened, BakeReport& report,
+                   Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

@@ -65,6 +65,9 @@ void TextureRequest::add(CLI::App& command) {
                   "what its nodes read)")
       ->check(CLI::IsMember({"raw", "encoded"}))
       ->capture_default_str();
+  command.add_flag("--clip", clip,
+                   "With --document, cut numbers off at the ends of what a texture holds, with a "
+                   "warning, where that is an error otherwise");
 }
 
 bool TextureRequest::check(Diagnostics& diagnostics) const {

@@ -20,6 +20,7 @@ struct TextureRequest {
   int bits = 0;                 ///< --bitdepth, 0 if not given.
   std::string format;           ///< --format, "" if not given.
   std::string vectors = "raw";  ///< --vectors: "raw" or "encoded".
+  bool clip = false;            ///< --clip, for --document: cut off rather than refuse.
 
   void add(CLI::App& command);
   /// True if what was given can be understood.
