@@ -15,7 +15,9 @@ AdaptiveTexels::AdaptiveTexels(PointShader& shader, float error)
     : shader_(shader),
       error_(error),
       width_(static_cast<std::size_t>(shader.plane().width())),
-      means_(static_cast<std::size_t>(shader.components())) {
+      means_(static_cast<std::size_t>(shader.components())),
+      along_(means_.size()),
+      across_(means_.size()) {
   for (std::size_t set = 0; set < sets; ++set) places_[set] = sample_places(set_size(set));
 }
 
@@ -27,7 +29,7 @@ RunStatus AdaptiveTexels::rows(int first, int rows, std::vector<std::vector<floa
   const std::size_t count = static_cast<std::size_t>(rows) * width_;
   RunStatus status = first_set(first - above, rows + above + below, stop, counts);
   if (status != RunStatus::done) return status;
-  find_edges();
+  look_around();
   std::vector<std::size_t> texels;
   for (std::size_t i = begin; i < begin + count; ++i) {
     if (is_near_error(i) || wants_more(i, 0)) texels.push_back(i);
@@ -49,7 +51,9 @@ RunStatus AdaptiveTexels::first_set(int first, int rows, const std::atomic<std::
                                     BakeCounts& counts) {
   const std::size_t count = static_cast<std::size_t>(rows) * width_;
   errors_.assign(count, 0.0f);
-  for (std::vector<float>& mean : means_) mean.resize(count);
+  for (auto* planes : {&means_, &along_, &across_}) {
+    for (std::vector<float>& plane : *planes) plane.resize(count);
+  }
   std::vector<std::size_t> texels(count);
   for (std::size_t i = 0; i < count; ++i) texels[i] = i;
   return next_set(0, first, texels, stop, counts);
@@ -82,15 +86,19 @@ RunStatus AdaptiveTexels::next_set(std::size_t set, int first,
     counts.samples += points_.x.size();
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t texel = texels[begin + i];
-      float error = 0.0f;
+      float error = set == 0 ? 0.0f : errors_[texel] / 3.0f;
       for (std::size_t c = 0; c < means_.size(); ++c) {
         const float* values = shader_.result(c).data() + i * samples;
         double sum = 0.0;
         for (std::size_t k = 0; k < samples; ++k) sum += static_cast<double>(values[k]);
         const float old = means_[c][texel];
-        const double all = sum + (set == 0 ? 0.0 : static_cast<double>(old) * double(before));
-        means_[c][texel] = static_cast<float>(all / static_cast<double>(before + samples));
-        // The four places of the first set are 0, 3 and 1, 2 across its middle.
+        if (set > 0) sum += static_cast<double>(old) * static_cast<double>(before);
+        means_[c][texel] = static_cast<float>(sum / static_cast<double>(before + samples));
+        if (set == 0) {
+          along_[c][texel] = 0.5f * ((values[2] + values[3]) - (values[0] + values[1]));
+          across_[c][texel] = 0.5f * ((values[1] + values[3]) - (values[0] + values[2]));
+        }
+        // The four places of the first set are those of a plane if 0 and 3 are as 1 and 2.
         const float difference = set == 0
                                      ? 0.5f * ((values[0] + values[3]) - (values[1] + values[2]))
                                      : means_[c][texel] - old;
@@ -107,7 +115,7 @@ float AdaptiveTexels::relative(float difference, std::size_t component, std::siz
 }
 
 /// At the image's edges a texel stands for the one that is not there.
-void AdaptiveTexels::find_edges() {
+void AdaptiveTexels::look_around() {
   edges_.assign(errors_.size(), 0.0f);
   for (std::size_t c = 0; c < means_.size(); ++c) {
     const std::vector<float>& mean = means_[c];
@@ -121,8 +129,19 @@ void AdaptiveTexels::find_edges() {
       const float along = relative(left + right - 2.0f * here, c, i);
       const float across = relative(up + down - 2.0f * here, c, i);
       edges_[i] = std::max({edges_[i], along, across});
+      compare_slopes(c, i, 0.5f * (right - left), 0.5f * (down - up));
     }
   }
+}
+
+/// Those of the first set's samples with those of the neighbours' means. Of the samples' pairs the
+/// middles are half a texel from each other along one axis, a quarter along the other.
+void AdaptiveTexels::compare_slopes(std::size_t component, std::size_t texel, float along,
+                                    float across) {
+  const float of_columns = along_[component][texel] - (0.5f * along + 0.25f * across);
+  const float of_rows = across_[component][texel] - (0.25f * along + 0.5f * across);
+  errors_[texel] = std::max({errors_[texel], relative(0.25f * of_columns, component, texel),
+                             relative(0.25f * of_rows, component, texel)});
 }
 
 bool AdaptiveTexels::wants_more(std::size_t texel, std::size_t set) const {

@@ -15,9 +15,10 @@ namespace nacre::host {
 /// (sample_places) are shaded one after another, all samples of a texel count alike, and a texel
 /// gets the next set while
 ///
-/// * its error is above the one asked for: after the first set half of what the means of its two
-///   diagonals differ by, after others half of what the set changed the mean by (an edge's error
-///   falls by more than half with four times the samples);
+/// * its error is above the one asked for. After the first set that is what its samples differ
+///   from a plane by, one as steep as the neighbours say; after others half of what the set
+///   changed the mean by, but at least a third of what it was before: so slowly the errors of edges
+///   fall with four times the samples, and sets may agree by chance;
 /// * or, after the first set, a neighbour's is;
 /// * or its neighbours say that an edge may have passed by all samples: an edge as high as a second
 ///   difference of texels, d, is worth d / 2n of a texel where n samples do not see it; more than
@@ -42,7 +43,9 @@ class AdaptiveTexels {
                       BakeCounts& counts);
   RunStatus next_set(std::size_t set, int first, const std::vector<std::size_t>& texels,
                      const std::atomic<std::uint32_t>& stop, BakeCounts& counts);
-  void find_edges();
+  /// What the neighbours' means say of the first set.
+  void look_around();
+  void compare_slopes(std::size_t component, std::size_t texel, float along, float across);
   bool wants_more(std::size_t texel, std::size_t set) const;
   /// Whether a texel or one of the eight around it is not exact enough.
   bool is_near_error(std::size_t texel) const;
@@ -54,6 +57,9 @@ class AdaptiveTexels {
   std::array<std::vector<SamplePlace>, sets> places_;
   TexelPoints points_;
   std::vector<std::vector<float>> means_;  ///< By component; also of the rows around those asked.
+  /// By component: by how much the samples on the right of the first set exceed those on the
+  /// left, and those below those above.
+  std::vector<std::vector<float>> along_, across_;
   std::vector<float> errors_;
   std::vector<float> edges_;  ///< The highest edge that may be in a texel.
 };

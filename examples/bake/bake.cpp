@@ -1,5 +1,7 @@
 #include "examples/bake/bake.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cassert>
@@ -16,6 +18,13 @@
 namespace nacre::host {
 
 namespace {
+
+/// Processor time of this thread, in seconds.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 /// What one thread bakes with.
 class Baker {
@@ -77,7 +86,9 @@ BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettin
       while (const std::optional<int> number = queue.begin()) {
         BakedRows block{
             *number * block_rows, std::min(block_rows, settings.height - *number * block_rows), {}};
+        const double start = thread_seconds();
         const RunStatus status = baker.rows(block, ends, mine);
+        mine.shading_seconds += thread_seconds() - start;
         if (status == RunStatus::stopped) break;
         if (status != RunStatus::done) {
           assert(status == RunStatus::too_many_steps);  // It has what its Program asks for.
@@ -97,6 +108,7 @@ BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettin
       const std::lock_guard guard(counting);
       all.samples += mine.samples;
       all.unfinished += mine.unfinished;
+      all.shading_seconds += mine.shading_seconds;
     } catch (...) {
       ends = 1;
       queue.wake();

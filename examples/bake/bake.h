@@ -39,6 +39,8 @@ struct BakedRows {
 struct BakeCounts {
   std::uint64_t samples = 0;
   std::uint64_t unfinished = 0;  ///< Texels that had the most samples and wanted more.
+  /// Of all threads' processor time: to make points and to run the kernel.
+  double shading_seconds = 0.0;
 };
 
 struct BakeControl {

@@ -1,6 +1,9 @@
 #include "examples/bake/sample_set.h"
 
+#include <bit>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace nacre::host {
 
@@ -19,18 +22,13 @@ double radical_inverse(std::uint32_t i) {
 
 std::vector<SamplePlace> sample_places(int count) {
   std::vector<SamplePlace> places;
-  const double half = 0.5 / count;
+  const bool is_power = std::has_single_bit(static_cast<unsigned>(count));
+  const double step = 1.0 / count;
   for (int i = 0; i < count; ++i) {
-    // For other numbers than powers of two the strata along y have unequal sizes: the middle
-    // of the whole set stays that of the texel.
-    places.push_back({static_cast<float>(2 * i * half + half),
-                      static_cast<float>(radical_inverse(static_cast<std::uint32_t>(i)))});
-  }
-  double sum = 0.0;
-  for (const SamplePlace& place : places) sum += static_cast<double>(place.y);
-  const double shift = 0.5 - sum / count;
-  for (SamplePlace& place : places) {
-    place.y = static_cast<float>(static_cast<double>(place.y) + shift);
+    const double turns = (i - 0.5 * (count - 1)) * (std::numbers::phi - 1.0) + 0.5;
+    const double y = is_power ? radical_inverse(static_cast<std::uint32_t>(i)) + 0.5 * step
+                              : turns - std::floor(turns);
+    places.push_back({static_cast<float>((i + 0.5) * step), static_cast<float>(y)});
   }
   return places;
 }

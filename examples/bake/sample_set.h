@@ -10,9 +10,10 @@ struct SamplePlace {
   float y = 0.5f;
 };
 
-/// The places of `count` samples: Hammersley's set, moved to the middles of its strata. Of
-/// each axis's `count` equal parts, each has one place along x and, for powers of two, along y;
-/// then each dyadic rectangle of area 1/count has one, too. One sample is in the middle.
+/// The places of `count` samples. Each of `count` equal parts of the x axis has one. For powers
+/// of two it is Hammersley's set, moved to the middles of its strata: so have parts of the y axis,
+/// and dyadic rectangles of area 1/count. For other numbers y goes on by the golden ratio. One
+/// sample is in the middle.
 std::vector<SamplePlace> sample_places(int count);
 
 }  // namespace nacre::host

@@ -70,6 +70,7 @@ void TexelStatistics::add(const TexelStatistics& other) {
   texels += other.texels;
   samples += other.samples;
   unfinished += other.unfinished;
+  shading_seconds += other.shading_seconds;
   if (channels.empty()) channels.resize(other.channels.size());
   for (std::size_t c = 0; c < other.channels.size(); ++c) {
     ChannelStatistics& mine = channels[c];

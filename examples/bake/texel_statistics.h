@@ -37,7 +37,8 @@ struct TexelStatistics {
   std::vector<ChannelStatistics> channels;
   std::uint64_t texels = 0;
   std::uint64_t samples = 0;
-  std::uint64_t unfinished = 0;  ///< See BakeCounts.
+  std::uint64_t unfinished = 0;  ///< This and the next: see BakeCounts.
+  double shading_seconds = 0.0;
 
   /// All texels are alike; NaN is like everything.
   bool is_uniform() const;

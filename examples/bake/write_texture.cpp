@@ -165,6 +165,7 @@ BakeResult bake_into(const Job& job, ImageWriter& image) {
       bake(job.kernel, job.index, job.settings, image.block_rows(), sink, job.control, &counts);
   job.report.statistics.samples += counts.samples;
   job.report.statistics.unfinished += counts.unfinished;
+  job.report.statistics.shading_seconds += counts.shading_seconds;
   return result;
 }
 

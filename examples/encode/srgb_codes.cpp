@@ -1,5 +1,6 @@
 #include "examples/encode/srgb_codes.h"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -40,17 +41,19 @@ const SrgbCodes& SrgbCodes::with(unsigned largest) {
 }
 
 // The upper bits leave an octave 128 steps, of which none holds two codes of 255, or 8192.
-SrgbCodes::SrgbCodes(unsigned largest) : shift_(largest == 255 ? 16 : 10), least_(largest + 1) {
+SrgbCodes::SrgbCodes(unsigned largest)
+    : shift_(largest == 255 ? 16 : 10), has_steps_(largest != 255), least_(largest + 2) {
   for (unsigned code = 1; code <= largest; ++code) least_[code] = least_of(code, largest);
-  least_[0] = -std::numeric_limits<float>::infinity();
+  least_.back() = std::numeric_limits<float>::infinity();
   begin_ = std::bit_cast<std::uint32_t>(least_[1]) >> shift_;
-  const std::uint32_t end = (std::bit_cast<std::uint32_t>(least_.back()) >> shift_) + 1;
-  first_.resize(end - begin_);
+  const std::uint32_t end = (std::bit_cast<std::uint32_t>(1.0f) >> shift_) + 1;
   unsigned code = 0;
-  for (std::uint32_t i = 0; i < end - begin_; ++i) {
-    const auto start = std::bit_cast<float>((begin_ + i) << shift_);
-    while (code < largest && least_[code + 1] <= start) ++code;
-    first_[i] = static_cast<std::uint16_t>(code);
+  for (std::uint32_t i = begin_; i < end; ++i) {
+    const auto start = std::bit_cast<float>(i << shift_);
+    while (least_[code + 1] <= start) ++code;
+    starts_.push_back({least_[code + 1], code});
+    assert(has_steps_ || code == largest ||
+           least_[code + 2] >= std::bit_cast<float>((i + 1) << shift_));
   }
 }
 

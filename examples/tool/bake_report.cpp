@@ -28,9 +28,9 @@ std::string channel_name(const BakedMap& map, std::size_t channel) {
 }
 
 double samples_of_a_texel(const host::TexelStatistics& statistics) {
-  return statistics.texels == 0 ? 0.0
-                                : static_cast<double>(statistics.samples) /
-                                      static_cast<double>(statistics.texels);
+  return statistics.texels == 0
+             ? 0.0
+             : static_cast<double>(statistics.samples) / static_cast<double>(statistics.texels);
 }
 
 Json json_of(const host::ChannelStatistics& channel, const std::string& name, bool is_direction) {
@@ -76,6 +76,7 @@ Json json_of(const BakedMap& map) {
   one["samples_per_texel"] = samples_of_a_texel(map.statistics);
   one["texels_with_most_samples"] = map.statistics.unfinished;
   one["seconds"] = map.seconds;
+  one["shading_cpu_seconds"] = map.statistics.shading_seconds;
   one["channels"] = Json::array();
   for (std::size_t c = 0; c < map.statistics.channels.size(); ++c) {
     one["channels"].push_back(
@@ -126,8 +127,7 @@ void BakeReport::print_json() const {
     one["colorspace"] = value.colorspace;
     all["values"].push_back(one);
   }
-  all["seconds"] =
-      watch_.seconds();
+  all["seconds"] = watch_.seconds();
   // Names come from documents, which may hold bytes that are no UTF-8.
   fmt::print("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace));
 }

@@ -181,12 +181,35 @@ void BakedDocument::add_job(const Element& input, const Feed& feed, const NodeDe
   const NodeDefInput* declared = def.input(input.name());
   const std::string_view geomprop = declared != nullptr ? declared->defaultgeomprop : "";
   if (plane_axis(geomprop) != nullptr) job.frame = geomprop;
-  job.source = fmt::format("{}|{}|{}", element_path(scope), type_name(job.type), job.frame);
-  for (std::size_t i = 2; i < attributes.size(); ++i) {
-    job.source += fmt::format("|{}={}", attributes[i].name, attributes[i].value);
+  job.source = fmt::format("{}|{}|{}", source_of(feed), type_name(job.type), job.frame);
+  if (is_open) {
+    for (std::size_t i = 2; i < attributes.size(); ++i) {
+      job.source += fmt::format("|{}={}", attributes[i].name, attributes[i].value);
+    }
   }
   job.node = &copy;
   job.input = input.name();
+}
+
+/// Names where a feed begins: an output that says what its texture is to be, else the node behind
+/// it, else the graph that lacks what is asked for.
+std::string BakedDocument::source_of(const Feed& feed) const {
+  using Kind = Connection::Kind;
+  const Connection* connection = &feed.connection;
+  Feed behind;
+  if (connection->kind == Kind::output) {
+    const Element& output = *connection->target;
+    for (const std::string_view said : {"width", "height", "bitdepth", "colorspace"}) {
+      if (output.has_attribute(said)) return element_path(output);
+    }
+    Diagnostics ignored;
+    Complaints complaints(ignored, complaints_.is_lenient());
+    behind = find_feed(output, definitions_, complaints);
+    if (behind.connection.kind != Kind::node) return element_path(output);
+    connection = &behind.connection;
+  }
+  if (connection->kind == Kind::none) return element_path(scope_of(*feed.reader));
+  return fmt::format("{}.{}", element_path(*connection->target), connection->output);
 }
 
 void BakedDocument::finish_source() { source_.build_index(); }

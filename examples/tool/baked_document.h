@@ -73,6 +73,7 @@ class BakedDocument {
   void copy_input(const Element& input, const NodeDef& def, Element& copy);
   void copy_value(const Element& input, const Element& port, Element& copy);
   void copy_closure(const Element& input, Element& copy);
+  std::string source_of(const Feed& feed) const;
   void add_job(const Element& input, const Feed& feed, const NodeDef& def, Element& copy);
   void copy_definitions();
   void add_tiles();

@@ -53,10 +53,11 @@ bool SamplingRequest::read(host::Sampling& sampling, Diagnostics& diagnostics) c
 void warn_of_no_mean(const host::Sampling& sampling, Type type, const SourceLocation& where,
                      Diagnostics& diagnostics) {
   if (sampling.count == 1 || host::has_mean(type)) return;
-  diagnostics.warning("no-mean", where,
-                      fmt::format("an output of type {} has no mean: one sample is taken in a texel",
-                                  type_name(type)),
-                      "an output of floats");
+  diagnostics.warning(
+      "no-mean", where,
+      fmt::format("an output of type {} has no mean: one sample is taken in a texel",
+                  type_name(type)),
+      "an output of floats");
 }
 
 }  // namespace nacre::tool

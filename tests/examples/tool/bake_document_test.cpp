@@ -267,6 +267,30 @@ TEST_F(BakeDocument, ValuesThatAFileCannotHoldAreAnError) {
 }
 
 /// A document says how long a chain of closures is; the stack does not.
+// Cut off, where that is asked for, as outputs are.
+TEST_F(BakeDocument, ValuesThatAFileCannotHoldAreCutOffByClip) {
+  write("a.mtlx",
+        "<materialx version=\"1.39\"><nodegraph name=\"G\"><texcoord name=\"t\" "
+        "type=\"vector2\"/><extract name=\"x\" type=\"float\"><input name=\"in\" "
+        "type=\"vector2\" nodename=\"t\"/></extract><multiply name=\"m\" "
+        "type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"x\"/><input "
+        "name=\"in2\" type=\"float\" value=\"2\"/></multiply><output name=\"o\" "
+        "type=\"float\" nodename=\"m\"/><output name=\"p\" type=\"float\" "
+        "nodename=\"m\"/></nodegraph><standard_surface name=\"S\" "
+        "type=\"surfaceshader\"><input name=\"base\" type=\"float\" "
+        "nodegraph=\"G\" output=\"o\"/><input name=\"coat\" type=\"float\" "
+        "nodegraph=\"G\" output=\"p\"/></standard_surface><surfacematerial "
+        "name=\"M\" type=\"material\"><input name=\"surfaceshader\" "
+        "type=\"surfaceshader\" nodename=\"S\"/></surfacematerial></materialx>");
+  const std::string bake = "bake " + file("a.mtlx") +
+                           " --no-cache --size 8 --format png --document " + file("out/b.mtlx");
+  EXPECT_EQ(run(bake), 1);
+  EXPECT_EQ(run(bake + " --clip"), 0) << errors_;
+  EXPECT_TRUE(says("warning: what the texture cannot hold was cut off")) << errors_;
+  // Two outputs of one node are one file.
+  EXPECT_EQ(names_in(file("out")), (std::set<std::string>{"S.base.png", "b.mtlx"}));
+}
+
 TEST_F(BakeDocument, ChainsOfClosuresOfAnyLength) {
   std::string text = R"(<materialx version="1.39"><nodegraph name="G">
     <noise2d name="n" type="color3"/><output name="o" type="color3" nodename="n"/></nodegraph>
