@@ -32,8 +32,17 @@ LEAST_RATIO = 4.0  # Against the peer.
 MOST_OF_SHADING = 1.5  # Against shading and writing raw bytes.
 
 
+class Process(NamedTuple):
+    seconds: float
+    cpu: float  # Of user and system.
+    status: int
+    said: str
+    complained: str
+
+
 class Ours(NamedTuple):
     seconds: float  # Of the whole process.
+    cpu: float
     baking: float  # Of its maps: without starting, reading and compiling.
     shading: float  # Processor time by the number of threads.
     raw_bytes: int
@@ -58,36 +67,44 @@ def baker_of(venv: pathlib.Path) -> pathlib.Path:
     return script
 
 
+def run(command: list, environment: dict | None = None) -> Process:
+    with tempfile.TemporaryFile("w+") as said, tempfile.TemporaryFile("w+") as complained:
+        start = time.perf_counter()
+        process = subprocess.Popen(command, stdout=said, stderr=complained, env=environment)
+        _, status, used = os.wait4(process.pid, 0)
+        seconds = time.perf_counter() - start
+        process.returncode = os.waitstatus_to_exitcode(status)
+        said.seek(0)
+        complained.seek(0)
+        return Process(seconds, used.ru_utime + used.ru_stime, process.returncode, said.read(),
+                       complained.read())
+
+
 def folder_size(folder: pathlib.Path) -> int:
     return sum(file.stat().st_size for file in folder.iterdir() if file.suffix == ".png")
 
 
 def run_peer(script: pathlib.Path, document: pathlib.Path, size: int, display: str,
-             folder: pathlib.Path) -> tuple[float, int, int]:
+             folder: pathlib.Path) -> tuple[float, float, int, int]:
     environment = os.environ | {"DISPLAY": display, "LIBGL_ALWAYS_SOFTWARE": "1"}
-    start = time.perf_counter()
-    done = subprocess.run([script, "--width", str(size), "--height", str(size), document,
-                           folder / "out.mtlx"], env=environment, capture_output=True, text=True)
-    seconds = time.perf_counter() - start
+    done = run([script, "--width", str(size), "--height", str(size), document,
+                folder / "out.mtlx"], environment)
     maps = sum(1 for file in folder.iterdir() if file.suffix == ".png")
-    if done.returncode != 0 or maps == 0:
-        skip(f"TextureBaker failed: {(done.stderr or done.stdout).strip()[-500:]}")
-    return seconds, maps, folder_size(folder)
+    if done.status != 0 or maps == 0:
+        skip(f"TextureBaker failed: {(done.complained or done.said).strip()[-500:]}")
+    return done.seconds, done.cpu, maps, folder_size(folder)
 
 
 def run_ours(tool: pathlib.Path, document: pathlib.Path, size: int, form: str,
              folder: pathlib.Path) -> Ours:
-    start = time.perf_counter()
-    done = subprocess.run([tool, "bake", document, "--document", folder / "out.mtlx", "--format",
-                           form, "--size", str(size), "--allow-outside", "--clip", "--json"],
-                          capture_output=True, text=True)
-    seconds = time.perf_counter() - start
-    if done.returncode != 0:
-        raise SystemExit(f"nacre bake failed: {done.stderr}")
-    files = json.loads(done.stdout)["files"]
+    done = run([tool, "bake", document, "--document", folder / "out.mtlx", "--format", form,
+                "--size", str(size), "--allow-outside", "--clip", "--json"])
+    if done.status != 0:
+        raise SystemExit(f"nacre bake failed: {done.complained}")
+    files = json.loads(done.said)["files"]
     raw = sum(f["width"] * f["height"] * len(f["channels"]) * f["bits"] // 8 for f in files)
     threads = os.cpu_count() or 1
-    return Ours(seconds, sum(f["seconds"] for f in files),
+    return Ours(done.seconds, done.cpu, sum(f["seconds"] for f in files),
                 sum(f["shading_cpu_seconds"] for f in files) / threads, raw, len(files),
                 sum(f["bytes"] for f in files))
 
@@ -122,7 +139,7 @@ def verdict(met: bool) -> str:
 
 
 def measure(arguments: argparse.Namespace, script: pathlib.Path, display: str) -> str:
-    rows, floats = [], []
+    rows, parts, floats = [], [], []
     for name, file in DOCUMENTS.items():
         document = arguments.materials / file
         if not document.is_file():
@@ -140,23 +157,29 @@ def measure(arguments: argparse.Namespace, script: pathlib.Path, display: str) -
                                      pathlib.Path(three)))
             print(f"{name}: TextureBaker {peers[-1][0]:.2f} s, nacre {ours[-1].seconds:.2f} s",
                   flush=True)
-        peer = statistics.median(each[0] for each in peers)
+        peer, peer_cpu = (statistics.median(each[i] for each in peers) for i in (0, 1))
         mine = Ours(*(statistics.median(figures) for figures in zip(*ours)))
         float_mine = Ours(*(statistics.median(figures) for figures in zip(*exrs)))
         raw = statistics.median(raws)
         least = mine.shading + raw
-        rows.append([name, report.number(peer), f"{peers[0][1]}, {peers[0][2] / 1e6:.1f}",
-                     report.number(mine.seconds), f"{ours[0].maps}, {mine.bytes / 1e6:.1f}",
-                     f"{peer / mine.seconds:.1f}", verdict(peer / mine.seconds >= LEAST_RATIO),
-                     report.number(mine.baking), report.number(mine.shading), report.number(raw),
+        rows.append([name, report.number(peer), report.number(peer_cpu),
+                     f"{peers[0][2]}, {peers[0][3] / 1e6:.1f}", report.number(mine.seconds),
+                     report.number(mine.cpu), f"{ours[0].maps}, {mine.bytes / 1e6:.1f}",
+                     f"{peer / mine.seconds:.1f}", verdict(peer / mine.seconds >= LEAST_RATIO)])
+        parts.append([name, report.number(mine.baking), report.number(mine.shading), report.number(raw),
                      f"{mine.baking / least:.2f}", verdict(mine.baking / least <= MOST_OF_SHADING)])
         floats.append([name, report.number(float_mine.seconds), report.number(float_mine.baking),
                        report.number(float_mine.shading), f"{float_mine.raw_bytes / 1e6:.0f}",
                        f"{float_mine.bytes / 1e6:.0f}"])
-    head = ["document", "TextureBaker, s", "maps, MB", "nacre bake, s", "maps, MB", "ratio",
-            f"≥ {LEAST_RATIO:g}", "maps alone, s", "shading, s", "raw bytes, s",
-            "maps / (shading + raw)", f"≤ {MOST_OF_SHADING:g}"]
-    return (report.table(head, rows) + "\n32-bit EXR, which TextureBaker does not write:\n\n"
+    head = ["document", "TextureBaker, s", "CPU s", "maps, MB", "nacre bake, s", "CPU s",
+            "maps, MB", "ratio", f"≥ {LEAST_RATIO:g}"]
+    return (report.table(head, rows)
+            + "\nOf ours the maps alone, without starting, reading and compiling; shading alone "
+            "(processor time divided by the number of CPUs, images read meanwhile among it); and "
+            "what it takes to write the maps' raw bytes to the disk:\n\n"
+            + report.table(["document", "maps, s", "shading, s", "raw bytes, s",
+                            "maps / (shading + raw)", f"≤ {MOST_OF_SHADING:g}"], parts)
+            + "\n32-bit EXR, which TextureBaker does not write:\n\n"
             + report.table(["document", "nacre bake, s", "maps alone, s", "shading, s", "raw MB",
                             "MB"], floats))
 
@@ -185,9 +208,8 @@ def main() -> None:
         f"{arguments.size}², by bench/peers/texture_baker.py. The materials of MaterialX's examples "
         f"as documents with textures, 8-bit PNG: by TextureBaker ({MATERIALX} from PyPI) on Mesa's "
         "llvmpipe and by `nacre bake --document`. Whole processes, from nothing to their end, in "
-        f"turns; medians of {arguments.repetitions}. Of ours also the maps alone, without starting, "
-        "reading and compiling; shading alone (processor time divided by the number of CPUs); and "
-        "what it takes to write the maps' raw bytes to the disk.\n\n" + tables, encoding="utf-8")
+        f"turns; medians of {arguments.repetitions}. The load of the machine was "
+        f"{os.getloadavg()[2]:.1f} over the last 15 minutes.\n\n" + tables, encoding="utf-8")
     print(arguments.out.read_text(encoding="utf-8"))
 
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -101,39 +100,40 @@ ImageHeader header_of(const Job& job) {
           .repeats = !job.encoding.is_tile};
 }
 
-/// Counts what lies outside the numbers that the file holds, or is none.
-Cut cut_of(const std::vector<float>& plane, Span held) {
+/// Counts what lies outside the numbers that the file holds, or is none. `known` says what there
+/// is in the plane; halves have infinity and NaN.
+Cut cut_of(const std::vector<float>& plane, const ChannelStatistics& known, Span held,
+           bool is_half) {
   constexpr float rounding = 1e-5f;
   held = {held.least - rounding, held.most + rounding};
+  const bool is_finite = known.finite == plane.size();
+  if (is_finite && known.least >= held.least && known.most <= held.most) {
+    return {0, known.least, known.most};
+  }
   Cut cut;
   for (const float value : plane) {
+    if (is_half && !std::isfinite(value)) continue;
     cut.count += value >= held.least && value <= held.most ? 0 : 1;
-    cut.least = value < cut.least ? value : cut.least;
-    cut.most = value > cut.most ? value : cut.most;
+    cut.least = std::min(cut.least, value);
+    cut.most = std::max(cut.most, value);
   }
   return cut;
 }
 
-/// Of halves, which have infinity and NaN.
-Cut cut_of_halves(const std::vector<float>& plane) {
-  std::vector<float> finite;
-  std::copy_if(plane.begin(), plane.end(), std::back_inserter(finite),
-               [](float value) { return std::isfinite(value); });
-  return cut_of(finite, {-largest_half, largest_half});
-}
-
 /// Turns numbers as computed into those that the file is to hold, but for what its writer does.
-Cut encode(const Job& job, std::span<std::vector<float>> planes) {
+Cut encode(const Job& job, std::span<std::vector<float>> planes,
+           const TexelStatistics& statistics) {
   const bool direction = job.is_direction();
   const Span unit{direction ? -1.0f : 0.0f, 1.0f};
   Cut cut;
   for (std::size_t c = 0; c < planes.size(); ++c) {
     std::vector<float>& plane = planes[c];
+    const ChannelStatistics& known = statistics.channels[c];
     const bool is_coded = job.is_srgb() && c != 3;  // Alpha never is.
     if (job.format.is_integer || is_coded) {
-      cut.add(cut_of(plane, unit));
+      cut.add(cut_of(plane, known, unit, false));
     } else if (job.type() == SampleType::half) {
-      cut.add(cut_of_halves(plane));
+      cut.add(cut_of(plane, known, {-largest_half, largest_half}, true));
     }
     if (is_coded && !job.format.is_integer) {
       for (float& texel : plane) texel = srgb_encode(texel);
@@ -153,7 +153,7 @@ BakeResult bake_into(const Job& job, ImageWriter& image) {
                             .subspan(static_cast<std::size_t>(job.encoding.first_channel),
                                      static_cast<std::size_t>(job.channels()));
     const TexelStatistics statistics = statistics_of(planes, request);
-    const Cut cut = encode(job, planes);
+    const Cut cut = encode(job, planes, statistics);
     return [&, statistics, cut, encoded = image.encode({rows.first, rows.rows, planes})] {
       job.report.statistics.add(statistics);
       job.cut.add(cut);

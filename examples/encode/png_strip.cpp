@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <new>
 
@@ -28,28 +30,70 @@ std::vector<unsigned char> filtered(const std::vector<unsigned char>& rows, std:
   return bytes;
 }
 
+/// As zlib calls it.
+struct Deflate {
+  int strategy;
+  int flush;
+  int memory;  ///< Its level, 1 to 9.
+};
+
+/// A piece of a stream of raw deflate, at the quickest level: a bake waits for this more than for
+/// shading.
+std::vector<unsigned char> deflated(std::vector<unsigned char>& bytes, const Deflate& how) {
+  z_stream stream{};
+  if (deflateInit2(&stream, 1, Z_DEFLATED, -MAX_WBITS, how.memory, how.strategy) != Z_OK) {
+    throw std::bad_alloc();
+  }
+  const auto size = static_cast<uInt>(bytes.size());
+  std::vector<unsigned char> out(deflateBound(&stream, size) + 16);  // And the mark of a flush.
+  stream.next_in = bytes.data();
+  stream.avail_in = size;
+  stream.next_out = out.data();
+  stream.avail_out = static_cast<uInt>(out.size());
+  deflate(&stream, how.flush);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+/// Bytes that codes take which know how frequent each byte is, and no more: the entropy.
+double coded_size(const std::vector<unsigned char>& bytes) {
+  std::array<int, 256> counts{};
+  for (const unsigned char byte : bytes) ++counts[byte];
+  const auto all = static_cast<double>(bytes.size());
+  double bits = 0.0;
+  for (const int count : counts) {
+    if (count > 0) bits -= count * std::log2(count / all);
+  }
+  return bits / 8.0;
+}
+
+/// Whether codes for frequent bytes leave much, of which looking for what was there before saves
+/// less than a tenth: tried with the first bytes.
+bool is_noise(const std::vector<unsigned char>& bytes) {
+  constexpr std::ptrdiff_t tried = 8 << 10;
+  if (bytes.size() < 4 * tried) return false;
+  std::vector<unsigned char> some(bytes.begin(), bytes.begin() + tried);
+  const double coded = coded_size(some);
+  if (coded < 0.375 * tried) return false;
+  const std::vector<unsigned char> small =
+      deflated(some, {.strategy = Z_DEFAULT_STRATEGY, .flush = Z_FINISH, .memory = 5});
+  return static_cast<double>(small.size()) > 0.9 * coded;
+}
+
 }  // namespace
 
 PngStrip compress_strip(const std::vector<unsigned char>& rows, std::size_t row_bytes,
                         std::size_t texel_bytes, bool is_last) {
   std::vector<unsigned char> bytes = filtered(rows, row_bytes, texel_bytes);
-  // The quickest level: a bake waits for this more than for shading.
-  z_stream stream{};
-  if (deflateInit2(&stream, 1, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK) {
-    throw std::bad_alloc();
-  }
-  const auto size = static_cast<uInt>(bytes.size());
   PngStrip strip;
-  strip.deflated.resize(deflateBound(&stream, size) + 16);  // And the mark of a flush.
-  stream.next_in = bytes.data();
-  stream.avail_in = size;
-  stream.next_out = strip.deflated.data();
-  stream.avail_out = static_cast<uInt>(strip.deflated.size());
   // A flush ends at a byte, so that the next piece can follow.
-  deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
-  strip.deflated.resize(stream.total_out);
-  deflateEnd(&stream);
-  strip.checksum = static_cast<std::uint32_t>(adler32(adler32(0, nullptr, 0), bytes.data(), size));
+  strip.deflated =
+      deflated(bytes, {.strategy = is_noise(bytes) ? Z_HUFFMAN_ONLY : Z_DEFAULT_STRATEGY,
+                       .flush = is_last ? Z_FINISH : Z_SYNC_FLUSH,
+                       .memory = MAX_MEM_LEVEL});
+  strip.checksum = static_cast<std::uint32_t>(
+      adler32(adler32(0, nullptr, 0), bytes.data(), static_cast<uInt>(bytes.size())));
   strip.raw_bytes = bytes.size();
   return strip;
 }

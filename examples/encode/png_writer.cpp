@@ -12,7 +12,7 @@ namespace nacre::host {
 namespace {
 
 /// Texels of a block, roughly: enough that compression loses little where blocks begin anew.
-constexpr int block_texels = 1 << 15;
+constexpr int block_texels = 1 << 16;
 /// And so many blocks at least, where there are rows for it, that many threads have work.
 constexpr int least_blocks = 32;
 

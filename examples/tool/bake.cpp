@@ -198,6 +198,7 @@ int run(BakeOptions& options) {
   BakeReport told(options.json     ? BakeReport::Form::json
                   : options.report ? BakeReport::Form::text
                                    : BakeReport::Form::none);
+  keep_freed_memory();
   options.out = texture_folder(options);
   settings.threads = options.common.threads;
   settings.frame = options.frame;

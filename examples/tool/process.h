@@ -11,6 +11,10 @@ namespace nacre::tool {
 /// thrown where nobody catches it, for want of memory or threads, ends it with one line.
 void prepare_process();
 
+/// For work that takes and frees the same memory again and again: the process keeps what is
+/// freed, else the system gives it anew, page by page. For the rest of its life.
+void keep_freed_memory();
+
 /// A subcommand's status: what `run` gives, or that of problems, said, if it throws for
 /// want of memory or threads. `file` is the document.
 int guarded(const std::string& file, const std::function<int()>& run);

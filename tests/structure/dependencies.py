@@ -37,6 +37,7 @@ QUARANTINE = {
     "embree": ("examples",),
     "gtest/": ("tests",),
     "gmock/": ("tests",),
+    "libdeflate": ("examples/encode",),
     "llvm-c/": ("jit/llvm",),
     "llvm/": ("jit/llvm", "tests/jit/llvm", "tests/jit/worker"),
     "nanobind/": ("jit/api/python",),
