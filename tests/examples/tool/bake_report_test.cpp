@@ -86,6 +86,23 @@ TEST_F(BakeReport, AutoTakesMoreWhereAnEdgeIs) {
   EXPECT_NEAR(map["channels"][0]["mean"].get<double>(), 1.0 - 13.0 / 32.0, 0.01 / 64);
 }
 
+TEST_F(BakeReport, BytesDoNotDependOnThreads) {
+  for (const std::string options :
+       {"--format png", "--format png --bitdepth 16", "--format exr", "--format exr --bitdepth 16",
+        "--format tx", "--format png --samples auto", "--format exr --samples 5"}) {
+    std::string first;
+    for (const std::string threads : {"1", "2", "7"}) {
+      ASSERT_EQ(run(bake("edge") + "--size 150 --threads " + threads + " " + options), 0)
+          << errors_;
+      const std::string name = file("out/G.edge.") + options.substr(9, options.find(' ', 9) - 9);
+      const std::string bytes = text_of(name);
+      EXPECT_GT(bytes.size(), 100u) << name;
+      if (first.empty()) first = bytes;
+      EXPECT_TRUE(bytes == first) << options << " " << threads;
+    }
+  }
+}
+
 TEST_F(BakeReport, WhatHasNoMeanIsSaid) {
   EXPECT_EQ(run(bake("whole") + "--size 4 --samples 4"), 0);
   EXPECT_TRUE(says("[no-mean]")) << errors_;
