@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 
 #include "examples/bake/adaptive_texels.h"
+#include "examples/bake/cut.h"
 #include "examples/bake/texture_format.h"
 #include "examples/common/atomic_file.h"
 #include "examples/common/image_writer.h"
@@ -37,24 +37,6 @@ std::vector<std::string> channel_names(int count) {
   for (int i = 0; i < count; ++i) names.emplace_back("m").append(std::to_string(i));
   return names;
 }
-
-/// Numbers that a file cannot hold, and the span of all that there were.
-struct Cut {
-  std::size_t count = 0;
-  float least = std::numeric_limits<float>::infinity();
-  float most = -std::numeric_limits<float>::infinity();
-
-  void add(const Cut& other) {
-    count += other.count;
-    least = std::min(least, other.least);
-    most = std::max(most, other.most);
-  }
-};
-
-/// The numbers that a file holds.
-struct Span {
-  float least, most;
-};
 
 /// One output on its way into one file.
 struct Job {
@@ -98,26 +80,6 @@ ImageHeader header_of(const Job& job) {
           .colorspace = job.file_colorspace(),
           .codes_srgb = job.format.is_integer && job.is_srgb(),
           .repeats = !job.encoding.is_tile};
-}
-
-/// Counts what lies outside the numbers that the file holds, or is none. `known` says what there
-/// is in the plane; halves have infinity and NaN.
-Cut cut_of(const std::vector<float>& plane, const ChannelStatistics& known, Span held,
-           bool is_half) {
-  constexpr float rounding = 1e-5f;
-  held = {held.least - rounding, held.most + rounding};
-  const bool is_finite = known.finite == plane.size();
-  if (is_finite && known.least >= held.least && known.most <= held.most) {
-    return {0, known.least, known.most};
-  }
-  Cut cut;
-  for (const float value : plane) {
-    if (is_half && !std::isfinite(value)) continue;
-    cut.count += value >= held.least && value <= held.most ? 0 : 1;
-    cut.least = std::min(cut.least, value);
-    cut.most = std::max(cut.most, value);
-  }
-  return cut;
 }
 
 /// Turns numbers as computed into those that the file is to hold, but for what its writer does.
