@@ -6,7 +6,8 @@
 
 namespace nacre {
 
-Sampler::Sampler(const Program& program, const Cone& cone, ValueId key, const std::vector<ValueId>& values)
+Sampler::Sampler(const Program& program, const Cone& cone, ValueId key,
+                 const std::vector<ValueId>& values)
     : count_(values.size()) {
   Recorder recorder;
   recorder.adopt_interface(program);
