@@ -6,7 +6,7 @@
 namespace nacre::host {
 
 /// Rows of a PNG, compressed by themselves: a piece of the image's one zlib stream that refers
-/// to nothing before it.
+/// to nothing before it. (libpng compresses rows one after another.)
 struct PngStrip {
   std::vector<unsigned char> deflated;
   std::uint32_t checksum = 1;   ///< Adler-32 of the filtered rows.

@@ -112,15 +112,16 @@ class Modules(unittest.TestCase):
             self.skipTest("there is no tool in this build")
         graph = ["--output", "NG_marble/base_color", "--size", "8", "--out", self.folder / "out"]
         for command, loads in ((["--version"], False), (["check", MARBLE], False),
-                               (["inspect", MARBLE], False), (["bake", MARBLE, *graph], True)):
+                               (["inspect", MARBLE], False), (["bake", MARBLE, *graph], False),
+                               (["bake", MARBLE, *graph, "--format", "tx"], True)):
             done = subprocess.run([tool, *command], env=os.environ | {"LD_DEBUG": "files"},
                                   capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0, done.stderr[-2000:])
             self.assertEqual("libOpenImageIO.so" in done.stderr, loads, command)
             self.assertEqual("libOpenColorIO.so" in done.stderr, loads, command)  # It needs that.
         (self.libraries / "nacre" / "nacre_image_writer.so").unlink()
-        done = subprocess.run([tool, "bake", MARBLE, *graph], capture_output=True, text=True,
-                              check=False)
+        done = subprocess.run([tool, "bake", MARBLE, *graph, "--format", "tx"],
+                              capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("[cannot-write]", done.stderr)
 

@@ -33,6 +33,8 @@ def bake_files(file: Path, *, out: Path, output: Iterable[str] = (), size: Any =
     size     texels: N, or (width, height)
     options  format="exr", udim="1001,1002", material="Gold", document="baked.mtlx", ...
     """
+    if options.get("json"):
+        raise TypeError("bake_files gives the files, and `nacre bake --json` what is in them")
     done = _run("bake", file, out=out, output=list(output), size=_size(size), **options)
     return [pathlib.Path(line) for line in done.splitlines()]
 
