@@ -136,15 +136,20 @@ class Tabulator {
   }
 
   /// A value whose whole part is looked at, as an index of another table is made: there functions
-  /// of it have their corners.
+  /// of it have their corners. Of several the one with the most cells, whichever came first.
   std::optional<ValueId> place_in(const Cone& cone) const {
+    std::optional<ValueId> found;
+    const auto rank = [&](ValueId of) {
+      return std::pair(groups_.range(of).high, -cost(cone_of({of}), no_cone()));
+    };
     for (ValueId i = 0; i < cone.size(); ++i) {
       if (!cone[i] || at(i).op != Op::floor) continue;
       const ValueId of = at(i).operands[0];
       const Range& range = groups_.range(of);
-      if (cone[of] && range.is_bounded() && range.high <= most_cells) return of;
+      if (!cone[of] || !range.is_bounded() || range.high > most_cells) continue;
+      if (!found || rank(of) > rank(*found)) found = of;
     }
-    return std::nullopt;
+    return found;
   }
 
   /// Its cells; nothing where it does not grow with the number.
