@@ -75,7 +75,9 @@ Range of_table(const Table& table) {
 
 class Ranges {
  public:
-  explicit Ranges(const Program& program) : program_(program) {}
+  explicit Ranges(const Program& program) : program_(program) {
+    for (const Table& table : program.tables) tables_.push_back(of_table(table));
+  }
 
   std::vector<Range> run() {
     for (const Instruction& instruction : program_.entry().code) {
@@ -111,12 +113,13 @@ class Ranges {
       case Op::keep: return at(x, 0);
       case Op::sin:
       case Op::cos: return {-1, 1, !at(x, 0).is_bounded()};
-      case Op::table: return of_table(program_.tables[x.imm]);
+      case Op::table: return tables_[x.imm];
       default: return {};
     }
   }
 
   const Program& program_;
+  std::vector<Range> tables_;
   std::vector<Range> list_;
 };
 

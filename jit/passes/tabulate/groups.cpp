@@ -34,10 +34,14 @@ Groups::Groups(const Program& program)
 }
 
 void Groups::add_cone(ValueId value, Cone& cone) const {
-  const ValueId key = keys_[value];
-  if (key == value || key == no_value || cone[value]) return;
-  cone[value] = true;
-  for (const ValueId operand : function_.operands(code_[value])) add_cone(operand, cone);
+  std::vector<ValueId> left{value};  // Chains may be as long as a Program.
+  while (!left.empty()) {
+    const ValueId next = left.back();
+    left.pop_back();
+    const ValueId key = keys_[next];
+    if (key == next || key == no_value || !cone.insert(next).second) continue;
+    for (const ValueId operand : function_.operands(code_[next])) left.push_back(operand);
+  }
 }
 
 bool Groups::is_bounded(ValueId value) const {
@@ -74,8 +78,7 @@ std::unordered_map<ValueId, Ref> record_again(Recorder& recorder, const Function
                                               const Cone& cone, ValueId key, Ref number) {
   std::unordered_map<ValueId, Ref> again{{key, number}};
   std::vector<Ref> operands;
-  for (ValueId i = key + 1; i < cone.size(); ++i) {
-    if (!cone[i]) continue;
+  for (const ValueId i : cone) {
     operands.clear();
     for (const ValueId operand : function.operands(function.code[i])) {
       const Instruction& found = function.code[operand];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace nacre {
 
-/// Some of a function's values, by id.
-using Cone = std::vector<bool>;
+/// Some of a function's values, in order.
+using Cone = std::set<ValueId>;
 
 /// Values of a Program's entry by what they depend on: those of a group on one number alone, its
 /// key. The Program is marked, and outlives this.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -21,6 +23,9 @@ namespace {
 constexpr double least_saving = 12;
 /// A value that costs no more beside others of its group is computed.
 constexpr double least_cost = 8;
+/// What may be done to find tables for a Program, in operations of the reference engine, well below
+/// a second: for a group at all, and for each operation of it.
+constexpr double most_work = 5e7, work_of_a_group = 2e4, work_of_an_operation = 1200;
 /// As many entries as CPUs keep in registers.
 constexpr double most_cells = 32;
 
@@ -41,27 +46,46 @@ class Tabulator {
 
   std::vector<Looked> run() const {
     std::vector<Looked> all;
-    for (const auto& [key, outputs] : groups_.outputs()) {
-      if (auto made = look_up(key, outputs)) all.push_back(std::move(*made));
+    for (const ValueId key : worthwhile()) {
+      if (auto made = look_up(key, groups_.outputs().at(key))) all.push_back(std::move(*made));
     }
     return all;
   }
 
  private:
   const Instruction& at(ValueId value) const { return program_.entry().code[value]; }
-  Cone no_cone() const { return Cone(program_.entry().code.size(), false); }
   Cone cone_of(const std::vector<ValueId>& values) const {
-    Cone cone = no_cone();
+    Cone cone;
     for (const ValueId value : values) groups_.add_cone(value, cone);
     return cone;
   }
 
   double cost(const Cone& cone, const Cone& less) const {
     double sum = 0;
-    for (ValueId i = 0; i < cone.size(); ++i) {
-      if (cone[i] && !less[i]) sum += operation_cost(at(i).op);
+    for (const ValueId value : cone) {
+      if (!less.contains(value)) sum += operation_cost(at(value).op);
     }
     return sum;
+  }
+
+  /// Keys of the groups that may save something, those that may save the most first, as many as can
+  /// be looked at in time: all that may save as much or none of them, whichever was recorded first.
+  std::vector<ValueId> worthwhile() const {
+    std::map<double, std::vector<std::pair<ValueId, double>>, std::greater<>> by_cost;
+    for (const auto& [key, outputs] : groups_.outputs()) {
+      const Cone cone = cone_of(outputs);
+      const double all = cost(cone, {});
+      if (all < least_cost_of_tables(1) + least_saving) continue;  // Most groups.
+      by_cost[all].emplace_back(key, work_of_a_group + work_of_an_operation * double(cone.size()));
+    }
+    std::vector<ValueId> keys;
+    double work = 0;
+    for (const auto& [all, alike] : by_cost) {
+      for (const auto& [key, own] : alike) work += own;
+      if (work > most_work) break;
+      for (const auto& [key, own] : alike) keys.push_back(key);
+    }
+    return keys;
   }
 
   /// Leaves what is worth a table. `computed`: what is computed in any case, and becomes what is.
@@ -82,10 +106,7 @@ class Tabulator {
   }
 
   std::optional<Looked> look_up(ValueId key, std::vector<ValueId> outputs) const {
-    Cone computed = no_cone();
-    if (cost(cone_of(outputs), computed) < least_cost_of_tables(1) + least_saving) {
-      return std::nullopt;  // Most groups.
-    }
+    Cone computed;
     while (true) {
       sort_out(outputs, computed);
       const Cone looked = cone_of(outputs);
@@ -140,13 +161,13 @@ class Tabulator {
   std::optional<ValueId> place_in(const Cone& cone) const {
     std::optional<ValueId> found;
     const auto rank = [&](ValueId of) {
-      return std::pair(groups_.range(of).high, -cost(cone_of({of}), no_cone()));
+      return std::pair(groups_.range(of).high, -cost(cone_of({of}), {}));
     };
-    for (ValueId i = 0; i < cone.size(); ++i) {
-      if (!cone[i] || at(i).op != Op::floor) continue;
+    for (const ValueId i : cone) {
+      if (at(i).op != Op::floor) continue;
       const ValueId of = at(i).operands[0];
       const Range& range = groups_.range(of);
-      if (!cone[of] || !range.is_bounded() || range.high > most_cells) continue;
+      if (!cone.contains(of) || !range.is_bounded() || range.high > most_cells) continue;
       if (!found || rank(of) > rank(*found)) found = of;
     }
     return found;
@@ -207,7 +228,7 @@ Program tabulate(const Program& program, double error) {
     const Ref number = keys.at(group.key);
     const Axis& axis = group.fitted.axis;
     if (axis.along != Axis::Along::given) return record_place(recorder, axis, number);
-    Cone cone(entry.code.size(), false);
+    Cone cone;
     tabulator.groups().add_cone(group.place, cone);
     return record_again(recorder, entry, cone, group.key, number).at(group.place);
   };

@@ -7,53 +7,28 @@
 #include <filesystem>
 #include <limits>
 
-#include "examples/common/image_writer.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/examples/encode/written_image.h"
 
 namespace nacre::host {
 namespace {
 
-using Planes = std::vector<std::vector<float>>;
-
 /// Smooth, so that it is compressed, or noise, so that it is not.
 Planes planes_of(int width, int height, std::size_t channels, bool is_noise) {
   Planes planes(channels);
-  std::uint32_t seed = 7;
+  Noise noise;
   for (std::size_t c = 0; c < channels; ++c) {
     for (int i = 0; i < width * height; ++i) {
-      seed = seed * 1664525u + 1013904223u;
-      const float noise = static_cast<float>(seed >> 8) / float(1 << 24);
-      planes[c].push_back(is_noise ? 9.0f * noise - 4.0f : static_cast<float>(i / 64 + int(c)));
+      const float any = noise.next();
+      planes[c].push_back(is_noise ? 9.0f * any - 4.0f : static_cast<float>(i / 64 + int(c)));
     }
   }
   return planes;
 }
 
-class WrittenExr : public ::testing::Test {
- protected:
-  std::string write(const ImageHeader& header, const Planes& planes) {
-    const std::string file = folder_.file("a.exr");
-    std::string problem;
-    const auto image = open_image(file, header, problem);
-    EXPECT_NE(image, nullptr) << problem;
-    EXPECT_EQ(write_planes(*image, header, planes), "");
-    return file;
-  }
-
-  TemporaryFolder folder_;
-};
+class WrittenExr : public WrittenImage {};
 
 ImageHeader header_of(int width, int height, std::size_t channels, SampleType samples) {
-  std::vector<std::string> names{"R", "G", "B", "A"};
-  if (channels > 4) names = {"m0", "m1", "m2", "m3", "m4", "m5", "m6", "m7", "m8"};
-  ImageHeader header;
-  header.kind = ImageKind::exr;
-  header.width = width;
-  header.height = height;
-  header.channels.assign(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(channels));
-  header.samples = samples;
-  header.colorspace = "Linear";
-  return header;
+  return image_header(ImageKind::exr, width, height, channels, samples);
 }
 
 TEST_F(WrittenExr, IsReadBackBitForBit) {

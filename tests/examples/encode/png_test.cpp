@@ -9,52 +9,28 @@
 #include <iterator>
 #include <map>
 
-#include "examples/common/image_writer.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/examples/encode/written_image.h"
 
 namespace nacre::host {
 namespace {
 
-using Planes = std::vector<std::vector<float>>;
-
 /// Numbers of all sizes, noise beside what is smooth.
 Planes planes_of(int width, int height, std::size_t channels) {
   Planes planes(channels);
-  std::uint32_t seed = 7;
+  Noise noise;
   for (std::size_t c = 0; c < channels; ++c) {
     for (int i = 0; i < width * height; ++i) {
-      seed = seed * 1664525u + 1013904223u;
-      const float noise = static_cast<float>(seed >> 8) / float(1 << 24);
-      planes[c].push_back(c == 1 ? noise : static_cast<float>(i % width) / float(width));
+      const float any = noise.next();
+      planes[c].push_back(c == 1 ? any : static_cast<float>(i % width) / float(width));
     }
   }
   return planes;
 }
 
-class WrittenPng : public ::testing::Test {
- protected:
-  std::string write(const ImageHeader& header, const Planes& planes) {
-    const std::string file = folder_.file("a.png");
-    std::string problem;
-    const auto image = open_image(file, header, problem);
-    EXPECT_NE(image, nullptr) << problem;
-    EXPECT_EQ(write_planes(*image, header, planes), "");
-    return file;
-  }
-
-  TemporaryFolder folder_;
-};
+class WrittenPng : public WrittenImage {};
 
 ImageHeader header_of(int width, int height, std::size_t channels, SampleType samples) {
-  const std::vector<std::string> names{"R", "G", "B", "A"};
-  ImageHeader header;
-  header.kind = ImageKind::png;
-  header.width = width;
-  header.height = height;
-  header.channels.assign(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(channels));
-  header.samples = samples;
-  header.colorspace = "Linear";
-  return header;
+  return image_header(ImageKind::png, width, height, channels, samples);
 }
 
 TEST_F(WrittenPng, IsReadBack) {

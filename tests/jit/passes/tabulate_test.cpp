@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -89,7 +90,7 @@ TEST_P(TabulateMetal, KeepsItsErrorAndComputesLess) {
   });
   const auto exact = [&](double x) { return fresnel(x, n, k); };
   ASSERT_LT(error_of(whole, 0, 1, exact), 1e-5) << "the Program is not that function";
-  for (const double error : {1e-2, 1e-3, 1e-4, 1e-5}) {
+  for (const double error : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
     const Program made = tabulate(whole, error);
     EXPECT_EQ(count(made, Op::div), 0u) << error;
     EXPECT_GT(count(made, Op::table), 0u) << error;
@@ -190,6 +191,42 @@ TEST(Tabulate, LooksUpWhatItCanOfAGroup) {
     const double y = 3 * std::sqrt(1 + shared) / (2 + std::log(2 + shared));
     ASSERT_NEAR(after.at("y")[i], y, 1.1e-4 * y) << x[i];
   }
+}
+
+// As deep as a Program: nothing may go down it by calls.
+TEST(Tabulate, LooksUpLongChains) {
+  constexpr int depth = 20'000;
+  const Program whole = program_of(0.5f, 1, [](Recorder& recorder, Float x) {
+    const Float other = input(recorder, "other");
+    for (int i = 0; i < depth; ++i) x = sin(x);
+    return std::vector<SliceOutput>{{"y", (x * other).ref()}};
+  });
+  const Program made = tabulate(whole, 1e-3);
+  EXPECT_EQ(count(made, Op::sin), 0u);
+  const std::vector<float> y =
+      run(*make_interpreter(made), {{"x", {0.5f, 0.8f, 1.0f}}, {"other", {1.0f}}}).at("y");
+  for (std::size_t i = 0; i < 3; ++i) {
+    double exact = std::array{0.5f, 0.8f, 1.0f}[i];
+    for (int k = 0; k < depth; ++k) exact = std::sin(exact);
+    EXPECT_NEAR(y[i], exact, 1e-3 * exact);
+  }
+}
+
+// What is looked for is bounded, and does not hang on what was recorded first: of groups that save
+// as much all are looked up, or none.
+TEST(Tabulate, LeavesMoreThanItCanLookAtInTime) {
+  const auto groups = [](int many) {
+    return program_of(0, 1, [many](Recorder& recorder, Float x) {
+      Float sum = x;
+      for (int i = 0; i < many; ++i) {
+        const Float bounded = min(max(sum * input(recorder, "y"), 0.0f), 1.0f);
+        sum = sum + sqrt(exp(bounded) / (2.0f + bounded));
+      }
+      return std::vector<SliceOutput>{{"z", sum.ref()}};
+    });
+  };
+  EXPECT_EQ(count(tabulate(groups(100), 1e-3), Op::exp), 0u);
+  EXPECT_EQ(count(tabulate(groups(5000), 1e-3), Op::exp), 5000u);
 }
 
 TEST(Tabulate, TakesAnythingAsItsNumber) {
