@@ -11,6 +11,28 @@ namespace nacre {
 
 namespace {
 
+/// Numbers between which a place is, and how far theirs are below and above it.
+struct Bracket {
+  double low, high, below, above;
+
+  float guess() const {
+    const double width = above - below;
+    const double share = width > 0 ? std::clamp(-below / width, 0.0, 1.0) : 0.0;
+    return static_cast<float>(low + share * (high - low));
+  }
+  void narrow(double number, double off) {
+    if (off <= 0) {
+      low = number;
+      below = off;
+      above *= 0.5;
+    } else {
+      high = number;
+      above = off;
+      below *= 0.5;
+    }
+  }
+};
+
 Ref literal(double value) { return Ref::literal(static_cast<float>(value)); }
 
 }  // namespace
@@ -28,7 +50,7 @@ Axis axis_of(double low, double high, int cells, Axis::Along along) {
 }
 
 std::optional<std::vector<float>> numbers_of_places(const Axis& axis, const PlacesOf& places_of) {
-  constexpr int grid = 4096;
+  constexpr int grid = 256;
   std::vector<float> numbers;
   for (int i = 0; i <= grid; ++i) {
     numbers.push_back(static_cast<float>(axis.low + (axis.high - axis.low) * i / grid));
@@ -40,25 +62,29 @@ std::optional<std::vector<float>> numbers_of_places(const Axis& axis, const Plac
       std::abs(places.back() - axis.cells) > near) {
     return std::nullopt;
   }
-  // Each lies between two of the grid, and then between closer ones.
-  const std::size_t count = static_cast<std::size_t>(axis.cells * Axis::parts) + 1;
-  const auto wanted = [&](std::size_t k) { return static_cast<double>(k) / Axis::parts; };
-  std::vector<float> low, high;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto above = std::ranges::upper_bound(places, wanted(k)) - places.begin();
+  // Each lies between two of the grid, and then between closer ones: regula falsi, where an end
+  // that stays counts half the next time (Illinois; Dowell and Jarratt 1971).
+  std::vector<Bracket> brackets;
+  const int last = axis.cells * Axis::parts;
+  for (int k = 0; k <= last; ++k) {
+    const double wanted = static_cast<double>(k) / Axis::parts;
+    const auto above = std::ranges::upper_bound(places, wanted) - places.begin();
     const auto first = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - 1, 0, grid - 1));
-    low.push_back(numbers[first]);
-    high.push_back(numbers[first + 1]);
+    brackets.push_back(
+        {numbers[first], numbers[first + 1], places[first] - wanted, places[first + 1] - wanted});
   }
-  constexpr int halvings = 14;  // Of a step of the grid, to what floats tell apart.
-  std::vector<float> middle(count);
-  for (int round = 0; round < halvings; ++round) {
-    for (std::size_t k = 0; k < count; ++k) middle[k] = 0.5f * (low[k] + high[k]);
-    const std::vector<double> here = places_of(middle);
+  constexpr int rounds = 6;  // To what floats tell apart, of what is smooth.
+  std::vector<float> found(brackets.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t k = 0; k < found.size(); ++k) found[k] = brackets[k].guess();
+    const std::vector<double> here = places_of(found);
     if (here.empty()) return std::nullopt;
-    for (std::size_t k = 0; k < count; ++k) (here[k] <= wanted(k) ? low : high)[k] = middle[k];
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      brackets[k].narrow(found[k], here[k] - static_cast<double>(k) / Axis::parts);
+    }
   }
-  return low;
+  for (std::size_t k = 0; k < found.size(); ++k) found[k] = brackets[k].guess();
+  return found;
 }
 
 Ref record_place(Recorder& recorder, const Axis& axis, Ref x) {

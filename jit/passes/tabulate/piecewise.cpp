@@ -71,9 +71,10 @@ std::vector<std::vector<float>> fit(std::span<const double> values, std::size_t 
   return {};
 }
 
-std::optional<Piecewise> fit_along(const Axis& axis, double error, const Sampled& sampled) {
-  const auto values = sampled(axis.numbers);
-  if (values.empty()) return std::nullopt;
+using Functions = std::vector<std::vector<double>>;
+
+/// All functions in so many cells of the axis.
+std::optional<Piecewise> fit_cells(const Axis& axis, double error, const Functions& values) {
   Piecewise made{axis, {}};
   bool has_any = false;
   for (const std::vector<double>& of_one : values) {
@@ -83,6 +84,27 @@ std::optional<Piecewise> fit_along(const Axis& axis, double error, const Sampled
     has_any = has_any || !made.functions.back().empty();
   }
   return has_any ? std::optional(std::move(made)) : std::nullopt;
+}
+
+/// Every second of them.
+Functions halved(const Functions& values) {
+  Functions half;
+  for (const std::vector<double>& of_one : values) {
+    std::vector<double>& some = half.emplace_back();
+    for (std::size_t i = 0; i < of_one.size(); i += 2) some.push_back(of_one[i]);
+  }
+  return half;
+}
+
+/// Whether a few cells say that there is nothing to be had: the first ones, where most happens.
+bool is_hopeless(const Axis& axis, double error, const Sampled& sampled) {
+  constexpr int few = 4;
+  if (axis.cells <= 2 * few) return false;
+  Axis first = axis;
+  first.cells = few;
+  first.numbers.resize(few * parts + 1);
+  const Functions values = sampled(first.numbers);
+  return values.empty() || !fit_cells(first, error, values);
 }
 
 std::ptrdiff_t fitted_functions(const Piecewise& fitted) {
@@ -101,16 +123,18 @@ double Piecewise::cost() const {
   return cost;
 }
 
-std::optional<Piecewise> fit_piecewise(std::span<const Axis> axes, double error,
-                                       const Sampled& sampled) {
-  std::optional<Piecewise> best;
-  for (const Axis& axis : axes) {
-    std::optional<Piecewise> made = fit_along(axis, error, sampled);
-    if (!made) continue;
-    const auto more = best ? fitted_functions(*made) - fitted_functions(*best) : 1;
-    if (more > 0 || (more == 0 && made->cost() < best->cost())) best = std::move(made);
-  }
-  return best;
+std::optional<Piecewise> fit_piecewise(const Axis& axis, double error, const Sampled& sampled) {
+  if (is_hopeless(axis, error, sampled)) return std::nullopt;
+  const Functions values = sampled(axis.numbers);
+  if (values.empty()) return std::nullopt;
+  std::optional<Piecewise> best = fit_cells(axis, error, values);
+  if (!best || axis.along == Axis::Along::given || axis.cells % 2 != 0) return best;
+  Axis coarse = axis;
+  coarse.cells = axis.cells / 2;
+  std::optional<Piecewise> half = fit_cells(coarse, error, halved(values));
+  if (!half) return best;
+  const auto more = fitted_functions(*half) - fitted_functions(*best);
+  return more > 0 || (more == 0 && half->cost() < best->cost()) ? half : best;
 }
 
 Ref record_piecewise(Recorder& recorder, const Piecewise& fitted, std::size_t function, Ref place) {

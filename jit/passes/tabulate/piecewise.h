@@ -24,10 +24,10 @@ struct Piecewise {
 using Sampled = std::function<std::vector<std::vector<double>>(std::span<const float> numbers)>;
 
 /// The cheapest that is nowhere further off than `error` times the larger of a function's value
-/// and a hundredth of its largest, looked at in Axis::parts places of each cell. A function that
-/// none is as close to is left empty; nothing where all are.
-std::optional<Piecewise> fit_piecewise(std::span<const Axis> axes, double error,
-                                       const Sampled& sampled);
+/// and a hundredth of its largest, looked at in Axis::parts places of each cell: along an axis, or,
+/// if its cells are an even number of equal ones, along the one that has half as many. A function
+/// that none is as close to is left empty; nothing where all are.
+std::optional<Piecewise> fit_piecewise(const Axis& axis, double error, const Sampled& sampled);
 
 /// Values of one of its functions, at a place of its axis.
 Ref record_piecewise(Recorder& recorder, const Piecewise& fitted, std::size_t function, Ref place);

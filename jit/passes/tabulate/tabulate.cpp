@@ -27,7 +27,7 @@ constexpr double least_cost = 8;
 /// a second: for a group at all, and for each operation of it.
 constexpr double most_work = 5e7, work_of_a_group = 2e4, work_of_an_operation = 1200;
 /// As many entries as CPUs keep in registers.
-constexpr double most_cells = 32;
+constexpr int most_cells = 32;
 
 /// A group that is looked up: its values, in the order of the functions.
 struct Looked {
@@ -113,17 +113,19 @@ class Tabulator {
       const double saved = cost(looked, computed);
       if (saved < least_cost_of_tables(outputs.size()) + least_saving) return std::nullopt;
       const Sampler sampler(program_, cone_of(outputs), key, outputs);
-      const auto fit = [&](std::span<const Axis> axes) {
-        return fit_piecewise(axes, error_, [&](auto numbers) { return sampler.run(numbers); });
+      std::optional<Piecewise> fitted;
+      const auto fit = [&](const Axis& axis) {
+        auto made = fit_piecewise(axis, error_, [&](auto numbers) { return sampler.run(numbers); });
+        if (made && (!fitted || !has_gaps(*made))) fitted = std::move(made);
       };
-      auto fitted = fit(axes_of(groups_.range(key)));
-      std::optional<ValueId> place;
-      if (!fitted || has_gaps(*fitted)) place = place_in(looked);
-      if (place) {
-        const std::optional<Axis> axis = given_axis(key, *place, computed);
-        auto along = axis ? fit({&*axis, 1}) : std::nullopt;
-        if (along && (!fitted || !has_gaps(*along))) fitted = std::move(along);
+      const auto is_whole = [&] { return fitted && !has_gaps(*fitted); };
+      const Range& range = groups_.range(key);
+      const std::optional<ValueId> place = place_in(looked);
+      fit(axis_of(range.low, range.high, most_cells, Axis::Along::number));
+      if (place && !is_whole()) {
+        if (const auto axis = given_axis(key, *place, computed)) fit(*axis);
       }
+      if (!is_whole()) fit(axis_of(range.low, range.high, most_cells, Axis::Along::root));
       if (!fitted) return std::nullopt;
       const std::size_t before = outputs.size();
       // Again without those that no table is close to.
@@ -137,14 +139,6 @@ class Tabulator {
       if (saved < fitted->cost() + least_saving) return std::nullopt;
       return Looked{key, std::move(outputs), std::move(*fitted), place.value_or(no_value)};
     }
-  }
-
-  static std::vector<Axis> axes_of(const Range& range) {
-    std::vector<Axis> axes;
-    for (const Axis::Along along : {Axis::Along::number, Axis::Along::root}) {
-      for (const int cells : {16, 32}) axes.push_back(axis_of(range.low, range.high, cells, along));
-    }
-    return axes;
   }
 
   static bool has_gaps(const Piecewise& fitted) {
