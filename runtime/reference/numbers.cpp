@@ -27,34 +27,38 @@ std::int32_t truncate_saturated(double value) {
   return static_cast<std::int32_t>(std::clamp(value, low, high));
 }
 
-double compute(Op op, double a, double b, double c) {
+void compute(Op op, Points64 points, const Value64* x, const Value64* y, const Value64* z,
+             Value64* to) {
+  const auto each = [&](auto&& f) {
+    for (const std::uint32_t i : points) to[i].f = f(x[i].f, y[i].f, z[i].f);
+  };
   switch (op) {
-    case Op::add: return a + b;
-    case Op::sub: return a - b;
-    case Op::mul: return a * b;
-    case Op::div: return a / b;
-    case Op::fma: return std::fma(a, b, c);
-    case Op::min: return a < b ? a : b;
-    case Op::max: return a > b ? a : b;
-    case Op::sqrt: return std::sqrt(a);
-    case Op::neg: return -a;
-    case Op::abs: return std::fabs(a);
-    case Op::floor: return std::floor(a);
-    case Op::ceil: return std::ceil(a);
-    case Op::trunc: return std::trunc(a);
-    case Op::round: return std::nearbyint(a);
-    case Op::sin: return std::sin(a);
-    case Op::cos: return std::cos(a);
-    case Op::tan: return std::tan(a);
-    case Op::asin: return std::asin(a);
-    case Op::acos: return std::acos(a);
-    case Op::atan2: return std::atan2(a, b);
-    case Op::exp: return std::exp(a);
-    case Op::exp2: return std::exp2(a);
-    case Op::log: return std::log(a);
-    case Op::log2: return std::log2(a);
-    case Op::pow: return std::pow(a, b);
-    default: assert(false && "not an operation on floats"); return 0.0;
+    case Op::add: return each([](double a, double b, double) { return a + b; });
+    case Op::sub: return each([](double a, double b, double) { return a - b; });
+    case Op::mul: return each([](double a, double b, double) { return a * b; });
+    case Op::div: return each([](double a, double b, double) { return a / b; });
+    case Op::fma: return each([](double a, double b, double c) { return std::fma(a, b, c); });
+    case Op::min: return each([](double a, double b, double) { return a < b ? a : b; });
+    case Op::max: return each([](double a, double b, double) { return a > b ? a : b; });
+    case Op::sqrt: return each([](double a, double, double) { return std::sqrt(a); });
+    case Op::neg: return each([](double a, double, double) { return -a; });
+    case Op::abs: return each([](double a, double, double) { return std::fabs(a); });
+    case Op::floor: return each([](double a, double, double) { return std::floor(a); });
+    case Op::ceil: return each([](double a, double, double) { return std::ceil(a); });
+    case Op::trunc: return each([](double a, double, double) { return std::trunc(a); });
+    case Op::round: return each([](double a, double, double) { return std::nearbyint(a); });
+    case Op::sin: return each([](double a, double, double) { return std::sin(a); });
+    case Op::cos: return each([](double a, double, double) { return std::cos(a); });
+    case Op::tan: return each([](double a, double, double) { return std::tan(a); });
+    case Op::asin: return each([](double a, double, double) { return std::asin(a); });
+    case Op::acos: return each([](double a, double, double) { return std::acos(a); });
+    case Op::atan2: return each([](double a, double b, double) { return std::atan2(a, b); });
+    case Op::exp: return each([](double a, double, double) { return std::exp(a); });
+    case Op::exp2: return each([](double a, double, double) { return std::exp2(a); });
+    case Op::log: return each([](double a, double, double) { return std::log(a); });
+    case Op::log2: return each([](double a, double, double) { return std::log2(a); });
+    case Op::pow: return each([](double a, double b, double) { return std::pow(a, b); });
+    default: assert(false && "not an operation on floats");
   }
 }
 

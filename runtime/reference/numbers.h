@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "runtime/program/op.h"
 
@@ -20,8 +21,13 @@ std::uint32_t bits_of(double value);
 /// Towards zero, to the nearest number that there is; NaN to 0.
 std::int32_t truncate_saturated(double value);
 
-/// An operation of floats that gives one, by the C library's functions.
-double compute(Op op, double a, double b, double c);
+/// Some of the points that are worked on at once, by their numbers.
+using Points64 = std::span<const std::uint32_t>;
+
+/// An operation of floats that gives one, by the C library's functions: of the values at `points`
+/// in three columns, whether or not it has as many operands.
+void compute(Op op, Points64 points, const Value64* x, const Value64* y, const Value64* z,
+             Value64* to);
 
 /// A comparison of floats.
 std::uint32_t compare(Op op, double a, double b);

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -19,6 +19,23 @@ namespace nacre {
 
 namespace {
 
+/// Points that are worked on at once: as many as share the cost of finding out what to do.
+constexpr std::uint32_t points_at_once = 16;
+
+/// Columns of values: of each of some things, that of every point.
+class Columns {
+ public:
+  Columns() = default;
+  explicit Columns(std::size_t count) : values_(count * points_at_once) {}
+
+  Value64* operator[](std::size_t k) { return values_.data() + k * points_at_once; }
+  const Value64* operator[](std::size_t k) const { return values_.data() + k * points_at_once; }
+
+ private:
+  std::vector<Value64> values_;
+};
+
+/// Each point is computed as if it were alone: regions are entered with the points that do.
 class Run {
  public:
   Run(const Program& program, const std::vector<FunctionCost>& costs, const StepLimit& limit,
@@ -28,13 +45,18 @@ class Run {
         limit_(limit),
         args_(args),
         store_double_(store_double),
-        counts_(counts) {}
+        counts_(counts) {
+    std::iota(numbers_.begin(), numbers_.end(), 0u);
+  }
 
-  RunStatus point(std::uint64_t index) {
-    point_ = index;
-    steps_left_ = static_cast<double>(limit_.max_steps());
-    call(0, {});
-    if (steps_left_ < 0) return RunStatus::too_many_steps;
+  /// At most points_at_once.
+  RunStatus points(std::uint64_t first, std::size_t count) {
+    first_ = first;
+    steps_left_.fill(static_cast<double>(limit_.max_steps()));
+    call(0, Columns(), Points64(numbers_).first(count));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (steps_left_[i] < 0) return RunStatus::too_many_steps;
+    }
     return is_asked_to_stop() ? RunStatus::stopped : RunStatus::done;
   }
 
@@ -42,95 +64,113 @@ class Run {
   struct Activation {
     const Function& function;
     const FunctionCost& cost;
-    const std::vector<Value64>& arguments;
-    std::vector<Value64> values;
-    std::vector<Value64> results;
+    const Columns& arguments;
+    Columns values;
+    Columns results;
   };
+
+  /// Some points, made less.
+  using Some = std::vector<std::uint32_t>;
 
   bool is_asked_to_stop() const {
     return args_.stop != nullptr && args_.stop->load(std::memory_order_relaxed) != 0;
   }
 
-  std::vector<Value64> call(std::uint32_t number, const std::vector<Value64>& arguments) {
+  Columns call(std::uint32_t number, const Columns& arguments, Points64 points) {
     const Function& function = program_.functions[number];
     Activation frame{.function = function,
                      .cost = costs_[number],
                      .arguments = arguments,
-                     .values = std::vector<Value64>(function.code.size()),
-                     .results = std::vector<Value64>(function.results.size())};
-    run(frame, 0, function.code.size());
+                     .values = Columns(function.code.size()),
+                     .results = Columns(function.results.size())};
+    run(frame, 0, function.code.size(), points);
     return std::move(frame.results);
   }
 
-  void run(Activation& frame, std::size_t first, std::size_t end) {
+  void run(Activation& frame, std::size_t first, std::size_t end, Points64 points) {
     for (std::size_t i = first; i < end; ++i) {
       const Instruction& instruction = frame.function.code[i];
       if (!opens_region(instruction.op)) {
-        step(frame, i, instruction);
+        step(frame, i, instruction, points);
         continue;
       }
       const std::size_t close = region_end(frame.function, i);
       if (instruction.op == Op::if_any) {
-        run_if(frame, i, close);
+        run_if(frame, i, close, points);
       } else {
-        run_loop(frame, i, close);
+        run_loop(frame, i, close, points);
       }
       i = close;
     }
   }
 
-  void run_if(Activation& frame, std::size_t open, std::size_t close) {
-    const bool inside = frame.values[frame.function.code[open].operands[0]].i != 0;
-    if (inside) run(frame, open + 1, close);
+  static void copy(const Value64* from, Value64* to, Points64 points) {
+    for (const std::uint32_t p : points) to[p] = from[p];
+  }
+
+  void run_if(Activation& frame, std::size_t open, std::size_t close, Points64 points) {
+    const Value64* const condition = frame.values[frame.function.code[open].operands[0]];
+    Some inside, outside;
+    for (const std::uint32_t p : points) (condition[p].i != 0 ? inside : outside).push_back(p);
+    if (!inside.empty()) run(frame, open + 1, close, inside);
     for_each_own(frame.function, open, close, Op::merge, [&](std::size_t k) {
       const auto& operands = frame.function.code[k].operands;
-      ensure_literal(frame, operands[1]);
-      frame.values[k] = frame.values[operands[inside ? 0 : 1]];
+      ensure_literal(frame, operands[1], points);
+      copy(frame.values[operands[0]], frame.values[k], inside);
+      copy(frame.values[operands[1]], frame.values[k], outside);
     });
   }
 
   /// A literal stands wherever it was recorded, in a region not run yet too.
-  void ensure_literal(Activation& frame, ValueId id) {
+  void ensure_literal(Activation& frame, ValueId id, Points64 points) {
     const Instruction& instruction = frame.function.code[id];
-    if (instruction.op == Op::constant) step(frame, id, instruction);
+    if (instruction.op == Op::constant) step(frame, id, instruction, points);
   }
 
-  void run_loop(Activation& frame, std::size_t open, std::size_t close) {
+  void run_loop(Activation& frame, std::size_t open, std::size_t close, Points64 points) {
     const Function& function = frame.function;
     for_each_own(function, open, close, Op::carry, [&](std::size_t k) {
-      ensure_literal(frame, function.code[k].operands[0]);
-      frame.values[k] = frame.values[function.code[k].operands[0]];
+      ensure_literal(frame, function.code[k].operands[0], points);
+      copy(frame.values[function.code[k].operands[0]], frame.values[k], points);
     });
     for_each_own(function, open, close, Op::next, [&](std::size_t k) {
-      frame.values[k] = frame.values[function.code[k].operands[0]];
+      copy(frame.values[function.code[k].operands[0]], frame.values[k], points);
     });
-    bool active = frame.values[function.code[open].operands[0]].i != 0;
+    Some active(points.begin(), points.end());
+    const auto keep_where = [&](ValueId id) {
+      std::erase_if(active, [&](std::uint32_t p) { return frame.values[id][p].i == 0; });
+    };
+    keep_where(function.code[open].operands[0]);
     const std::uint32_t imm = function.code[open].imm;
-    for (std::uint32_t n = 0; active; ++n) {
+    for (std::uint32_t n = 0; !active.empty(); ++n) {
       if (n == loop_bound(imm)) {
-        if ((imm & loop_must_end) != 0) steps_left_ = -1;
+        if ((imm & loop_must_end) != 0) {
+          for (const std::uint32_t p : active) steps_left_[p] = -1;
+        }
         return;
       }
-      if (n > 0 && !pays_for_round(frame, open)) return;
-      run(frame, open + 1, close);
+      if (n > 0) keep_paying(frame, open, active);
+      if (active.empty()) return;
+      run(frame, open + 1, close, active);
       for_each_own(function, open, close, Op::next, [&](std::size_t k) {
-        frame.values[k] = frame.values[function.code[k].operands[1]];
+        copy(frame.values[function.code[k].operands[1]], frame.values[k], active);
       });
       for_each_own(function, open, close, Op::next, [&](std::size_t k) {
-        frame.values[function.code[k].operands[0]] = frame.values[k];
+        copy(frame.values[k], frame.values[function.code[k].operands[0]], active);
       });
-      for_each_own(function, open, close, Op::again, [&](std::size_t k) {
-        active = frame.values[function.code[k].operands[0]].i != 0;
-      });
+      for_each_own(function, open, close, Op::again,
+                   [&](std::size_t k) { keep_where(function.code[k].operands[0]); });
     }
   }
 
-  /// False once there were too many steps, or somebody asks to stop: then the loops around
-  /// end too, at their next round, and the point comes to its end.
-  bool pays_for_round(const Activation& frame, std::size_t open) {
-    if (!limit_.is_counted()) return true;
-    steps_left_ -= frame.cost.rounds.at(static_cast<ValueId>(open));
-    return steps_left_ >= 0 && !is_asked_to_stop();
+  /// Leaves out those that took too many steps, and all once somebody asks to stop: then the
+  /// loops around end too, at their next round, and the points come to their end.
+  void keep_paying(const Activation& frame, std::size_t open, Some& active) {
+    if (!limit_.is_counted()) return;
+    const double cost = frame.cost.rounds.at(static_cast<ValueId>(open));
+    for (const std::uint32_t p : active) steps_left_[p] -= cost;
+    const bool stops = is_asked_to_stop();
+    std::erase_if(active, [&](std::uint32_t p) { return stops || steps_left_[p] < 0; });
   }
 
   /// f(index) for the instructions of kind `op` that stand in the region
@@ -146,47 +186,69 @@ class Run {
     }
   }
 
-  void step(Activation& frame, std::size_t i, const Instruction& instruction) {
-    const auto operand = [&](std::size_t k) -> const Value64& {
-      return frame.values[instruction.operands[k]];
+  void step(Activation& frame, std::size_t i, const Instruction& instruction, Points64 points) {
+    const auto operand = [&](std::size_t k) -> const Value64* {
+      return k < instruction.count ? frame.values[instruction.operands[k]] : zeros_.data();
     };
-    const auto f = [&](std::size_t k) { return k < instruction.count ? operand(k).f : 0.0; };
-    Value64& to = frame.values[i];
-    if (counts_ != nullptr) ++(*counts_)[static_cast<std::size_t>(instruction.op)];
+    Value64* const to = frame.values[i];
+    const Value64 *const a = operand(0), *const b = operand(1), *const c = operand(2);
+    const auto each = [&](auto&& f) {
+      for (const std::uint32_t p : points) f(p);
+    };
+    const auto fill = [&](const Value64& value) { each([&](std::uint32_t p) { to[p] = value; }); };
+    if (counts_ != nullptr) {
+      (*counts_)[static_cast<std::size_t>(instruction.op)] += points.size();
+    }
     switch (instruction.op) {
-      case Op::constant: to = from_bits(instruction.type, instruction.imm); break;
+      case Op::constant: fill(from_bits(instruction.type, instruction.imm)); break;
       case Op::parameter:
-        to = from_bits(instruction.type, args_.parameters[instruction.imm]);
+        fill(from_bits(instruction.type, args_.parameters[instruction.imm]));
         break;
-      case Op::input:
-        to = from_bits(instruction.type,
-                       static_cast<const std::uint32_t*>(args_.inputs[instruction.imm])[point_]);
-        break;
-      case Op::argument: to = frame.arguments[instruction.imm]; break;
-      case Op::select: to = operand(0).i != 0 ? operand(1) : operand(2); break;
-      case Op::f_to_i: to.i = static_cast<std::uint32_t>(truncate_saturated(f(0))); break;
-      case Op::i_to_f: to.f = static_cast<std::int32_t>(operand(0).i); break;
-      case Op::u_to_f: to.f = operand(0).i; break;
-      case Op::bits: to.i = bits_of(f(0)); break;
-      case Op::from_bits: to.f = float_of(operand(0).i); break;
-      case Op::half_to_f:
-        to.f = static_cast<double>(half_to_float(static_cast<std::uint16_t>(operand(0).i)));
-        break;
-      case Op::table: to.f = table(instruction.imm, operand(0).i); break;
-      case Op::texel: to.i = texel(operand(0).i, operand(1).i); break;
-      case Op::texture_call: texture_call(frame, instruction); break;
-      case Op::call: {
-        std::vector<Value64> arguments;
-        for (const ValueId id : frame.function.operands(instruction)) {
-          arguments.push_back(frame.values[id]);
-        }
-        results_ = call(instruction.imm, arguments);
+      case Op::input: {
+        const auto* const column =
+            static_cast<const std::uint32_t*>(args_.inputs[instruction.imm]) + first_;
+        each([&](std::uint32_t p) { to[p] = from_bits(instruction.type, column[p]); });
         break;
       }
-      case Op::result: to = results_[instruction.imm]; break;
-      case Op::give: frame.results[instruction.imm] = operand(0); break;
-      case Op::keep: to = operand(0); break;
-      case Op::store: store(instruction.imm, operand(0)); break;
+      case Op::argument: copy(frame.arguments[instruction.imm], to, points); break;
+      case Op::select: each([&](std::uint32_t p) { to[p] = a[p].i != 0 ? b[p] : c[p]; }); break;
+      case Op::f_to_i:
+        each([&](std::uint32_t p) {
+          to[p].i = static_cast<std::uint32_t>(truncate_saturated(a[p].f));
+        });
+        break;
+      case Op::i_to_f:
+        each([&](std::uint32_t p) { to[p].f = static_cast<std::int32_t>(a[p].i); });
+        break;
+      case Op::u_to_f: each([&](std::uint32_t p) { to[p].f = a[p].i; }); break;
+      case Op::bits: each([&](std::uint32_t p) { to[p].i = bits_of(a[p].f); }); break;
+      case Op::from_bits: each([&](std::uint32_t p) { to[p].f = float_of(a[p].i); }); break;
+      case Op::half_to_f:
+        each([&](std::uint32_t p) {
+          to[p].f = static_cast<double>(half_to_float(static_cast<std::uint16_t>(a[p].i)));
+        });
+        break;
+      case Op::table:
+        each([&](std::uint32_t p) { to[p].f = table(instruction.imm, a[p].i); });
+        break;
+      case Op::texel: each([&](std::uint32_t p) { to[p].i = texel(a[p].i, b[p].i); }); break;
+      case Op::texture_call:
+        results_ = Columns(4);
+        each([&](std::uint32_t p) { texture_call(frame, instruction, p); });
+        break;
+      case Op::call: {
+        const auto operands = frame.function.operands(instruction);
+        Columns arguments(operands.size());
+        for (std::size_t k = 0; k < operands.size(); ++k) {
+          copy(frame.values[operands[k]], arguments[k], points);
+        }
+        results_ = call(instruction.imm, arguments, points);
+        break;
+      }
+      case Op::result: copy(results_[instruction.imm], to, points); break;
+      case Op::give: copy(a, frame.results[instruction.imm], points); break;
+      case Op::keep: copy(a, to, points); break;
+      case Op::store: store(instruction.imm, a, points); break;
       case Op::merge:
       case Op::carry:
       case Op::next:
@@ -194,12 +256,14 @@ class Run {
       case Op::eq:
       case Op::ne:
       case Op::lt:
-      case Op::le: to.i = compare(instruction.op, f(0), f(1)); break;
+      case Op::le:
+        each([&](std::uint32_t p) { to[p].i = compare(instruction.op, a[p].f, b[p].f); });
+        break;
       default:
         if (instruction.type == Scalar::f32) {
-          to.f = compute(instruction.op, f(0), f(1), f(2));
+          compute(instruction.op, points, a, b, c, to);
         } else {
-          to.i = integer(instruction, frame);
+          each([&](std::uint32_t p) { to[p].i = integer(instruction, {a[p].i, b[p].i, c[p].i}); });
         }
         break;
     }
@@ -211,11 +275,8 @@ class Run {
     return {.f = 0.0, .i = bits};
   }
 
-  static std::uint32_t integer(const Instruction& instruction, const Activation& frame) {
-    std::array<std::uint32_t, 3> operands{};
-    for (std::size_t k = 0; k < instruction.count; ++k) {
-      operands[k] = frame.values[instruction.operands[k]].i;
-    }
+  static std::uint32_t integer(const Instruction& instruction,
+                               const std::array<std::uint32_t, 3>& operands) {
     const auto folded = fold(instruction.op, std::span(operands).first(instruction.count));
     assert(folded.has_value());
     return *folded;
@@ -233,16 +294,14 @@ class Run {
     return texture.words[word < texture.count ? word : 0u];
   }
 
-  void texture_call(const Activation& frame, const Instruction& instruction) {
+  void texture_call(const Activation& frame, const Instruction& instruction, std::uint32_t point) {
     const auto operands = frame.function.operands(instruction);
+    const auto value = [&](std::size_t k) { return frame.values[operands[k]][point]; };
     std::array<float, 6> x{};
-    for (std::size_t k = 0; k < 6; ++k) {
-      x[k] = static_cast<float>(frame.values[operands[k + 1]].f);
-    }
-    const auto limit =
-        static_cast<std::int32_t>(operands.size() > 7 ? frame.values[operands[7]].i : 0u);
+    for (std::size_t k = 0; k < 6; ++k) x[k] = static_cast<float>(value(k + 1).f);
+    const auto limit = static_cast<std::int32_t>(operands.size() > 7 ? value(7).i : 0u);
     std::array<float, 4> rgba{};
-    const TextureCall request{.slot = frame.values[operands[0]].i,
+    const TextureCall request{.slot = value(0).i,
                               .modes = instruction.imm,
                               .lanes = 1,
                               .u = &x[0],
@@ -254,18 +313,18 @@ class Run {
                               .max_anisotropy = operands.size() > 7 ? &limit : nullptr,
                               .rgba = rgba.data()};
     if (args_.texture_callback != nullptr) args_.texture_callback(args_.texture_user, &request);
-    results_.assign(4, {});
-    for (std::size_t c = 0; c < 4; ++c) results_[c].f = static_cast<double>(rgba[c]);
+    for (std::size_t c = 0; c < 4; ++c) results_[c][point].f = static_cast<double>(rgba[c]);
   }
 
-  void store(std::uint32_t channel, const Value64& value) const {
-    const Scalar type = program_.outputs[channel].type;
-    if (type == Scalar::f32 && store_double_) {
-      static_cast<double*>(args_.outputs[channel])[point_] = value.f;
+  void store(std::uint32_t channel, const Value64* values, Points64 points) const {
+    const bool is_float = program_.outputs[channel].type == Scalar::f32;
+    if (is_float && store_double_) {
+      auto* const to = static_cast<double*>(args_.outputs[channel]) + first_;
+      for (const std::uint32_t p : points) to[p] = values[p].f;
       return;
     }
-    static_cast<std::uint32_t*>(args_.outputs[channel])[point_] =
-        type == Scalar::f32 ? bits_of(value.f) : value.i;
+    auto* const to = static_cast<std::uint32_t*>(args_.outputs[channel]) + first_;
+    for (const std::uint32_t p : points) to[p] = is_float ? bits_of(values[p].f) : values[p].i;
   }
 
   const Program& program_;
@@ -273,10 +332,12 @@ class Run {
   const StepLimit& limit_;
   const KernelArguments& args_;
   bool store_double_;
-  OpCounts* counts_;  ///< Null: nobody counts.
-  std::uint64_t point_ = 0;
-  double steps_left_ = 0;  ///< Of the point; below zero: the run has failed.
-  std::vector<Value64> results_;
+  OpCounts* counts_;         ///< Null: nobody counts.
+  std::uint64_t first_ = 0;  ///< Of the points that are worked on.
+  std::array<std::uint32_t, points_at_once> numbers_{};
+  std::array<double, points_at_once> steps_left_{};  ///< Below zero: the run has failed.
+  Columns results_;
+  const std::array<Value64, points_at_once> zeros_{};  ///< Operands that an operation lacks.
 };
 
 class Reference final : public ReferenceKernel {
@@ -303,8 +364,9 @@ class Reference final : public ReferenceKernel {
   RunStatus run_all(const KernelArguments& arguments, bool store_double, OpCounts* counts) const {
     const ScopedFloatEnvironment environment;
     Run run(program_, costs_, limit_, arguments, store_double, counts);
-    for (std::uint64_t i = 0; i < arguments.count; ++i) {
-      if (const RunStatus status = run.point(i); status != RunStatus::done) return status;
+    for (std::uint64_t i = 0; i < arguments.count; i += points_at_once) {
+      const std::uint64_t count = std::min<std::uint64_t>(points_at_once, arguments.count - i);
+      if (const RunStatus status = run.points(i, count); status != RunStatus::done) return status;
     }
     return RunStatus::done;
   }
