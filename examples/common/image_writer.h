@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,7 +26,8 @@ struct ImageHeader {
   std::string colorspace;                      ///< As OpenImageIO calls it.
   /// Of integers: all but a fourth channel get the codes of sRGB for linear values.
   bool codes_srgb = false;
-  bool repeats = true;  ///< Of a .tx.
+  bool repeats = true;                            ///< Of a .tx.
+  std::map<std::string, std::string> texts = {};  ///< Of an .exr: more attributes, by name.
 };
 
 /// Rows on their way into a file: `planes` has a plane of width * rows floats for each channel.

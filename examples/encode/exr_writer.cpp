@@ -44,6 +44,13 @@ void append_attribute(Bytes& header, std::string_view name, std::string_view typ
   header.insert(header.end(), value.begin(), value.end());
 }
 
+/// Names of channels and attributes may have 255 letters then.
+bool has_long_names(const ImageHeader& image) {
+  constexpr std::size_t most = 31;
+  return std::ranges::any_of(image.channels, [](auto& name) { return name.size() > most; }) ||
+         std::ranges::any_of(image.texts, [](auto& text) { return text.first.size() > most; });
+}
+
 std::uint16_t half_of(float value) {
   if (std::isfinite(value)) return float_to_half(value);
   if (std::isnan(value)) return 0x7e00;
@@ -102,8 +109,9 @@ class ExrWriter final : public ImageWriter {
  private:
   Bytes head(const ImageHeader& image) const {
     Bytes bytes;
-    append_int(bytes, 20000630);  // The magic number.
-    append_int(bytes, 2);         // The version; scan lines, names of at most 31 letters.
+    append_int(bytes, 20000630);                    // The magic number.
+    constexpr int version = 2, long_names = 0x400;  // Scan lines.
+    append_int(bytes, has_long_names(image) ? version | long_names : version);
     Bytes channels;
     for (const std::size_t channel : order_) {
       append_text(channels, image.channels[channel]);
@@ -130,6 +138,9 @@ class ExrWriter final : public ImageWriter {
     append_attribute(bytes, "pixelAspectRatio", "float", one);
     append_attribute(bytes, "screenWindowCenter", "v2f", Bytes(8));
     append_attribute(bytes, "screenWindowWidth", "float", one);
+    for (const auto& [name, text] : image.texts) {
+      append_attribute(bytes, name, "string", {text.begin(), text.end()});
+    }
     bytes.push_back(0);
     return bytes;
   }

@@ -138,6 +138,22 @@ void PixelCamera::footprint(Vec3 direction, float distance, Vec3 n, float time, 
   dPdy = transform_vector(moved, dPdy);
 }
 
+Vec3 PixelCamera::from_camera(Vec3 P, float time) const {
+  return (motion_.is_still() ? P : transform_point(inverse(motion_.at(time)), P)) -
+         camera_.position;
+}
+
+float PixelCamera::depth(Vec3 P, float time) const {
+  return dot(from_camera(P, time), camera_.forward);
+}
+
+Vec2 PixelCamera::place(Vec3 P, float time) const {
+  const Vec3 way = from_camera(P, time);
+  // To the plane in focus, where the pixels are.
+  const Vec3 focus = (dot(corner_, camera_.forward) / dot(way, camera_.forward)) * way - corner_;
+  return {dot(focus, step_x_) / dot(step_x_, step_x_), dot(focus, step_y_) / dot(step_y_, step_y_)};
+}
+
 PixelCamera::Ray PixelCamera::standing_ray(float x, float y, Uniform2 lens) const {
   const Vec3 focus = corner_ + x * step_x_ + y * step_y_;
   if (!(camera_.lens_radius > 0.f)) return {camera_.position, normalize(focus)};

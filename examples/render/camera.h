@@ -48,10 +48,19 @@ class PixelCamera {
   /// sections 3.1.1 and 3.1.2, for a straight ray of this direction and length.
   void footprint(Vec3 direction, float distance, Vec3 n, float time, Vec3& dPdx, Vec3& dPdy) const;
 
+  /// Distance of P along the camera's axis.
+  float depth(Vec3 P, float time) const;
+
+  /// Image position that the middle of the lens sees P at, pixels from the upper left corner; for
+  /// what is in front of it.
+  Vec2 place(Vec3 P, float time) const;
+
   /// Angle between neighbouring samples in the middle of the image, radians.
   float sample_angle() const { return angle_; }
 
  private:
+  /// The way to P from where the camera stands, before it moves.
+  Vec3 from_camera(Vec3 P, float time) const;
   Ray standing_ray(float x, float y, Uniform2 lens) const;
   void standing_footprint(Vec3 direction, float distance, Vec3 n, Vec3& dPdx, Vec3& dPdy) const;
 

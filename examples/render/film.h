@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "examples/render/pass_film.h"
 #include "examples/render/vec.h"
 
 namespace nacre::host {
@@ -36,16 +37,21 @@ class Film {
   float alpha(int x, int y) const { return has_alpha() ? alpha_[index(x, y)] : 1.f; }
   void set_alpha(int x, int y, float alpha) { alpha_[index(x, y)] = alpha; }
 
+  /// Of a pixel in all of them.
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  /// Images beside this one, of the same size.
+  PassFilm passes;
+
   /// width * height rgb triples.
   const std::vector<Vec3>& pixels() const { return mean_; }
 
  private:
   std::size_t size() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  }
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
   }
 
   int width_, height_;

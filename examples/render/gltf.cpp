@@ -179,7 +179,10 @@ class GltfReader {
       dropped_.say("light-stands", node,
                    "a light that moves stands where it is as the shutter opens");
     }
-    if (const auto light = read_light(source, world.at(0.f))) scene_.lights.push_back(*light);
+    auto light = read_light(source, world.at(0.f));
+    if (!light) return;
+    light->name = node.name();
+    scene_.lights.push_back(*light);
   }
 
   /// The first perspective camera; glTF cameras look along -z with +y up.

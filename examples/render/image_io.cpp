@@ -63,6 +63,18 @@ Planes linear(const Film& film) {
   return planes;
 }
 
+/// Adds what lies beside the picture to its header and planes.
+void append_passes(const PassFilm& passes, ImageHeader& header, Planes& planes) {
+  header.channels.insert(header.channels.end(), passes.channels.begin(), passes.channels.end());
+  planes.insert(planes.end(), passes.planes.begin(), passes.planes.end());
+  for (const Mattes& mattes : passes.mattes) {
+    const std::vector<std::string> channels = mattes.channels();
+    header.channels.insert(header.channels.end(), channels.begin(), channels.end());
+    planes.insert(planes.end(), mattes.planes.begin(), mattes.planes.end());
+    header.texts.merge(mattes.attributes());
+  }
+}
+
 /// Empty when written; otherwise why not.
 std::string write_file(const Film& film, const std::string& path, bool exr,
                        const WriteOptions& options) {
@@ -74,10 +86,12 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
                      .colorspace = exr ? "Linear" : "sRGB"};
   if (exr) header.samples = options.half ? SampleType::half : SampleType::floating;
   if (film.has_alpha()) header.channels.emplace_back("A");
+  Planes planes = exr ? linear(film) : developed(film, options);
+  if (exr) append_passes(film.passes, header, planes);
   std::string problem;
   const auto image = open_image(path, header, problem);
   if (image == nullptr) return problem;
-  return write_planes(*image, header, exr ? linear(film) : developed(film, options));
+  return write_planes(*image, header, planes);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ struct WriteOptions {
 /// Whether write_image() can write a file of that name; an error if not.
 bool is_image_name(const std::string& path, Diagnostics& diagnostics);
 
-/// Writes .exr (linear Rec. 709 radiance) or .png (8 bits, tone curve, sRGB
-/// transfer). A file appears complete or not at all: it is written beside its
+/// Writes .exr (linear Rec. 709 radiance, passes as layers) or .png (8 bits, tone curve, sRGB
+/// transfer, no passes). A file appears complete or not at all: it is written beside its
 /// place and renamed. The bytes depend on nothing but the image and options.
 /// A film with alpha gives four channels; colours are multiplied by alpha in .exr and
 /// not in .png, as is the custom of either.

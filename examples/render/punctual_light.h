@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "examples/render/light_shader.h"
 #include "examples/render/vec.h"
 
@@ -9,6 +11,7 @@ namespace nacre::host {
 /// as those of emissive materials do: candela as intensity, lux as irradiance.
 struct PunctualLight {
   enum class Kind { directional, point, spot };
+  std::string name = {};  ///< Of its node; may be empty.
   Kind kind = Kind::point;
   Vec3 color;             ///< Times the intensity.
   Vec3 position;          ///< World; of point and spot.

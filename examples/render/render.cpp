@@ -68,6 +68,7 @@ bool render_tile(const RenderContext& context, const Tile& tile, const std::stop
   const int width = tile.x1 - tile.x0;
   const int at_once = std::max(1, wave_size / tile.pixels());
   std::vector<PixelSum> sums(static_cast<std::size_t>(tile.pixels()));
+  PassSums passes(context.settings.passes, film.passes, sums.size());
   for (int first = 0; first < context.settings.samples; first += at_once) {
     if (stop.stop_requested()) return false;
     const int last = std::min(first + at_once, context.settings.samples);
@@ -80,13 +81,18 @@ bool render_tile(const RenderContext& context, const Tile& tile, const std::stop
     wavefront.trace(paths);
     for (std::size_t i = 0; i < paths.size(); ++i) {
       sums[i % sums.size()].add(paths[i].radiance, paths[i].alpha);
+      if (!film.passes.empty()) passes.add(i % sums.size(), wavefront.record(i));
     }
   }
   for (int i = 0; i < tile.pixels(); ++i) {
     const PixelSum& sum = sums[static_cast<std::size_t>(i)];
-    film.mean(tile.x0 + i % width, tile.y0 + i / width) = sum.mean();
-    film.variance(tile.x0 + i % width, tile.y0 + i / width) = sum.variance_of_mean();
-    if (film.has_alpha()) film.set_alpha(tile.x0 + i % width, tile.y0 + i / width, sum.alpha());
+    const int x = tile.x0 + i % width, y = tile.y0 + i / width;
+    film.mean(x, y) = sum.mean();
+    film.variance(x, y) = sum.variance_of_mean();
+    if (film.has_alpha()) film.set_alpha(x, y, sum.alpha());
+    if (!film.passes.empty()) {
+      passes.store(static_cast<std::size_t>(i), film.index(x, y), film.passes);
+    }
   }
   return true;
 }
@@ -144,6 +150,8 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
   if (!context.bvh.ok()) return {};
   const std::vector<Tile> tiles = make_tiles(settings);
   Film film(settings.width, settings.height, context.any_matte);
+  film.passes = PassFilm(settings.passes, *input.scene, input.material_names, settings.width,
+                         settings.height);
   Shared shared;
   const auto threads = static_cast<int>(
       std::min(tiles.size(), static_cast<std::size_t>(thread_count(settings.threads))));

@@ -9,6 +9,7 @@
 #include "examples/render/environment.h"
 #include "examples/render/film.h"
 #include "examples/render/light_shader.h"
+#include "examples/render/passes.h"
 #include "examples/render/sampler.h"
 #include "examples/render/scene.h"
 #include "examples/render/shader.h"
@@ -48,6 +49,7 @@ struct RenderSettings {
   float fps = 24.f;                ///< What `frame` is counted in while the shutter is open.
   int tile_size = 32;              ///< Pixels on a side.
   std::uint32_t batch_size = 512;  ///< Points per kernel call, at most.
+  PassRequest passes = {};         ///< Images beside the picture.
 };
 
 /// Whether rays have times of their own.
@@ -67,6 +69,8 @@ struct RenderInput {
   /// By mesh: closed, light enters it, and its shaders have an interior() and read
   /// ShadingBatch::exterior_index. Where these overlap Mesh::priority decides. Empty: none.
   std::vector<bool> solids = {};
+  /// By mesh, for mattes: what it is shaded by. Empty: as Mesh::material_name says.
+  std::vector<std::string> material_names = {};
 };
 
 struct RenderControl {

@@ -90,6 +90,20 @@ struct ShadingBatch {
   float* exterior_index = nullptr;            ///< Of refraction, of what is around; 1 is vacuum.
 };
 
+/// What scatters light, as passes tell it apart (passes.h).
+enum class ScatterClass : std::uint8_t {
+  diffuse,       ///< Reflection,
+  glossy,        ///< rough
+  mirror,        ///< or smooth.
+  transmission,  ///< To the other side of the surface, any.
+  subsurface,    ///< Light comes back from below.
+  volume,        ///< In media.
+};
+inline constexpr std::size_t scatter_classes = 6;
+
+/// What each class gives of a result.
+using PartLanes = std::array<Lanes3, scatter_classes>;
+
 enum ScatterFlag : std::uint32_t {
   sample_valid = 1u << 0,  ///< Clear: absorbed; every other output of the lane is ignored.
   sample_delta =
@@ -101,16 +115,26 @@ enum ScatterFlag : std::uint32_t {
 };
 
 struct SampleLanes {
-  Lanes3 wi;                       ///< World, away from the surface, unit length.
-  Lanes3 weight;                   ///< rgb: f·cos/pdf.
-  float* pdf = nullptr;            ///< Forward, per solid angle, over all lobes.
-  std::uint32_t* flags = nullptr;  ///< ScatterFlag bits.
-  std::int32_t* lobe = nullptr;    ///< Which one; for subsurface().
+  Lanes3 wi;                         ///< World, away from the surface, unit length.
+  Lanes3 weight;                     ///< rgb: f·cos/pdf.
+  float* pdf = nullptr;              ///< Forward, per solid angle, over all lobes.
+  std::uint32_t* flags = nullptr;    ///< ScatterFlag bits.
+  std::int32_t* lobe = nullptr;      ///< Which one; for subsurface().
+  const PartLanes* parts = nullptr;  ///< Of `weight`. Null: not wanted.
 };
 
 struct EvaluateLanes {
-  Lanes3 value;          ///< rgb: f·|cos|, Dirac lobes excluded.
-  float* pdf = nullptr;  ///< Forward; 0 where sample() cannot go.
+  Lanes3 value;                      ///< rgb: f·|cos|, Dirac lobes excluded.
+  float* pdf = nullptr;              ///< Forward; 0 where sample() cannot go.
+  const PartLanes* parts = nullptr;  ///< Of `value`. Null: not wanted.
+};
+
+/// What passes say of a point.
+struct PointLanes {
+  Lanes3 albedo;               ///< rgb in [0, 1]: the share that leaves, by all lobes.
+  Lanes3 normal;               ///< World, unit, towards the viewer: the mean of the lobes'.
+  float* roughness = nullptr;  ///< In [0, 1], likewise.
+  std::vector<float*> values;  ///< PassRequest::values, a component each.
 };
 
 /// What a surface encloses: see Medium.
@@ -176,6 +200,11 @@ class Shader {
   /// Value and density for one given direction per point.
   virtual void evaluate(const ShadingBatch& batch, const void* state, Lanes3 wi,
                         EvaluateLanes out) const = 0;
+
+  /// Called when passes ask for it. What is not known is left as it is: 0, N for the normal.
+  virtual void point(const ShadingBatch& batch, const void* state, const PointLanes& out) const {
+    (void)batch, (void)state, (void)out;
+  }
 
   /// Radiance (rgb) towards `wo`. Needs no state. Called when `emits`.
   virtual void emission(const ShadingBatch& batch, Lanes3 radiance) const = 0;

@@ -41,17 +41,20 @@ Wavefront::Wavefront(const RenderContext& context, std::size_t max_paths)
   light_groups_.resize(context.materials.size());
   shadow_groups_.resize(context.materials.size());
   lit_groups_.resize(context.point_lights.size());
+  prepare_passes(max_paths);
 }
 
 void Wavefront::trace(std::span<Path> paths) {
   paths_ = paths;
   statistics_.paths += paths.size();
+  begin_passes();
   active_.clear();
   for (std::uint32_t i = 0; i < paths.size(); ++i) active_.push_back(i);
   while (!active_.empty()) {
     next_.clear();
     shadows_.clear();
     shadow_media_.clear();
+    connections_.clear();
     intersect();
     if (context_.any_media) cross_media();
     if (context_.any_volume) meet_media();
@@ -89,11 +92,12 @@ void Wavefront::intersect() {
 void Wavefront::add_environment() {
   if (context_.environment == nullptr) return;
   for (const std::uint32_t i : active_) {
-    Path& path = paths_[i];
+    const Path& path = paths_[i];
     if (!hits_[i].missed() || path.unlit) continue;
     const Environment::Light light = context_.environment->light(path.ray.direction);
     const float light_pdf = context_.lights.environment_chance() * light.pdf;
-    path.radiance += hit_weight(path, light_pdf) * (path.throughput * light.radiance);
+    add_found(i, hit_weight(path, light_pdf) * (path.throughput * light.radiance),
+              context_.settings.passes.groups.of_environment, true);
   }
 }
 

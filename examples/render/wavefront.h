@@ -1,12 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "examples/render/batch_buffer.h"
 #include "examples/render/media.h"
 #include "examples/render/medium_lanes.h"
+#include "examples/render/passes.h"
 #include "examples/render/render_context.h"
 #include "examples/render/sampler.h"
 
@@ -40,6 +43,9 @@ struct Path {
   float spread = 0.f;    ///< Radians.
 };
 
+/// By ScatterClass, which part of something is its; each channel adds up to 1.
+using Shares = std::array<Vec3, scatter_classes>;
+
 /// A run of a sorted index list: what belongs to one material.
 struct Group {
   std::uint32_t begin = 0, end = 0;
@@ -62,6 +68,9 @@ class Wavefront {
   /// Follows paths (ray and key set) to their ends; results are in `radiance`.
   void trace(std::span<Path> paths);
 
+  /// What passes need of path i of those that trace() followed.
+  PathRecord record(std::size_t i) const;
+
   const RenderStatistics& statistics() const { return statistics_; }
 
  private:
@@ -71,7 +80,8 @@ class Wavefront {
     Vec3 target;      ///< Off the light's surface; unused for the environment.
     float pdf = 0.f;  ///< Per solid angle, with all choices; 0: no sample.
     bool infinite = false;
-    bool unseen = false;  ///< No ray meets it, so no other sample finds it.
+    bool unseen = false;     ///< No ray meets it, so no other sample finds it.
+    std::uint8_t group = 0;  ///< Of LightGroups.
   };
   struct LightPoint {
     std::uint32_t path;
@@ -89,6 +99,20 @@ class Wavefront {
     Vec3 target;
     std::uint32_t path;
     bool infinite;
+    std::uint32_t connection = 0;  ///< Of connections_, where light is split up.
+  };
+  /// How light of a shadow ray is split up.
+  struct Connection {
+    Shares shares;
+    std::uint8_t group;
+    bool is_direct;
+  };
+  /// What a path has gone through, where light is split up.
+  struct Trace {
+    Shares shares = {};        ///< Of the first scattering event.
+    bool is_known = false;     ///< Whether that was.
+    bool is_below = false;     ///< On a walk below a surface.
+    std::uint32_t events = 0;  ///< A walk is one.
   };
   /// What a shadow ray is inside of: by its place in shadows_, where there are volumes.
   struct ShadowMedia {
@@ -114,6 +138,20 @@ class Wavefront {
   float hit_weight(const Path& path, float light_pdf) const;
   float connection_weight(float light_pdf, float material_pdf) const;
   bool connects() const;
+
+  // wavefront_passes.cpp
+  void prepare_passes(std::size_t max_paths);
+  void begin_passes();
+  void add_found(std::uint32_t path, Vec3 light, std::uint8_t group, bool is_background = false);
+  void add_connected(const ShadowRay& shadow);
+  void note_connection(std::uint32_t path, std::size_t lane);
+  void note_connection_inside(std::uint32_t path);
+  void connect_as(const Connection& connection);
+  void note_scattering(std::uint32_t path, std::size_t lane);
+  void note_scattering_inside(std::uint32_t path);
+  void record_hits(const Material& material, std::span<const std::uint32_t> paths, bool has_state);
+  void record_hit(std::uint32_t path, std::size_t lane);
+  Vec2 motion_of(SurfacePoint point) const;
 
   // wavefront_opacity.cpp
   void apply_opacity();
@@ -205,6 +243,15 @@ class Wavefront {
   std::vector<Group> shadow_groups_;
   std::vector<std::uint8_t> blocked_;
   std::vector<SurfacePoint> points_;  ///< Of the batch at hand.
+  // Of passes; empty where none needs them.
+  std::vector<LightSplit> splits_;  ///< By path,
+  std::vector<Trace> traces_;       ///< likewise.
+  std::vector<Connection> connections_;
+  std::optional<LaneMemory> part_memory_, point_memory_;
+  PartLanes sample_parts_, value_parts_;
+  PointLanes point_;                  ///< Of the batch at hand.
+  std::vector<FirstHit> first_hits_;  ///< By path.
+  std::vector<float> values_;         ///< By path, all of one together.
   RenderStatistics statistics_;
 };
 

@@ -48,6 +48,7 @@ void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from, Vec3 norma
   if (choice.kind == SceneLights::Kind::environment) {
     const Environment::Sample s = context_.environment->sample(position);
     light = {s.wi, s.radiance, {}, choice.probability * s.pdf, true};
+    light.group = context_.settings.passes.groups.of_environment;
     return;
   }
   if (choice.kind == SceneLights::Kind::unmet) {
@@ -69,6 +70,7 @@ void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from, Vec3 norma
   const float pdf = choice.probability / choice.area * squared / std::abs(cosine);
   if (!std::isfinite(pdf)) return;  // edge on
   light = {wi, {}, offset_point(on_light, back ? -ng : ng), pdf, false};
+  light.group = context_.settings.passes.groups.mesh(choice.mesh);
   light_point.wo = -wi;
   light_points_.push_back({i, light_point});
 }
@@ -136,7 +138,13 @@ void Wavefront::light_points(const LightShader& light, std::span<const std::uint
     const bool infinite = !(distance < largest_coordinate);
     const Vec3 target = load(buffer_.batch.P, lane) + (infinite ? 0.f : distance) * direction;
     const LitPoint& at = lit_[lit[lane]];
-    light_samples_[at.path] = {direction, intensity, target, at.probability, infinite, true};
+    light_samples_[at.path] = {direction,
+                               intensity,
+                               target,
+                               at.probability,
+                               infinite,
+                               true,
+                               context_.settings.passes.groups.light(at.light)};
   }
 }
 

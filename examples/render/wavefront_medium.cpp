@@ -16,7 +16,10 @@ void Wavefront::cross_media() {
     const Medium medium = path.media.current();
     const float far = hits_[i].missed() ? INFINITY : hits_[i].distance;
     if (medium.varies()) return may_meet(i, medium, far);
-    if (!is_zero(medium.emission)) path.radiance += path.throughput * emitted(medium, far);
+    if (!is_zero(medium.emission)) {
+      add_found(i, path.throughput * emitted(medium, far),
+                context_.settings.passes.groups.mesh(path.media.mesh()));
+    }
     const Flight flight = sample_flight(medium, path.throughput, far, draw(path, Draw::flight));
     path.throughput *= flight.weight;
     if (!is_finite(path.throughput)) {
@@ -42,6 +45,7 @@ bool Wavefront::scatter_inside(std::uint32_t i, const Medium& medium, float dist
     if (!(draw(path, Draw::roulette).x < brightest)) return false;
     path.throughput = (1.f / brightest) * path.throughput;
   }
+  note_scattering_inside(i);
   const Scattered to = sample_phase(medium.anisotropy, path.ray.direction, draw(path, Draw::phase));
   if (path.from_camera) path.spread = context_.camera.sample_angle();
   path.width += path.spread * (path.distance + distance);
@@ -80,6 +84,7 @@ void Wavefront::connect_media() {
       continue;
     }
     add_shadow(light, at.path, paths_[at.path].vertex, contribution);
+    note_connection_inside(at.path);
     --shadow_media_.back().key.event;  // The path has gone on already.
   }
 }

@@ -23,14 +23,15 @@ void Wavefront::shade_batch(const Material& material, std::span<const std::uint3
     return paths_[i].depth < context_.settings.max_depth;
   });
   const bool scatters = material.capabilities.scatters && any_goes_on;
-  if (!scatters && !material.capabilities.emits) return;
+  if (!scatters && !material.capabilities.emits && first_hits_.empty()) return;
   fill(paths, material);
   if (material.capabilities.emits) add_emission(material, paths);
-  if (!scatters) return;
-  {
+  if (scatters) {
     const Stopwatch watch(statistics_.shading_seconds);
     material.shader->begin(buffer_.batch, buffer_.state);
   }
+  record_hits(material, paths, scatters);
+  if (!scatters) return;
   if (connects() && !material.capabilities.only_delta) connect_lights(material, paths);
   extend(material, paths);
 }
@@ -41,7 +42,7 @@ void Wavefront::add_emission(const Material& material, std::span<const std::uint
     material.shader->emission(buffer_.batch, buffer_.rgb);
   }
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
-    Path& path = paths_[paths[lane]];
+    const Path& path = paths_[paths[lane]];
     const Vec3 emitted = load(buffer_.rgb, lane);
     if (is_zero(emitted) || path.unlit) continue;
     if (!is_finite(emitted)) {
@@ -57,7 +58,8 @@ void Wavefront::add_emission(const Material& material, std::span<const std::uint
             ? 0.f
             : context_.lights.area_pdf({path.vertex, path.normal}, hit.mesh, hit.triangle, back);
     const float light_pdf = area_pdf * dot(way, way) / cosine;
-    path.radiance += hit_weight(path, light_pdf) * (path.throughput * emitted);
+    add_found(paths[lane], hit_weight(path, light_pdf) * (path.throughput * emitted),
+              context_.settings.passes.groups.mesh(hit.mesh));
   }
 }
 
@@ -83,6 +85,7 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
       continue;
     }
     add_shadow(light, paths[lane], leave(buffer_, lane, light.wi), contribution);
+    note_connection(paths[lane], lane);
     const Hit& hit = hits_[paths[lane]];
     if (context_.any_volume && goes_out(paths_[paths[lane]].media, hit, lane, light.wi)) {
       shadow_media_.back().media.leave(hit.mesh, hit.instance);
@@ -110,6 +113,7 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
     const bool unconnected = !path.media.is_open(hit.mesh, hit.instance) ||
                              goes_within(material, hit, lane, load(buffer_.sample.wi, lane));
     if (!scatter(path, lane, hit.distance)) continue;
+    note_scattering(paths[lane], lane);
     path.normal = lit_normal(paths[lane]);
     path.light_blind = path.light_blind || unconnected;
     if ((buffer_.sample.flags[lane] & sample_transmitted) != 0) {

@@ -38,7 +38,7 @@ void Wavefront::trace_opaque_shadows() {
     context_.bvh.occluded({rays_.data(), count}, {blocked_.data(), count});
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (blocked_[i] == 0) paths_[shadows_[i].path].radiance += shadows_[i].contribution;
+    if (blocked_[i] == 0) add_connected(shadows_[i]);
   }
 }
 
@@ -63,7 +63,7 @@ void Wavefront::trace_dimmed_shadows() {
       return can.has_opacity || can.is_volume ? material : ~0u;
     });
     for (std::size_t i = 0; i < count; ++i) {
-      if (ray_hits_[i].missed()) paths_[shadows_[i].path].radiance += shadows_[i].contribution;
+      if (ray_hits_[i].missed()) add_connected(shadows_[i]);
     }
     for (std::size_t m = 0; m < shadow_groups_.size(); ++m) {
       const Group g = shadow_groups_[m];

@@ -49,7 +49,8 @@ void Wavefront::meet_medium(const Material& material, std::span<const std::uint3
     const Meeting meeting =
         sample_meeting(there, bound, path.throughput, draw(path, Draw::flight).x);
     if (max_component(there.absorption + there.scattering) > bound) ++statistics_.beyond_bound;
-    path.radiance += (1.f / bound) * (path.throughput * there.emission);
+    add_found(i, (1.f / bound) * (path.throughput * there.emission),
+              context_.settings.passes.groups.mesh(path.media.mesh()));
     path.throughput *= meeting.weight;
     if (!is_finite(path.throughput) || !is_finite(there.emission)) {
       ++statistics_.invalid_results;

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <charconv>
 #include <cstring>
+#include <map>
 
 #include "runtime/channel/channel_name.h"
 
@@ -112,7 +113,7 @@ bool has_medium(const MaterialKernels& kernels) {
 }
 
 KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop,
-                           bool is_nested)
+                           bool is_nested, const std::vector<host::GraphValue>& values)
     : kernels_(std::move(kernels)), stop_(stop) {
   capabilities_.scatters = kernels_->sample.has_value() && kernels_->evaluate.has_value();
   // Of a lightmaterial what its mesh emits.
@@ -136,6 +137,36 @@ KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop&
   bind(kernels_->displacement, displacement_, {});
   capabilities_.has_subsurface = kernels_->subsurface.has_value();
   bind(kernels_->subsurface, subsurface_, {"of_lobe"});
+  if (kernels_->sample) sample_parts_ = {kernels_->sample->program(), "weight", kernels_->lobes};
+  if (kernels_->evaluate) evaluate_parts_ = {kernels_->evaluate->program(), "f", kernels_->lobes};
+  find_columns(values);
+}
+
+/// Where begin() puts what it stores.
+void KernelShader::find_columns(const std::vector<host::GraphValue>& values) {
+  if (begin_.kernel == nullptr) return;
+  const std::vector<Channel>& outputs = begin_.kernel->program().outputs;
+  std::map<std::string, std::size_t> of_point;
+  for (const Channel& output : outputs) {
+    if (const auto number = state_number(output.name)) {
+      const auto slot = std::ranges::find(kernels_->state, *number);
+      columns_.push_back(static_cast<std::size_t>(slot - kernels_->state.begin()));
+    } else {
+      columns_.push_back(kernels_->state.size() + of_point.size());
+      of_point.emplace(output.name, columns_.back());
+    }
+  }
+  const auto add = [&](const std::string& name, int components) {
+    for (int k = 0; k < components; ++k) {
+      const auto found = of_point.find(components == 1 ? name : channel_text(name, k));
+      point_columns_.push_back(found == of_point.end() ? std::nullopt
+                                                       : std::optional(found->second));
+    }
+  };
+  add("albedo", 3);
+  add("normal", 3);
+  add("roughness", 1);
+  for (const host::GraphValue& value : values) add(value.name, value.components);
 }
 
 int KernelShader::find_primvar(std::string_view name, int components) {
@@ -203,7 +234,7 @@ std::vector<const BoundKernel*> KernelShader::kernels() const {
 }
 
 std::size_t KernelShader::state_bytes(std::uint32_t capacity) const {
-  return kernels_->state.size() * stride(capacity) * sizeof(float);
+  return std::max(kernels_->state.size(), columns_.size()) * stride(capacity) * sizeof(float);
 }
 
 std::vector<std::uint32_t> KernelShader::parameters(const Bound& bound, const ShadingBatch& batch) {
@@ -247,13 +278,40 @@ void KernelShader::run(const Bound& bound, const ShadingBatch& batch, const void
   stop_.request();
 }
 
+/// As run(), with what lobes give; `outputs` are those of the whole. Floats of a lane padded, one
+/// output after another.
+std::vector<float> KernelShader::run_by_lobe(const Bound& bound, const LobeParts& parts,
+                                             const ShadingBatch& batch, const void* state,
+                                             std::span<const void* const> extras,
+                                             std::span<void* const> outputs) const {
+  std::vector<float> lobes(parts.count() * stride(batch.count));
+  std::vector<void*> all(outputs.begin(), outputs.end());
+  for (std::size_t k = 0; k < parts.count(); ++k) {
+    all.push_back(lobes.data() + k * stride(batch.count));
+  }
+  run(bound, batch, state, extras, all);
+  return lobes;
+}
+
 void KernelShader::begin(const ShadingBatch& batch, void* state) const {
   if (begin_.kernel == nullptr) return;
   std::vector<void*> outputs;
-  for (std::size_t k = 0; k < kernels_->state.size(); ++k) {
-    outputs.push_back(static_cast<float*>(state) + k * stride(batch.count));
+  for (const std::size_t column : columns_) {
+    outputs.push_back(static_cast<float*>(state) + column * stride(batch.count));
   }
   run(begin_, batch, nullptr, {}, outputs);
+}
+
+void KernelShader::point(const ShadingBatch& batch, const void* state,
+                         const host::PointLanes& out) const {
+  std::vector<float*> to{out.albedo.x, out.albedo.y, out.albedo.z, out.normal.x,
+                         out.normal.y, out.normal.z, out.roughness};
+  to.insert(to.end(), out.values.begin(), out.values.end());
+  for (std::size_t k = 0; k < point_columns_.size() && k < to.size(); ++k) {
+    if (!point_columns_[k]) continue;
+    const float* from = static_cast<const float*>(state) + *point_columns_[k] * stride(batch.count);
+    std::copy_n(from, batch.count, to[k]);
+  }
 }
 
 void KernelShader::sample(const ShadingBatch& batch, const void* state, Lanes3 u,
@@ -262,14 +320,20 @@ void KernelShader::sample(const ShadingBatch& batch, const void* state, Lanes3 u
   const std::array<const void*, 3> extras{u.y, u.z, u.x};
   const std::array<void*, 9> outputs{out.wi.x,     out.wi.y, out.wi.z, out.weight.x, out.weight.y,
                                      out.weight.z, out.pdf,  out.lobe, out.flags};
-  run(sample_, batch, state, extras, outputs);
+  if (out.parts == nullptr) return run(sample_, batch, state, extras, outputs);
+  const std::vector<float> lobes =
+      run_by_lobe(sample_, sample_parts_, batch, state, extras, outputs);
+  sample_parts_.add(batch, out.wi, out.flags, lobes.data(), stride(batch.count), *out.parts);
 }
 
 void KernelShader::evaluate(const ShadingBatch& batch, const void* state, Lanes3 wi,
                             host::EvaluateLanes out) const {
   const std::array<const void*, 3> extras{wi.x, wi.y, wi.z};
   const std::array<void*, 4> outputs{out.value.x, out.value.y, out.value.z, out.pdf};
-  run(evaluate_, batch, state, extras, outputs);
+  if (out.parts == nullptr) return run(evaluate_, batch, state, extras, outputs);
+  const std::vector<float> lobes =
+      run_by_lobe(evaluate_, evaluate_parts_, batch, state, extras, outputs);
+  evaluate_parts_.add(batch, wi, nullptr, lobes.data(), stride(batch.count), *out.parts);
 }
 
 void KernelShader::emission(const ShadingBatch& batch, Lanes3 radiance) const {

@@ -9,7 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "examples/render/passes.h"
 #include "examples/render/shader.h"
+#include "examples/tool/lobe_parts.h"
 #include "jit/shading/shading_system.h"
 
 namespace nacre::tool {
@@ -50,8 +52,10 @@ bool has_medium(const MaterialKernels& kernels);
 class KernelShader final : public host::Shader {
  public:
   /// `stop` is asked for when a kernel fails, and ends kernels; it lives as long. `is_nested`:
-  /// interior() is wanted of what is clear, too.
-  KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop, bool is_nested = false);
+  /// interior() is wanted of what is clear, too. `values`: of graphs, that begin() stores for
+  /// point().
+  KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop, bool is_nested = false,
+               const std::vector<host::GraphValue>& values = {});
 
   /// Those that a render calls.
   std::vector<const BoundKernel*> kernels() const;
@@ -65,6 +69,8 @@ class KernelShader final : public host::Shader {
   bool reads_uv() const { return reads_uv_; }
   std::size_t state_bytes(std::uint32_t capacity) const override;
   void begin(const host::ShadingBatch& batch, void* state) const override;
+  void point(const host::ShadingBatch& batch, const void* state,
+             const host::PointLanes& out) const override;
   void sample(const host::ShadingBatch& batch, const void* state, host::Lanes3 u,
               host::SampleLanes out) const override;
   void evaluate(const host::ShadingBatch& batch, const void* state, host::Lanes3 wi,
@@ -94,6 +100,11 @@ class KernelShader final : public host::Shader {
   int find_primvar(std::string_view name, int components);
   void run(const Bound& bound, const host::ShadingBatch& batch, const void* state,
            std::span<const void* const> extras, std::span<void* const> outputs) const;
+  std::vector<float> run_by_lobe(const Bound& bound, const LobeParts& parts,
+                                 const host::ShadingBatch& batch, const void* state,
+                                 std::span<const void* const> extras,
+                                 std::span<void* const> outputs) const;
+  void find_columns(const std::vector<host::GraphValue>& values);
   static std::vector<std::uint32_t> parameters(const Bound& bound, const host::ShadingBatch& batch);
   static std::uint32_t stride(std::uint32_t count);
 
@@ -102,6 +113,11 @@ class KernelShader final : public host::Shader {
   mutable std::atomic<bool> failed_ = false;
   host::Capabilities capabilities_;
   bool reads_uv_ = false;
+  LobeParts sample_parts_, evaluate_parts_;
+  /// By output of begin(): which column of the state it goes to, those of the state first.
+  std::vector<std::size_t> columns_;
+  /// Columns of PointLanes: of albedo and normal, roughness, and values; not in the state: none.
+  std::vector<std::optional<std::size_t>> point_columns_;
   Bound begin_, sample_, evaluate_, emission_, opacity_, interior_, displacement_, subsurface_,
       volume_;
 };

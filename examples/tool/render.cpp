@@ -94,8 +94,9 @@ bool are_solids(const std::vector<const host::Mesh*>& meshes) {
   return std::ranges::all_of(meshes, [](const host::Mesh* mesh) { return host::is_closed(*mesh); });
 }
 
-/// Those that are not there yet. `is_nested`: they ask what is around.
-bool compile_shaders(const RenderOptions& options, const Opened& opened, const host::Scene& world,
+/// Those that are not there yet. `is_nested`: they ask what is around. Completes the values that
+/// passes want.
+bool compile_shaders(RenderOptions& options, const Opened& opened, const host::Scene& world,
                      const std::vector<MeshAssignment>& assignments, bool is_nested,
                      RenderStop& stop, Shaders& shaders, Diagnostics& diagnostics) {
   std::map<std::string, std::vector<const host::Mesh*>> meshes;
@@ -113,6 +114,7 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     shader.kernels.entries |= entry_interior;
     if (options.walks) shader.kernels.entries |= entry_subsurface;
     shader.kernels.energy_conserving = options.energy_conserving;
+    ask_for_passes(options.settings.passes, shader.kernels);
     shader.varying = varying_slots(meshes.at(assignment.key()), host::is_open(options.settings));
     if (is_nested) shader.varying.emplace_back("exterior_index");
     const auto compile = [&](Diagnostics& to) {
@@ -143,6 +145,7 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
       return false;
     }
     not_rendered.look_at_material(assignment.material, *kernels);
+    complete_values(*kernels, options.settings.passes, diagnostics);
     TwoShaders& place = shaders[assignment.key()];
     const std::string& material = assignment.material;
     if (kernels->displacement) {
@@ -152,18 +155,19 @@ bool compile_shaders(const RenderOptions& options, const Opened& opened, const h
     if (has_medium(*kernels) || is_volume)
       not_rendered.look_at_solids(material, meshes.at(assignment.key()));
     const bool has_back = kernels->has_back;
-    place.front = std::make_unique<KernelShader>(std::move(kernels), stop, is_nested);
+    const std::vector<host::GraphValue>& values = options.settings.passes.values;
+    place.front = std::make_unique<KernelShader>(std::move(kernels), stop, is_nested, values);
     if (!has_back) continue;
     shader.side = Side::back;
     kernels = compile(diagnostics);
     if (kernels == nullptr) return false;
-    place.back = std::make_unique<KernelShader>(std::move(kernels), stop, is_nested);
+    place.back = std::make_unique<KernelShader>(std::move(kernels), stop, is_nested, values);
   }
   return true;
 }
 
 /// Compiles once more what may be in something else that bends light, where there is such.
-bool nest_shaders(const RenderOptions& options, const Opened& opened, const host::Scene& world,
+bool nest_shaders(RenderOptions& options, const Opened& opened, const host::Scene& world,
                   const std::vector<MeshAssignment>& assignments, RenderStop& stop,
                   Shaders& shaders, std::vector<bool>& solids, Diagnostics& diagnostics) {
   const auto lets_in = [&](std::uint32_t mesh) {
@@ -271,6 +275,7 @@ void bind_shaders(const std::vector<MeshAssignment>& assignments, const Shaders&
     const TwoShaders* both = each.material.empty() ? nullptr : &shaders.at(each.key());
     input.shaders.push_back(both == nullptr ? &neutral : both->front.get());
     input.back_shaders.push_back(both == nullptr ? nullptr : both->back.get());
+    input.material_names.push_back(both == nullptr ? mesh.material_name : each.material);
     if (both == nullptr) continue;
     for (const KernelShader* shader : both->all()) {
       shaded.push_back({&mesh, shader, each.material});
@@ -331,6 +336,35 @@ void report_media(const host::RenderStatistics& statistics, Diagnostics& diagnos
   }
 }
 
+/// Whether the image that is to be written holds them.
+void check_passes(const RenderOptions& options, Diagnostics& diagnostics) {
+  const host::PassRequest& passes = options.settings.passes;
+  if (options.passes.any() && !options.out.ends_with(".exr")) {
+    diagnostics.error("passes-need-exr", {}, "passes are layers of an .exr", "--out FILE.exr",
+                      "'" + options.out + "'");
+  }
+  if (options.write.half && (passes.object_mattes || passes.material_mattes)) {
+    diagnostics.error("mattes-need-floats", {}, "names of mattes are floats of 32 bits",
+                      "no --half");
+  }
+}
+
+/// Completes what is asked for of passes, once there are shaders and lights.
+void complete_passes(RenderOptions& options, const host::Scene& world,
+                     const std::vector<std::unique_ptr<KernelLight>>& lights,
+                     Diagnostics& diagnostics) {
+  host::PassRequest& passes = options.settings.passes;
+  std::size_t first = 0;
+  for (const host::GraphValue& value : passes.values) {
+    passes.passes.push_back(host::value_pass(value, first));
+    first += static_cast<std::size_t>(value.components);
+  }
+  std::vector<std::string> names;
+  for (const auto& light : lights) names.push_back(light->kernel().outputs.front().name);
+  for (const host::PunctualLight& light : world.lights) names.push_back(light.name);
+  complete_groups(options.passes, world, names, passes, diagnostics);
+}
+
 int run(RenderOptions& options) {
   Diagnostics diagnostics;
   if (!parse_size(options.size, options.settings.width, options.settings.height, diagnostics)) {
@@ -338,6 +372,12 @@ int run(RenderOptions& options) {
     return status_usage;
   }
   options.settings.threads = options.common.threads;
+  options.settings.passes = pass_request(options.passes, diagnostics);
+  check_passes(options, diagnostics);
+  if (diagnostics.has_errors()) {
+    report(diagnostics);
+    return status_usage;
+  }
   promise_files({options.out});
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
@@ -374,8 +414,11 @@ int run(RenderOptions& options) {
   for (const auto& light : lights) input.lights.push_back(light.get());
   const std::vector<host::PunctualShader> scene_lights(world.lights.begin(), world.lights.end());
   for (const host::PunctualShader& light : scene_lights) input.lights.push_back(&light);
-  auto grey = neutral_material(*opened.system, options.common.shader_options(), diagnostics);
-  if (grey == nullptr) return report(diagnostics);
+  complete_passes(options, world, lights, diagnostics);
+  ShaderOptions neutral_options = options.common.shader_options();
+  neutral_options.kernels.by_lobe = options.settings.passes.any_split();
+  auto grey = neutral_material(*opened.system, neutral_options, diagnostics);
+  if (grey == nullptr || diagnostics.has_errors()) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
   if (options.dice > 0.0f) displace(options, world, input, diagnostics);

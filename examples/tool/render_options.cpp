@@ -118,6 +118,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(0, 1e9))
       ->capture_default_str();
   command.add_flag("--half", options.write.half, "16-bit floats in .exr");
+  options.passes.add(command);
+  command.footer(pass_help());
   command.add_option("--lens-radius", options.lens_radius, "Scene units; 0: all in focus")
       ->check(number_within(0, host::largest_coordinate))
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include "examples/render/scene_limits.h"
 #include "examples/tool/assignment.h"
 #include "examples/tool/options.h"
+#include "examples/tool/pass_options.h"
 
 namespace nacre::tool {
 
@@ -23,6 +24,7 @@ struct RenderOptions {
   host::SceneLimits scene_limits;
   host::RenderSettings settings;
   host::WriteOptions write;
+  PassOptions passes;
   float lens_radius = 0.0f;
   float focus_distance = 0.0f;
   bool ground = false;

@@ -12,6 +12,18 @@
 /// Materials with closed forms, to prove the integrator by.
 namespace nacre::host {
 
+/// All of a result is of one class, for passes.
+inline void say_all_is(ScatterClass one, const ShadingBatch& batch, const Lanes3& whole,
+                       const PartLanes* parts) {
+  if (parts == nullptr) return;
+  for (std::size_t c = 0; c < scatter_classes; ++c) {
+    const bool mine = c == static_cast<std::size_t>(one);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      store((*parts)[c], i, mine ? load(whole, i) : Vec3{});
+    }
+  }
+}
+
 /// Lambertian about the geometric normal on the viewer's side, with optional
 /// emission and opacity.
 class LambertShader : public Shader {
@@ -49,6 +61,7 @@ class LambertShader : public Shader {
       out.pdf[i] = z / std::numbers::pi_v<float>;
       out.flags[i] = z > 0.f ? sample_valid : 0u;
     }
+    say_all_is(ScatterClass::diffuse, batch, out.weight, out.parts);
   }
 
   void evaluate(const ShadingBatch& batch, const void* state, Lanes3 wi,
@@ -59,6 +72,7 @@ class LambertShader : public Shader {
       out.pdf[i] = z / std::numbers::pi_v<float>;
       store(out.value, i, out.pdf[i] * albedo_);
     }
+    say_all_is(ScatterClass::diffuse, batch, out.value, out.parts);
   }
 
   void emission(const ShadingBatch& batch, Lanes3 radiance) const override {
@@ -92,6 +106,7 @@ class MirrorShader final : public Shader {
       out.pdf[i] = 1.f;
       out.flags[i] = sample_valid | sample_delta;
     }
+    say_all_is(ScatterClass::mirror, batch, out.weight, out.parts);
   }
   void evaluate(const ShadingBatch&, const void*, Lanes3, EvaluateLanes) const override {}
   void emission(const ShadingBatch&, Lanes3) const override {}

@@ -1,0 +1,80 @@
+#include "examples/render/cryptomatte.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <nlohmann/json.hpp>
+
+namespace nacre::host {
+
+namespace {
+
+std::uint32_t mixed(std::uint32_t k) { return std::rotl(k * 0xcc9e2d51u, 15) * 0x1b873593u; }
+
+}  // namespace
+
+std::uint32_t matte_hash(std::string_view name) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(name[i]); };
+  std::uint32_t h = 0;
+  const std::size_t whole = name.size() / 4 * 4;
+  for (std::size_t i = 0; i < whole; i += 4) {
+    const std::uint32_t word = byte(i) | std::uint32_t{byte(i + 1)} << 8 |
+                               std::uint32_t{byte(i + 2)} << 16 | std::uint32_t{byte(i + 3)} << 24;
+    h = std::rotl(h ^ mixed(word), 13) * 5 + 0xe6546b64u;
+  }
+  std::uint32_t tail = 0;
+  for (std::size_t i = name.size(); i > whole; --i) tail = tail << 8 | byte(i - 1);
+  h ^= mixed(tail);
+  h ^= static_cast<std::uint32_t>(name.size());
+  h = (h ^ h >> 16) * 0x85ebca6bu;
+  h = (h ^ h >> 13) * 0xc2b2ae35u;
+  return h ^ h >> 16;
+}
+
+float matte_id(std::uint32_t hash) {
+  const std::uint32_t exponent = hash >> 23 & 255;
+  if (exponent == 0 || exponent == 255) hash ^= 1u << 23;
+  return std::bit_cast<float>(hash);
+}
+
+void MattePixel::add(std::uint32_t name) {
+  const auto known = std::ranges::find_if(counts_, [&](auto& each) { return each.first == name; });
+  known != counts_.end() ? ++known->second : counts_.emplace_back(name, 1u).second;
+}
+
+std::vector<std::pair<std::uint32_t, float>> MattePixel::ranked(std::size_t samples) const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted = counts_;
+  std::ranges::sort(sorted, [](const auto& a, const auto& b) {
+    return a.second != b.second ? a.second > b.second : a.first < b.first;
+  });
+  std::vector<std::pair<std::uint32_t, float>> shares;
+  for (const auto& [name, count] : sorted) {
+    shares.emplace_back(name, static_cast<float>(count) / static_cast<float>(samples));
+  }
+  return shares;
+}
+
+std::vector<std::string> Mattes::channels() const {
+  std::vector<std::string> all;
+  for (int layer = 0; layer < ranks / 2; ++layer) {
+    for (const char channel : {'R', 'G', 'B', 'A'}) {
+      all.push_back(fmt::format("{}{:02}.{}", type, layer, channel));
+    }
+  }
+  return all;
+}
+
+std::map<std::string, std::string> Mattes::attributes() const {
+  nlohmann::json manifest = nlohmann::json::object();
+  for (const std::string& name : names) manifest[name] = fmt::format("{:08x}", matte_hash(name));
+  const std::string head =
+      "cryptomatte/" + fmt::format("{:08x}", matte_hash(type)).substr(0, 7) + '/';
+  using Replace = nlohmann::json::error_handler_t;
+  return {{head + "name", type},
+          {head + "hash", "MurmurHash3_32"},
+          {head + "conversion", "uint32_to_float32"},
+          {head + "manifest", manifest.dump(-1, ' ', false, Replace::replace)}};
+}
+
+}  // namespace nacre::host

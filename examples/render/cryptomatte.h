@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nacre::host {
+
+// Mattes by name: Friedman and Jones, "Cryptomatte Specification", version 1.2.0 (Psyop, 2015 to
+// 2018).
+
+/// MurmurHash3, x86, 32 bits, seed 0 (Appleby), which the specification names by.
+std::uint32_t matte_hash(std::string_view name);
+
+/// The float that stands for a hash in an image: its bits, but for numbers that are none, or
+/// denormal (section "Hash to float conversion").
+float matte_id(std::uint32_t hash);
+
+/// Which names a pixel shows, and how much of each.
+class MattePixel {
+ public:
+  /// Another sample of it. Those that hit nothing are not added.
+  void add(std::uint32_t name);
+  /// Names, and their shares of so many samples, the largest first; of equal ones the lower number.
+  std::vector<std::pair<std::uint32_t, float>> ranked(std::size_t samples) const;
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> counts_;  ///< By name.
+};
+
+/// Images that a set of mattes is in.
+struct Mattes {
+  static constexpr int ranks = 6;  ///< Of names in a pixel that are kept; a layer holds two.
+
+  std::string type;                         ///< "CryptoObject"
+  std::vector<std::string> names;           ///< As MattePixel numbers them.
+  std::vector<std::vector<float>> planes;   ///< Id and share of each rank, one after another.
+
+  /// Channels of an image for the planes: "CryptoObject00.R", …
+  std::vector<std::string> channels() const;
+  /// What the specification wants in the image's header, names of attributes with texts.
+  std::map<std::string, std::string> attributes() const;
+};
+
+}  // namespace nacre::host

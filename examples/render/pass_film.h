@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "examples/render/cryptomatte.h"
+#include "examples/render/passes.h"
+#include "examples/render/scene.h"
+
+namespace nacre::host {
+
+/// Numbers of the meshes' names in a set of mattes, and those.
+struct MatteNames {
+  MatteNames() = default;
+  explicit MatteNames(const std::vector<std::string>& of_meshes);
+  std::vector<std::string> names;       ///< Each once.
+  std::vector<std::uint32_t> of_mesh;  ///< Indices of them.
+};
+
+/// Images beside the picture: rows from the top.
+class PassFilm {
+ public:
+  PassFilm() = default;
+  /// `materials`: what shades each mesh of the scene; empty: as the meshes say.
+  PassFilm(const PassRequest& request, const Scene& scene,
+           const std::vector<std::string>& materials, int width, int height);
+
+  bool empty() const { return planes.empty() && mattes.empty(); }
+
+  std::vector<std::string> channels;       ///< "direct_diffuse.R", …
+  std::vector<std::vector<float>> planes;  ///< One for each.
+  std::vector<Mattes> mattes;
+  std::vector<MatteNames> matte_names;  ///< Of each of them.
+};
+
+/// All samples of some pixels.
+class PassSums {
+ public:
+  PassSums(const PassRequest& request, const PassFilm& film, std::size_t pixels);
+  void add(std::size_t pixel, const PathRecord& record);
+  /// Puts a pixel of these where it is in the film.
+  void store(std::size_t pixel, std::size_t to, PassFilm& film) const;
+
+ private:
+  const PassRequest& request_;
+  const std::vector<MatteNames>& names_;
+  std::size_t channels_;
+  std::vector<double> sums_;                     ///< By pixel, all channels together.
+  std::vector<std::uint32_t> samples_, hits_;    ///< By pixel.
+  std::vector<std::vector<MattePixel>> mattes_;  ///< By set, by pixel.
+};
+
+}  // namespace nacre::host
