@@ -39,18 +39,22 @@ float matte_id(std::uint32_t hash) {
 }
 
 void MattePixel::add(std::uint32_t name) {
-  const auto known = std::ranges::find_if(counts_, [&](auto& each) { return each.first == name; });
-  known != counts_.end() ? ++known->second : counts_.emplace_back(name, 1u).second;
+  const auto known = std::ranges::find(counts, name, &Count::name);
+  if (known != counts.end()) {
+    ++known->samples;
+  } else {
+    counts.push_back({name, 1});
+  }
 }
 
 std::vector<std::pair<std::uint32_t, float>> MattePixel::ranked(std::size_t samples) const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted = counts_;
-  std::ranges::sort(sorted, [](const auto& a, const auto& b) {
-    return a.second != b.second ? a.second > b.second : a.first < b.first;
+  std::vector<Count> sorted = counts;
+  std::ranges::sort(sorted, [](const Count& a, const Count& b) {
+    return a.samples != b.samples ? a.samples > b.samples : a.name < b.name;
   });
   std::vector<std::pair<std::uint32_t, float>> shares;
-  for (const auto& [name, count] : sorted) {
-    shares.emplace_back(name, static_cast<float>(count) / static_cast<float>(samples));
+  for (const Count& each : sorted) {
+    shares.emplace_back(each.name, static_cast<float>(each.samples) / static_cast<float>(samples));
   }
   return shares;
 }

@@ -28,17 +28,20 @@ class MattePixel {
   /// Names, and their shares of so many samples, the largest first; of equal ones the lower number.
   std::vector<std::pair<std::uint32_t, float>> ranked(std::size_t samples) const;
 
- private:
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> counts_;  ///< By name.
+  /// How many samples show a name.
+  struct Count {
+    std::uint32_t name, samples;
+  };
+  std::vector<Count> counts;
 };
 
 /// Images that a set of mattes is in.
 struct Mattes {
   static constexpr int ranks = 6;  ///< Of names in a pixel that are kept; a layer holds two.
 
-  std::string type;                         ///< "CryptoObject"
-  std::vector<std::string> names;           ///< As MattePixel numbers them.
-  std::vector<std::vector<float>> planes;   ///< Id and share of each rank, one after another.
+  std::string type;                        ///< "CryptoObject"
+  std::vector<std::string> names;          ///< As MattePixel numbers them.
+  std::vector<std::vector<float>> planes;  ///< Id and share of each rank, one after another.
 
   /// Channels of an image for the planes: "CryptoObject00.R", …
   std::vector<std::string> channels() const;

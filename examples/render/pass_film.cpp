@@ -1,6 +1,7 @@
 #include "examples/render/pass_film.h"
 
 #include <array>
+#include <cstring>
 #include <map>
 
 namespace nacre::host {
@@ -19,6 +20,21 @@ std::vector<std::string> materials_of(const Scene& scene) {
   std::vector<std::string> names;
   for (const Mesh& mesh : scene.meshes) names.push_back(mesh.material_name);
   return names;
+}
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& numbers) {
+  bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T));
+}
+
+/// Takes as many as there are from the front. False where there are not.
+template <class T>
+bool take(std::string_view& bytes, std::vector<T>& numbers) {
+  const std::size_t size = numbers.size() * sizeof(T);
+  if (bytes.size() < size) return false;
+  std::memcpy(numbers.data(), bytes.data(), size);
+  bytes.remove_prefix(size);
+  return true;
 }
 
 }  // namespace
@@ -97,6 +113,31 @@ void PassSums::store(std::size_t pixel, std::size_t to, PassFilm& film) const {
       mattes.planes[2 * rank + 1][to] = ranked[rank].second;
     }
   }
+}
+
+void PassSums::append_to(std::string& bytes) const {
+  append(bytes, sums_);
+  append(bytes, samples_);
+  append(bytes, hits_);
+  for (const std::vector<MattePixel>& mattes : mattes_) {
+    for (const MattePixel& pixel : mattes) {
+      append(bytes, std::vector{static_cast<std::uint32_t>(pixel.counts.size())});
+      append(bytes, pixel.counts);
+    }
+  }
+}
+
+bool PassSums::assign(std::string_view bytes) {
+  if (!take(bytes, sums_) || !take(bytes, samples_) || !take(bytes, hits_)) return false;
+  for (std::vector<MattePixel>& mattes : mattes_) {
+    for (MattePixel& pixel : mattes) {
+      std::vector<std::uint32_t> count(1);
+      if (!take(bytes, count) || count[0] > bytes.size() / sizeof(pixel.counts[0])) return false;
+      pixel.counts.resize(count[0]);
+      if (!take(bytes, pixel.counts)) return false;
+    }
+  }
+  return bytes.empty();
 }
 
 }  // namespace nacre::host

@@ -13,7 +13,7 @@ namespace nacre::host {
 struct MatteNames {
   MatteNames() = default;
   explicit MatteNames(const std::vector<std::string>& of_meshes);
-  std::vector<std::string> names;       ///< Each once.
+  std::vector<std::string> names;      ///< Each once.
   std::vector<std::uint32_t> of_mesh;  ///< Indices of them.
 };
 
@@ -40,6 +40,10 @@ class PassSums {
   void add(std::size_t pixel, const PathRecord& record);
   /// Puts a pixel of these where it is in the film.
   void store(std::size_t pixel, std::size_t to, PassFilm& film) const;
+
+  /// All of it, for a file; and back: false where it is of another image.
+  void append_to(std::string& bytes) const;
+  bool assign(std::string_view bytes);
 
  private:
   const PassRequest& request_;

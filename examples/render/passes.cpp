@@ -13,17 +13,19 @@ constexpr std::array<std::string_view, scatter_classes> class_names{
 constexpr std::array<std::string_view, scatter_classes> class_events{
     "<RD>", "<RG>", "<RS>", "<T.>", "<R'subsurface'>", "<V.>"};
 constexpr std::array<std::string_view, scatter_classes> class_abouts{
-    "diffuse reflection", "rough reflection", "mirrors",
-    "what light goes through", "what light comes back from below", "volumes"};
+    "diffuse reflection",
+    "rough reflection",
+    "mirrors",
+    "what light goes through",
+    "what light comes back from below",
+    "volumes"};
 
 const std::vector<std::string> rgb{"R", "G", "B"}, xyz{"X", "Y", "Z"}, xy{"X", "Y"}, one{"V"};
 
 void put(Vec3 v, float* to) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 void put(Vec2 v, float* to) { to[0] = v.x, to[1] = v.y; }
 
-Vec3 sum(std::span<const Vec3> all) {
-  return std::accumulate(all.begin(), all.end(), Vec3{});
-}
+Vec3 sum(std::span<const Vec3> all) { return std::accumulate(all.begin(), all.end(), Vec3{}); }
 
 std::vector<Pass> light_passes() {
   std::vector<Pass> passes{
@@ -57,7 +59,10 @@ std::vector<Pass> hit_passes() {
            [](const PathRecord& r, std::size_t, float* to) { *to = r.hit.roughness; }},
           {"position", "", "world", xyz, Pass::Mean::hits,
            [](const PathRecord& r, std::size_t, float* to) { put(r.hit.position, to); }},
-          {"depth", "", "along the camera's axis; 0 where there is nothing", {"Z"},
+          {"depth",
+           "",
+           "along the camera's axis; 0 where there is nothing",
+           {"Z"},
            Pass::Mean::hits,
            [](const PathRecord& r, std::size_t, float* to) { *to = r.hit.depth; }},
           {"uv", "", "first uv set", xy, Pass::Mean::hits,
@@ -94,8 +99,7 @@ bool is_of_light(const Pass& pass) { return !pass.path_expression.empty(); }
 bool PassRequest::any_split() const { return std::ranges::any_of(passes, is_of_light); }
 
 bool PassRequest::any_hit() const {
-  return object_mattes || material_mattes ||
-         !std::ranges::all_of(passes, is_of_light);
+  return object_mattes || material_mattes || !std::ranges::all_of(passes, is_of_light);
 }
 
 bool PassRequest::any_point() const {

@@ -43,13 +43,13 @@ struct LightSplit {
 /// What the camera sees: of the first surface that does not let a path through.
 struct FirstHit {
   bool is_there = false;
-  Vec3 albedo, normal;        ///< Of all lobes; world, unit and towards the viewer: see PointLanes.
+  Vec3 albedo, normal;  ///< Of all lobes; world, unit and towards the viewer: see PointLanes.
   float roughness = 0.f;
-  Vec3 position;              ///< World.
-  float depth = 0.f;          ///< Along the camera's axis.
+  Vec3 position;      ///< World.
+  float depth = 0.f;  ///< Along the camera's axis.
   Vec2 uv;
-  Vec2 motion;                ///< Pixels, right and down, while the shutter is open.
-  std::uint32_t mesh = 0;     ///< Of the scene.
+  Vec2 motion;             ///< Pixels, right and down, while the shutter is open.
+  std::uint32_t mesh = 0;  ///< Of the scene.
 };
 
 /// What is known of one path.
@@ -87,7 +87,7 @@ struct PassRequest {
   std::vector<Pass> passes;
   LightGroups groups;
   std::vector<GraphValue> values;
-  bool object_mattes = false;    ///< Cryptomattes: see cryptomatte.h.
+  bool object_mattes = false;  ///< Cryptomattes: see cryptomatte.h.
   bool material_mattes = false;
 
   bool any_split() const;  ///< Whether a pass needs LightSplit,

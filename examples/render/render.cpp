@@ -8,8 +8,10 @@
 
 #include "examples/common/leave_cores.h"
 #include "examples/common/run_on_threads.h"
+#include "examples/render/accumulation.h"
 #include "examples/render/camera.h"
 #include "examples/render/render_context.h"
+#include "examples/render/tiles.h"
 #include "examples/render/wavefront.h"
 #include "runtime/float_environment.h"
 
@@ -19,22 +21,6 @@ namespace {
 
 /// Paths of a tile that are followed together.
 constexpr int wave_size = 4096;
-
-struct Tile {
-  int x0, y0, x1, y1;
-  int pixels() const { return (x1 - x0) * (y1 - y0); }
-};
-
-std::vector<Tile> make_tiles(const RenderSettings& s) {
-  std::vector<Tile> tiles;
-  for (int y = 0; y < s.height; y += s.tile_size) {
-    for (int x = 0; x < s.width; x += s.tile_size) {
-      tiles.push_back(
-          {x, y, std::min(x + s.tile_size, s.width), std::min(y + s.tile_size, s.height)});
-    }
-  }
-  return tiles;
-}
 
 /// From the distribution even on [0, 1) to the tent on (-1, 1).
 float tent(float u) {
@@ -62,48 +48,59 @@ Path camera_path(const RenderContext& context, int x, int y, int sample) {
   return path;
 }
 
-/// All samples of one tile. False when stopped before the end.
-bool render_tile(const RenderContext& context, const Tile& tile, const std::stop_token& stop,
-                 Wavefront& wavefront, std::vector<Path>& paths, Film& film) {
+/// What the threads of one render share.
+struct Shared {
+  const RenderContext& context;
+  const RenderControl& control;
+  const std::vector<Tile>& tiles;
+  TileQueue& queue;
+  Accumulation& sums;
+  const Film& film;  ///< What is to be filled.
+  Diagnostics& diagnostics;
+  std::mutex mutex = {};  ///< Guards what follows.
+  RenderStatistics statistics = {};
+};
+
+/// Adds samples to a tile; as many as it has then, which are fewer than wanted where the render
+/// ends before.
+int render_tile(Shared& shared, const TileWork& work, Wavefront& wavefront,
+                std::vector<Path>& paths) {
+  const Tile& tile = shared.tiles[work.tile];
   const int width = tile.x1 - tile.x0;
   const int at_once = std::max(1, wave_size / tile.pixels());
-  std::vector<PixelSum> sums(static_cast<std::size_t>(tile.pixels()));
-  PassSums passes(context.settings.passes, film.passes, sums.size());
-  for (int first = 0; first < context.settings.samples; first += at_once) {
-    if (stop.stop_requested()) return false;
-    const int last = std::min(first + at_once, context.settings.samples);
+  for (int first = work.first; first < work.last; first += at_once) {
+    const bool ends = shared.control.stop.stop_requested() ||
+                      (first > 0 && shared.control.enough.stop_requested());
+    if (ends) return first;
+    const int last = std::min(first + at_once, work.last);
     paths.clear();
     for (int sample = first; sample < last; ++sample) {
       for (int i = 0; i < tile.pixels(); ++i) {
-        paths.push_back(camera_path(context, tile.x0 + i % width, tile.y0 + i / width, sample));
+        paths.push_back(
+            camera_path(shared.context, tile.x0 + i % width, tile.y0 + i / width, sample));
       }
     }
     wavefront.trace(paths);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      sums[i % sums.size()].add(paths[i].radiance, paths[i].alpha);
-      if (!film.passes.empty()) passes.add(i % sums.size(), wavefront.record(i));
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      const int i = static_cast<int>(k) % tile.pixels();
+      const std::size_t pixel = shared.film.index(tile.x0 + i % width, tile.y0 + i / width);
+      shared.sums.add(pixel, paths[k].radiance, paths[k].alpha);
+      if (!shared.film.passes.empty()) shared.sums.add(pixel, wavefront.record(k));
     }
   }
-  for (int i = 0; i < tile.pixels(); ++i) {
-    const PixelSum& sum = sums[static_cast<std::size_t>(i)];
-    const int x = tile.x0 + i % width, y = tile.y0 + i / width;
-    film.mean(x, y) = sum.mean();
-    film.variance(x, y) = sum.variance_of_mean();
-    if (film.has_alpha()) film.set_alpha(x, y, sum.alpha());
-    if (!film.passes.empty()) {
-      passes.store(static_cast<std::size_t>(i), film.index(x, y), film.passes);
-    }
-  }
-  return true;
+  return work.last;
 }
 
-/// What the threads of one render write to, besides their own pixels.
-struct Shared {
-  std::atomic<std::size_t> next_tile = 0;
-  std::mutex mutex;  ///< Guards what follows.
-  std::size_t done = 0;
-  RenderStatistics statistics;
-};
+/// Whether a tile with so many samples is as good as asked for.
+bool is_good(const Shared& shared, std::size_t tile, int done) {
+  const RenderSettings& s = shared.context.settings;
+  return s.noise > 0.0 && done >= s.least_samples && shared.queue.is_end(done) &&
+         shared.sums.error(shared.film, shared.tiles[tile]) <= s.noise;
+}
+
+void save(Shared& shared) {
+  shared.control.checkpoint->save({shared.queue.done(), shared.sums.bytes()}, shared.diagnostics);
+}
 
 void add(RenderStatistics& sum, const RenderStatistics& s) {
   sum.paths += s.paths;
@@ -117,27 +114,55 @@ void add(RenderStatistics& sum, const RenderStatistics& s) {
   sum.tracing_seconds += s.tracing_seconds;
 }
 
-void work(const RenderContext& context, const std::vector<Tile>& tiles,
-          const RenderControl& control, Shared& shared, Film& film) {
-  const int tile_pixels = context.settings.tile_size * context.settings.tile_size;
-  const auto most = static_cast<std::size_t>(std::max(wave_size, tile_pixels));
+void work(Shared& shared) {
+  const RenderSettings& s = shared.context.settings;
+  const auto most = static_cast<std::size_t>(std::max(wave_size, s.tile_size * s.tile_size));
   // Embree asks for flushed denormals, and the image must not depend on the caller's modes.
   const ScopedFloatEnvironment environment;
-  Wavefront wavefront(context, most);
+  Wavefront wavefront(shared.context, most);
   std::vector<Path> paths;
   paths.reserve(most);
-  while (true) {
-    const std::size_t i = shared.next_tile++;
-    if (i >= tiles.size()) break;
-    if (!render_tile(context, tiles[i], control.stop, wavefront, paths, film)) break;
-    const std::lock_guard lock(shared.mutex);
-    ++shared.done;
-    if (control.progress) {
-      control.progress(static_cast<double>(shared.done) / static_cast<double>(tiles.size()));
-    }
+  while (const auto work = shared.queue.take()) {
+    const int done = render_tile(shared, *work, wavefront, paths);
+    if (shared.control.stop.stop_requested()) shared.queue.close();
+    if (shared.control.enough.stop_requested()) shared.queue.wrap_up();
+    shared.queue.give_back(*work, done, is_good(shared, work->tile, done), shared.control.progress);
+    Checkpoint* const checkpoint = shared.control.checkpoint;
+    if (checkpoint == nullptr || !checkpoint->is_due()) continue;
+    shared.queue.pause([&] {
+      if (checkpoint->is_due()) save(shared);
+    });
   }
   const std::lock_guard lock(shared.mutex);
   add(shared.statistics, wavefront.statistics());
+}
+
+void count_samples(const std::vector<Tile>& tiles, const std::vector<int>& done,
+                   RenderStatistics& statistics) {
+  double samples = 0, pixels = 0;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    samples += static_cast<double>(done[i]) * tiles[i].pixels();
+    pixels += tiles[i].pixels();
+  }
+  statistics.mean_samples = samples / pixels;
+  statistics.least_samples = *std::ranges::min_element(done);
+  statistics.most_samples = *std::ranges::max_element(done);
+}
+
+/// Goes on with what a checkpoint has. False with an error.
+bool resume(const RenderControl& control, std::vector<int>& done, Accumulation& sums,
+            Diagnostics& diagnostics) {
+  if (control.checkpoint == nullptr) return true;
+  const std::size_t errors = diagnostics.error_count();
+  const Checkpoint::Content content = control.checkpoint->load(diagnostics);
+  if (diagnostics.error_count() != errors) return false;
+  if (content.done.empty()) return true;
+  if (content.done.size() == done.size() && sums.assign(content.sums)) {
+    done = content.done;
+    return true;
+  }
+  diagnostics.error("bad-checkpoint", {}, "the checkpoint is of an image of another size");
+  return false;
 }
 
 }  // namespace
@@ -148,29 +173,47 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
   if (!check_camera(input.camera, diagnostics)) return {};
   const RenderContext context(input, settings, diagnostics);
   if (!context.bvh.ok()) return {};
-  const std::vector<Tile> tiles = make_tiles(settings);
+  const std::vector<Tile> tiles = make_tiles(settings.width, settings.height, settings.tile_size);
   Film film(settings.width, settings.height, context.any_matte);
   film.passes = PassFilm(settings.passes, *input.scene, input.material_names, settings.width,
                          settings.height);
-  Shared shared;
+  Accumulation sums(settings.passes, film);
+  std::vector<int> done(tiles.size());
+  if (!resume(control, done, sums, diagnostics)) return {};
+  TileQueue queue(done, settings.samples,
+                  std::max(1, wave_size / (settings.tile_size * settings.tile_size)));
+  Shared shared{context, control, tiles, queue, sums, film, diagnostics};
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    if (is_good(shared, i, done[i])) queue.finish(i);
+  }
   const auto threads = static_cast<int>(
       std::min(tiles.size(), static_cast<std::size_t>(thread_count(settings.threads))));
   std::atomic<int> next_thread = 0;
+  std::atomic<bool> has_ended = false;
   run_on_threads(threads, [&] {
     try {
       if (control.pending) {
         leave_cores(next_thread++, threads, control.pending, [&] {
-          return shared.next_tile >= tiles.size() || control.stop.stop_requested();
+          return has_ended || control.stop.stop_requested() || control.enough.stop_requested();
         });
       }
-      work(context, tiles, control, shared, film);
+      work(shared);
+      has_ended = true;
     } catch (...) {
-      shared.next_tile = tiles.size();
+      has_ended = true;
+      queue.close();
       throw;
     }
   });
+  count_samples(tiles, queue.done(), shared.statistics);
+  for (std::size_t i = 0; i < tiles.size() && settings.noise > 0; ++i) {
+    const int samples = queue.done()[i];
+    shared.statistics.noisy_tiles += samples == settings.samples && !is_good(shared, i, samples);
+  }
   if (statistics != nullptr) *statistics = shared.statistics;
-  if (shared.done != tiles.size()) return {};
+  if (control.checkpoint != nullptr && !control.stop.stop_requested()) save(shared);
+  if (control.stop.stop_requested() || shared.statistics.least_samples == 0) return {};
+  sums.develop(film);
   return film;
 } catch (const std::bad_alloc&) {
   diagnostics.error("out-of-memory", {}, "the render needs more memory than there is");

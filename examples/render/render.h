@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "examples/render/checkpoint.h"
 #include "examples/render/environment.h"
 #include "examples/render/film.h"
 #include "examples/render/light_shader.h"
@@ -50,6 +51,10 @@ struct RenderSettings {
   int tile_size = 32;              ///< Pixels on a side.
   std::uint32_t batch_size = 512;  ///< Points per kernel call, at most.
   PassRequest passes = {};         ///< Images beside the picture.
+  /// Not 0: a tile has enough samples once its error, as Accumulation::error estimates it, is at
+  /// most that; `samples` at most, least_samples at least.
+  double noise = 0.0;
+  int least_samples = 16;
 };
 
 /// Whether rays have times of their own.
@@ -74,12 +79,16 @@ struct RenderInput {
 };
 
 struct RenderControl {
-  std::stop_token stop;  ///< Ends the render between batches of samples.
+  std::stop_token stop = {};  ///< Ends the render between batches of samples: there is no film.
+  /// The same, but there is: of the samples that were taken.
+  std::stop_token enough = {};
   /// Called with the finished share, 0 to 1, from one thread at a time.
-  std::function<void(double)> progress;
+  std::function<void(double)> progress = {};
   /// How many kernels are still being compiled, from any thread: as many threads wait, so
   /// that compiling has cores. Empty: none.
   std::function<int()> pending = {};
+  /// Where work is kept now and then, for another process to go on with; null: nowhere.
+  Checkpoint* checkpoint = nullptr;
 };
 
 struct RenderStatistics {
@@ -91,13 +100,18 @@ struct RenderStatistics {
   std::uint64_t beyond_bound = 0;   ///< Points of volumes that are denser than was found before.
   std::uint64_t media_dropped = 0;  ///< Of paths that were inside of more than Media holds.
   std::uint64_t paths_cut = 0;  ///< That were scattered more often in media than max_scatterings.
+  /// Samples that pixels have: of tiles, the fewest and the most, and the mean of all pixels.
+  int least_samples = 0, most_samples = 0;
+  double mean_samples = 0;
+  std::size_t noisy_tiles = 0;  ///< Beyond RenderSettings::noise, with all samples.
   /// Seconds, summed over threads, within Shader calls and within Embree.
   double shading_seconds = 0, tracing_seconds = 0;
 };
 
 /// Path traces the scene. The film is the same, bit for bit, for any number of
-/// threads; on CPUs of another kind Embree may round a hit, and so a picture, differently. Empty
-/// when cancelled or when memory ran out (which gives an error).
+/// threads, and however often it was interrupted and went on from a checkpoint; on CPUs of another
+/// kind Embree may round a hit, and so a picture, differently. Empty when cancelled, when a
+/// checkpoint is of another render, or when memory ran out (which give an error).
 std::optional<Film> render(const RenderInput& input, const RenderSettings& settings,
                            Diagnostics& diagnostics, const RenderControl& control = {},
                            RenderStatistics* statistics = nullptr);

@@ -51,8 +51,10 @@ void Wavefront::prepare_passes(std::size_t max_paths) {
   const std::size_t values = request.value_floats();
   values_.resize(values * max_paths);
   point_memory_.emplace((7 + values) * LaneMemory::lane_bytes(capacity));
-  point_ = {point_memory_->lanes3(capacity), point_memory_->lanes3(capacity),
-            point_memory_->floats(capacity), {}};
+  point_ = {point_memory_->lanes3(capacity),
+            point_memory_->lanes3(capacity),
+            point_memory_->floats(capacity),
+            {}};
   for (std::size_t k = 0; k < values; ++k) point_.values.push_back(point_memory_->floats(capacity));
 }
 

@@ -5,8 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "examples/common/image_writer.h"
@@ -33,6 +35,7 @@
 #include "examples/tool/varying_slots.h"
 #include "jit/document/inheritance.h"
 #include "jit/document/select.h"
+#include "runtime/digest.h"
 
 namespace nacre::tool {
 
@@ -365,6 +368,25 @@ void complete_passes(RenderOptions& options, const host::Scene& world,
   complete_groups(options.passes, world, names, passes, diagnostics);
 }
 
+/// Where the render is kept; its key is everything that a picture hangs on: what was asked for and
+/// the files.
+std::optional<host::Checkpoint> checkpoint_of(const RenderOptions& options, const Opened& opened) {
+  if (options.progress.checkpoint.empty()) return {};
+  std::string key = options.asked + NACRE_TOOL_VERSION "\n";
+  const auto add = [&](const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    key += file + '\n' + to_hex(sha256(bytes.view())) + '\n';
+  };
+  for (const std::string& file : opened.document->files()) add(file);
+  for (const std::string& file : {options.scene, options.environment}) {
+    if (!file.empty()) add(file);
+  }
+  return std::optional<host::Checkpoint>(std::in_place, options.progress.checkpoint, key,
+                                         options.progress.checkpoint_every);
+}
+
 int run(RenderOptions& options) {
   Diagnostics diagnostics;
   if (!parse_size(options.size, options.settings.width, options.settings.height, diagnostics)) {
@@ -424,15 +446,19 @@ int run(RenderOptions& options) {
   if (options.dice > 0.0f) displace(options, world, input, diagnostics);
   const std::vector<const BoundKernel*> kernels = kernels_of(shaders, neutral, lights);
 
-  stop.follow(tool::stop().token());
+  take_time_to_stop(5.0);
+  const Enough enough(options.progress.time_limit);
+  std::optional<host::Checkpoint> checkpoint = checkpoint_of(options, opened);
   ProgressLine line("render", options.common.quiet);
   const auto pending = [&] {
     return static_cast<int>(
         std::ranges::count_if(kernels, [](const BoundKernel* each) { return each->is_pending(); }));
   };
   const host::RenderControl control{.stop = stop.token(),
+                                    .enough = enough.token(),
                                     .progress = [&](double share) { line.update(share); },
-                                    .pending = pending};
+                                    .pending = pending,
+                                    .checkpoint = checkpoint ? &*checkpoint : nullptr};
   host::RenderStatistics statistics;
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
   report_invalid_results(statistics, diagnostics);
@@ -441,12 +467,38 @@ int run(RenderOptions& options) {
   for (const BoundKernel* kernel : kernels) {
     report_code(*kernel, options.common.shader_options(), diagnostics);
   }
+  if (film && options.settings.noise > 0 && !options.common.quiet) {
+    fmt::print(stderr, "{}\n", samples_text(statistics, options.settings));
+  }
+  if (film) report_samples(statistics, options.settings, enough, diagnostics);
   if (film && host::write_image(*film, options.out, options.write, diagnostics)) {
+    const bool is_whole = !tool::stop().is_requested() || enough.is_out_of_time() ||
+                          statistics.least_samples == options.settings.samples;
+    if (!is_whole) keep_promise_partly(options.out, samples_text(statistics, options.settings));
     file_is_written(options.out, options.common.quiet);
   }
   report_texels(*opened.system, diagnostics);
   const int status = report(diagnostics);
   return film ? status : status_problems;
+}
+
+/// What was given of a command's options, those left out that no bit of a picture hangs on.
+std::string asked_of(const CLI::App& command) {
+  constexpr std::string_view others[] = {
+      "out",      "threads",      "time-limit",       "checkpoint", "quiet",
+      "no-cache", "compile-here", "checkpoint-every", "cache",      "wait-for-code"};
+  std::string text;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || std::ranges::any_of(others, [&](auto name) {
+          return option->check_lname(std::string(name));
+        })) {
+      continue;
+    }
+    text += option->get_name() + '=';
+    for (const std::string& each : option->results()) text += each + ' ';
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace
@@ -456,7 +508,8 @@ void add_render(CLI::App& app, int& status) {
   CLI::App& command =
       *app.add_subcommand("render", "Path trace a scene with the document's materials");
   add_render_options(command, *options);
-  command.callback([options, &status] {
+  command.callback([options, &status, &command] {
+    options->asked = asked_of(command);
     status = guarded(options->common.file, [&] { return run(*options); });
   });
 }

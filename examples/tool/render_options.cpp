@@ -119,6 +119,13 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
   command.add_flag("--half", options.write.half, "16-bit floats in .exr");
   options.passes.add(command);
+  options.progress.add(command);
+  command
+      .add_option("--noise", settings.noise,
+                  "Enough: the error of a tile relative to its pixels, as its samples tell, at "
+                  "which it gets no more; --spp is then the most (default: 0, all samples)")
+      ->check(number_within(0, 1e6))
+      ->type_name("X");
   command.footer(pass_help());
   command.add_option("--lens-radius", options.lens_radius, "Scene units; 0: all in focus")
       ->check(number_within(0, host::largest_coordinate))

@@ -8,11 +8,13 @@
 #include "examples/tool/assignment.h"
 #include "examples/tool/options.h"
 #include "examples/tool/pass_options.h"
+#include "examples/tool/progress_options.h"
 
 namespace nacre::tool {
 
 /// What `nacre render` is asked for.
 struct RenderOptions {
+  std::string asked;  ///< All that was given and that a picture hangs on, as text.
   CommonOptions common;
   AssignmentOptions assignment;
   std::string scene;
@@ -25,6 +27,7 @@ struct RenderOptions {
   host::RenderSettings settings;
   host::WriteOptions write;
   PassOptions passes;
+  ProgressOptions progress;
   float lens_radius = 0.0f;
   float focus_distance = 0.0f;
   bool ground = false;

@@ -23,9 +23,6 @@ namespace nacre::tool {
 
 namespace {
 
-/// How long a stop that was asked for may take before the process just ends.
-constexpr int patience = 300;  // ms
-
 /// A process has one set of signals, so this has one state. Never destroyed: the thread
 /// that ends the process may be any.
 struct State {
@@ -34,6 +31,9 @@ struct State {
   std::mutex mutex;
   std::vector<std::string> promised;
   std::vector<std::string> missing;
+  std::vector<std::string> partial;  ///< Files that are not whole, and what they are.
+  /// How long a stop that was asked for may take before the process just ends.
+  std::atomic<int> patience = 300;  // ms
 
   int reading = -1, writing = -1;  ///< Ends of a pipe: a byte for each signal, 0 for the end.
   std::jthread watcher;
@@ -83,7 +83,7 @@ void watch() {
     if (all.signal != 0) end_stopped();
     all.signal = signal;
     all.source.request_stop();
-    wait = patience;
+    wait = all.patience;
   }
 }
 
@@ -96,10 +96,12 @@ const char* name_of(int signal) {
   }
 }
 
-std::string complaint(int signal, const std::vector<std::string>& missing, std::size_t promised) {
+std::string complaint(int signal, const std::vector<std::string>& missing,
+                      const std::vector<std::string>& partial, std::size_t promised) {
   std::string text = "error: stopped by ";
   text += name_of(signal);
-  if (promised > 0) {
+  for (const std::string& each : partial) text += "; " + printable(each);
+  if (!missing.empty()) {
     text += fmt::format("; expected {} file{}, not written: ", promised, promised == 1 ? "" : "s");
     constexpr std::size_t most = 4;
     for (std::size_t i = 0; i < std::min(most, missing.size()); ++i) {
@@ -148,10 +150,19 @@ void keep_promise(const std::string& file) {
   std::erase(all.missing, file);
 }
 
+void keep_promise_partly(const std::string& file, const std::string& what) {
+  keep_promise(file);
+  State& all = state();
+  const std::scoped_lock lock(all.mutex);
+  all.partial.push_back(file + " has " + what);
+}
+
+void take_time_to_stop(double seconds) { state().patience = static_cast<int>(1000 * seconds); }
+
 bool is_stopped_early() {
   State& all = state();
   const std::scoped_lock lock(all.mutex);
-  return all.signal != 0 && !all.missing.empty();
+  return all.signal != 0 && (!all.missing.empty() || !all.partial.empty());
 }
 
 void end_stopped() {
@@ -162,7 +173,7 @@ void end_stopped() {
   std::string text;
   {
     const std::scoped_lock lock(all.mutex);
-    text = complaint(all.signal, all.missing, all.promised.size());
+    text = complaint(all.signal, all.missing, all.partial, all.promised.size());
   }
   if (::isatty(STDERR_FILENO) != 0) text.insert(0, "\r\033[K");  // Over the progress.
   // Not through stdio: a thread that waits for a full pipe has its lock.

@@ -25,8 +25,13 @@ Stop stop();
 /// is named if the work is stopped.
 void promise_files(const std::vector<std::string>& files);
 void keep_promise(const std::string& file);
+/// That one is written but is not all that was asked for, and what it is instead.
+void keep_promise_partly(const std::string& file, const std::string& what);
 
-/// True if a signal came and any file that was promised is missing.
+/// How long work may take to stop and to write what there is, in place of 0.3 s.
+void take_time_to_stop(double seconds);
+
+/// True if a signal came and any file that was promised is missing, or not whole.
 bool is_stopped_early();
 
 /// Removes partial files, says what is missing and ends the process by the signal that

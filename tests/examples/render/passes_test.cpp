@@ -1,4 +1,5 @@
-// Passes: light adds up to the picture and is where theory has it; what is seen is as geometry says.
+// Passes: light adds up to the picture and is where theory has it; what is seen is as geometry
+// says.
 #include "examples/render/passes.h"
 
 #include <gtest/gtest.h>

@@ -104,10 +104,10 @@ TEST_F(PassesOfTool, WhatAMaterialIsOfIsKnown) {
       <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
   </materialx>)");
   write("a.obj", "o card\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
-  ASSERT_EQ(run("render " + file("a.mtlx") + " --scene " + file("a.obj") +
-                " --size 8 --spp 4 --out " + file("a.exr") +
-                " --aov albedo,C.[LO],position,NG/half,crypto_object,crypto_material"),
-            0)
+  ASSERT_EQ(
+      run("render " + file("a.mtlx") + " --scene " + file("a.obj") + " --size 8 --spp 4 --out " +
+          file("a.exr") + " --aov albedo,C.[LO],position,NG/half,crypto_object,crypto_material"),
+      0)
       << errors_;
   const Layers layers = layers_of(file("a.exr"));
   const std::size_t middle = 8 * 4 + 4;
