@@ -1,0 +1,37 @@
+"""Pictures by Mitsuba's path tracer."""
+
+import mitsuba as mi
+import numpy
+import pytest
+from conftest import DOCUMENTS
+
+RUNS = 6
+
+
+@pytest.mark.parametrize("name", ["white", "glass", "half"])
+def test_what_loses_no_light_is_invisible_in_a_furnace(bsdf, name):
+    """Radiance 1 from everywhere is 1 wherever one looks, within noise."""
+    import nacre_mitsuba
+
+    scene = mi.load_dict({
+        "type": "scene", "integrator": {"type": "path", "max_depth": -1},
+        "ball": {"type": "sphere", "bsdf": bsdf(name)}, "sky": {"type": "constant"},
+        "sensor": {"type": "perspective", "fov": 20,
+                   "to_world": mi.ScalarTransform4f().look_at([0, 4, 1], [0, 0, 0], [0, 0, 1]),
+                   "film": {"type": "hdrfilm", "width": 32, "height": 32, "rfilter": {"type": "box"}}}})
+    with nacre_mitsuba.eager():
+        means = [numpy.array(mi.render(scene, spp=16, seed=seed)).mean() for seed in range(RUNS)]
+    deviation = numpy.std(means, ddof=1) / numpy.sqrt(RUNS)
+    assert abs(numpy.mean(means) - 1) < 5 * deviation + 1e-5, (means, deviation)
+    assert deviation < 0.01
+
+
+@pytest.mark.parametrize("name", ["brass", "glass"])
+def test_pictures_are_those_of_nacre_render(name, tmp_path):
+    """The same triangles, camera and light; means within their noise."""
+    import compare
+
+    theirs, ours = compare.pictures(DOCUMENTS / f"{name}.mtlx", tmp_path, size=32, spp=32, runs=4)
+    mean, _, z, error, noise = compare.agreement(theirs, ours, compare.of_ball(32))
+    assert mean > 0.1 and abs(z) < 5, (mean, z)
+    assert error < 4 * noise, (error, noise)
