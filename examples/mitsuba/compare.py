@@ -20,9 +20,10 @@ import numpy
 
 mi.set_variant("llvm_ad_rgb")
 
-import ball  # noqa: E402: asks for a variant.
+import ball  # noqa: E402: asks for a variant, and finds the folder above.
 import nacre  # noqa: E402
 import nacre_mitsuba  # noqa: E402
+from ball_scene import write  # noqa: E402
 
 DOCUMENTS = pathlib.Path(__file__).resolve().parents[1] / "documents"
 NAMES = ("brass", "plastic", "glass", "car_paint", "velvet")
@@ -35,7 +36,7 @@ def pictures(document, folder, size, spp, runs):
     scene = ball.load({"type": "nacre_bsdf", "filename": str(document), "material": material}, size)
     with nacre_mitsuba.eager():
         theirs = [numpy.array(mi.render(scene, spp=spp, seed=seed)) for seed in range(runs)]
-    file, options = ball.write(folder, document, material)
+    file, options = write(folder, document, material)
     ours = [numpy.array(mi.Bitmap(str(nacre.render(file, out=folder / "nacre.exr", size=size, spp=spp,
                                                    seed=seed, **options))))[..., :3]
             for seed in range(runs)]
