@@ -9,6 +9,9 @@ import nacre
 
 from . import baked, principled
 
+# What says that a path may begin with //.
+_RELATIVE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
+
 
 def bake_material(document: str | os.PathLike[str], *, folder: str | os.PathLike[str],
                   material: str = "", size: int = 1024, format: str = "png",
@@ -39,10 +42,10 @@ class NACRE_OT_bake_material(bpy.types.Operator):
     bl_label = "Bake MaterialX Material"
     bl_options = {"REGISTER", "UNDO"}
 
-    filepath: bpy.props.StringProperty(name="Document", subtype="FILE_PATH")
+    filepath: bpy.props.StringProperty(name="Document", subtype="FILE_PATH", options=_RELATIVE)
     filter_glob: bpy.props.StringProperty(default="*.mtlx", options={"HIDDEN"})
     material: bpy.props.StringProperty(name="Material", description="Empty: the first")
-    folder: bpy.props.StringProperty(name="Textures", subtype="DIR_PATH",
+    folder: bpy.props.StringProperty(name="Textures", subtype="DIR_PATH", options=_RELATIVE,
                                      description="Where textures are written; // is beside the .blend")
     size: bpy.props.IntProperty(name="Size", default=1024, min=1, max=16384, subtype="PIXEL")
     format: bpy.props.EnumProperty(name="Format", default="png", items=(
