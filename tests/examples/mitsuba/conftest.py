@@ -1,17 +1,28 @@
-"""Hits on a plane, and documents. Without Mitsuba nothing is tested: pytest ends with 5."""
+"""Hits on a plane, and documents. Without Mitsuba nothing is tested: then pytest ends with 77."""
 
 import pathlib
 
 import pytest
 
-mi = pytest.importorskip("mitsuba", reason="there is no Mitsuba: `pip install mitsuba`")
 try:
-    mi.set_variant("llvm_ad_rgb")
     import drjit as dr
+    import mitsuba as mi
 
+    mi.set_variant("llvm_ad_rgb")
     dr.eval(dr.arange(mi.Float, 2))
-except Exception as problem:  # Whatever it is that it cannot find LLVM for.
-    pytest.skip(f"Mitsuba has no LLVM: {problem}", allow_module_level=True)
+    MISSING = ""
+except ImportError:
+    MISSING = "there is no Mitsuba (pip install mitsuba)"
+except Exception as problem:
+    MISSING = f"Mitsuba has no LLVM (DRJIT_LIBLLVM_PATH): {problem}"
+
+
+def pytest_cmdline_main(config):
+    if not MISSING:
+        return None
+    print(f"skipped: {MISSING}")
+    return 77
+
 
 DOCUMENTS = pathlib.Path(__file__).resolve().parents[3] / "examples" / "documents"
 

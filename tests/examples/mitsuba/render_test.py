@@ -35,3 +35,30 @@ def test_pictures_are_those_of_nacre_render(name, tmp_path):
     mean, _, z, error, noise = compare.agreement(theirs, ours, compare.of_ball(32))
     assert mean > 0.1 and abs(z) < 5, (mean, z)
     assert error < 4 * noise, (error, noise)
+
+
+def test_closures_of_mitsuba_take_the_texture(tmp_path):
+    """With the same random numbers, a picture of the texture is that of the bitmap that it reads."""
+    import nacre_mitsuba
+
+    texels = numpy.random.default_rng(2).random((4, 4, 3), "float32")
+    mi.Bitmap(texels).write(str(tmp_path / "texels.exr"))
+    (tmp_path / "texels.mtlx").write_text("""<materialx version="1.39">
+      <image name="i" type="color3"><input name="file" type="filename" value="texels.exr"/>
+        <input name="filtertype" type="string" value="closest"/></image>
+      <output name="out" type="color3" nodename="i"/></materialx>""")
+    pictures = []
+    for reflectance in ({"type": "nacre_texture", "filename": str(tmp_path / "texels.mtlx")},
+                        {"type": "bitmap", "filename": str(tmp_path / "texels.exr"), "raw": True,
+                         "filter_type": "nearest"}):
+        scene = mi.load_dict({
+            "type": "scene", "integrator": {"type": "path"}, "sky": {"type": "constant"},
+            "square": {"type": "rectangle", "bsdf": {
+                "type": "twosided", "bsdf": {"type": "roughplastic", "diffuse_reflectance": reflectance}}},
+            "sensor": {"type": "perspective", "fov": 30,
+                       "to_world": mi.ScalarTransform4f().look_at([0, 0, 4], [0, 0, 0], [0, 1, 0]),
+                       "film": {"type": "hdrfilm", "width": 16, "height": 16}}})
+        with nacre_mitsuba.eager():
+            pictures.append(numpy.array(mi.render(scene, spp=8)))
+    numpy.testing.assert_allclose(*pictures, rtol=1e-3)
+    assert pictures[0].std() > 0.05
