@@ -44,12 +44,8 @@ class Nodes:
         return node.outputs[0]
 
     def set(self, socket: bpy.types.NodeSocket, source: Source) -> None:
-        """A number for a colour is grey; a colour for a number its luminance, as link and as value."""
+        """A number for a colour is grey; a colour for a number its luminance, as Blender's links do."""
         if isinstance(source, bpy.types.NodeSocket):
-            if socket.type == "VALUE" and source.type == "RGBA" and not self.is_gray(source):
-                grey = self.node("ShaderNodeRGBToBW", -1)
-                self.tree.links.new(source, grey.inputs[0])
-                source = grey.outputs[0]
             self.tree.links.new(source, socket)
             return
         if socket.type in ("RGBA", "VECTOR"):
@@ -57,11 +53,6 @@ class Nodes:
             socket.default_value = (*three, 1.0) if socket.type == "RGBA" else three
         else:
             socket.default_value = source[0] if len(source) == 1 else _luminance(source)
-
-    def is_gray(self, source: bpy.types.NodeSocket) -> bool:
-        """Of an image of one channel, which Blender shows in all three."""
-        image = getattr(source.node, "image", None)
-        return image is not None and image.channels == 1
 
     def multiply(self, a: Source, b: Source) -> Source:
         return self._mixed("MULTIPLY", a, b, (1.0,))

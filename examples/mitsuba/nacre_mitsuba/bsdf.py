@@ -64,9 +64,11 @@ class NacreBSDF(mi.BSDF):
         return sum(int(kind) for index, kind in enumerate(self.kinds)
                    if ctx.is_enabled(_KINDS[kind], index))
 
-    def given(self, ctx, **more) -> dict[str, object]:
-        is_radiance = ctx.mode == mi.TransportMode.Radiance
-        transport = Transport.RADIANCE if is_radiance else Transport.IMPORTANCE
+    def given(self, ctx, si, **more) -> dict[str, object]:
+        transport = Transport.RADIANCE
+        if ctx.mode == mi.TransportMode.Importance:
+            transport = Transport.IMPORTANCE
+            more["Ng"] = si.sh_frame.n  # Mitsuba's integrators correct for shading normals themselves.
         return {"transport": mi.Int32(transport), "lobes_wanted": mi.Int32(self.wanted(ctx)),
                 **{f"{name}.{axis}": part for name, parts in more.items()
                    for axis, part in zip("xyz", parts)}}
@@ -87,19 +89,21 @@ class NacreBSDF(mi.BSDF):
         opacity = found["opacity"]
         return 1 - opacity + opacity * _color(found, "transmission")
 
+    def chance(self, ctx, straight) -> mi.Float:
+        """That a sample goes straight on."""
+        asked = self.cut_out and ctx.is_enabled(Flags.Null, len(self.m_components) - 1)
+        return dr.mean(straight) if asked else mi.Float(0)
+
     # What Mitsuba asks. Its wi is Nacre's wo.
 
     def sample(self, ctx, si, sample1, sample2, active=True):
         active = mi.Bool(active)
         straight = self.straight(si, active)
-        null = len(self.m_components) - 1
-        if self.cut_out and not ctx.is_enabled(Flags.Null, null):
-            straight = mi.Color3f(0)
-        chance = dr.mean(straight)
+        chance = self.chance(ctx, straight)
         passes = active & (sample1 < chance)
         last = dr.one_minus_epsilon(mi.Float)
         lobe = dr.minimum((sample1 - chance) / dr.maximum(1 - chance, 1e-6), last)
-        given = self.given(ctx, u=(sample2.x, sample2.y, lobe))
+        given = self.given(ctx, si, u=(sample2.x, sample2.y, lobe))
         found = self.run(Entry.SAMPLE, si, active & ~passes, given)
 
         bs, weight = dr.zeros(mi.BSDFSample3f, dr.width(si)), mi.Color3f(0)
@@ -118,18 +122,18 @@ class NacreBSDF(mi.BSDF):
             weight = dr.select(valid, _color(found, "weight") * kept, 0)
         if self.cut_out:
             bs.wo[passes], bs.pdf[passes], bs.eta[passes] = -si.wi, chance, 1
-            bs.sampled_type[passes], bs.sampled_component[passes] = int(Flags.Null), null
+            bs.sampled_type[passes] = int(Flags.Null)
+            bs.sampled_component[passes] = len(self.m_components) - 1
             weight[passes] = straight / chance
         return bs, weight
 
     def eval_pdf(self, ctx, si, wo, active=True):
         active = mi.Bool(active)
-        found = self.run(Entry.EVALUATE, si, active, self.given(ctx, wi=si.to_world(wo)))
+        found = self.run(Entry.EVALUATE, si, active, self.given(ctx, si, wi=si.to_world(wo)))
         if found is None:
             return mi.Color3f(0), mi.Float(0)
         straight = self.straight(si, active)
-        null = ctx.is_enabled(Flags.Null, len(self.m_components) - 1)
-        pdf = found["pdf"] * (1 - dr.mean(straight) if null else 1)
+        pdf = found["pdf"] * (1 - self.chance(ctx, straight))
         return (dr.select(active, _color(found, "f") * (1 - straight), 0),
                 dr.select(active, pdf, 0))
 
