@@ -142,7 +142,7 @@ def main():
     parser.add_argument("--size", type=int, default=192)
     parser.add_argument("--texels", type=int, default=1024)
     parser.add_argument("--spp", type=int, default=128)
-    asked = parser.parse_args()
+    asked = parser.parse_intermixed_args()
     asked.out = asked.out.resolve()
     ball, inside, rows = set_up(asked.size, asked.spp), of_ball(asked.size), []
     print("| document | Cycles | nacre render | difference | root mean square |\n"

@@ -87,7 +87,7 @@ def main():
     parser.add_argument("--size", type=int, default=128)
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--runs", type=int, default=8)
-    asked = parser.parse_args()
+    asked = parser.parse_intermixed_args()
     documents = asked.documents or [DOCUMENTS / f"{name}.mtlx" for name in NAMES]
     ball_pixels = of_ball(asked.size)
     rows = []
