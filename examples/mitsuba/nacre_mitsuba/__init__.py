@@ -27,7 +27,8 @@ world space, and points have no footprint: images are read at their finest level
 
 Kernels run on Dr.Jit's arrays where these lie, as soon as they are called. So Mitsuba must have
 numbers by then, and not record what it will do: that is what `eager` is for. Its paths go bounce by
-bounce then, and for each material are one array without gaps. Nothing is differentiated.
+bounce then, and for each material are one array without gaps. Nothing is differentiated. Mitsuba
+finds LLVM by itself, or by DRJIT_LIBLLVM_PATH=/usr/lib/llvm-19/lib/libLLVM.so.
 """
 
 import contextlib
