@@ -3,7 +3,6 @@
 import mitsuba as mi
 import numpy
 import pytest
-from conftest import DOCUMENTS
 
 RUNS = 6
 
@@ -24,17 +23,6 @@ def test_what_loses_no_light_is_invisible_in_a_furnace(bsdf, name):
     deviation = numpy.std(means, ddof=1) / numpy.sqrt(RUNS)
     assert abs(numpy.mean(means) - 1) < 5 * deviation + 1e-5, (means, deviation)
     assert deviation < 0.01
-
-
-@pytest.mark.parametrize("name", ["brass", "glass"])
-def test_pictures_are_those_of_nacre_render(name, tmp_path):
-    """The same triangles, camera and light; means within their noise."""
-    import compare
-
-    theirs, ours = compare.pictures(DOCUMENTS / f"{name}.mtlx", tmp_path, size=32, spp=32, runs=4)
-    mean, _, z, error, noise = compare.agreement(theirs, ours, compare.of_ball(32))
-    assert mean > 0.1 and abs(z) < 5, (mean, z)
-    assert error < 4 * noise, (error, noise)
 
 
 def test_closures_of_mitsuba_take_the_texture(tmp_path):
