@@ -55,6 +55,25 @@ Digest sha256(std::string_view bytes) {
   return digest;
 }
 
+Sha256::Sha256() : context_(EVP_MD_CTX_new()) {
+  if (context_ != nullptr && EVP_DigestInit_ex2(context_, algorithms().sha256, nullptr) == 1)
+    return;
+  EVP_MD_CTX_free(context_);
+  expect(false);
+}
+
+Sha256::~Sha256() { EVP_MD_CTX_free(context_); }
+
+void Sha256::add(std::string_view piece) {
+  expect(EVP_DigestUpdate(context_, piece.data(), piece.size()) == 1);
+}
+
+Digest Sha256::finish() {
+  Digest digest{};
+  expect(EVP_DigestFinal_ex(context_, digest.data(), nullptr) == 1);
+  return digest;
+}
+
 Digest hmac_sha256(std::string_view key, std::initializer_list<std::string_view> parts) {
   expect(algorithms().hmac_sha256 != nullptr);
   const std::unique_ptr<EVP_MAC_CTX, Free> context(EVP_MAC_CTX_dup(algorithms().hmac_sha256));

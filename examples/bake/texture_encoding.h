@@ -20,6 +20,9 @@ struct TextureEncoding {
   bool encodes_vectors = false;
   /// One of a set of tiles: beyond its edges are others, not itself again.
   bool is_tile = false;
+  /// What the file says that made it, the digest of the document it is of, and of what there; "":
+  /// nothing.
+  std::string software = {}, document = {}, output = {};
   /// The channels of the output to write; 0 of them: all.
   int first_channel = 0, channels = 0;
 };

@@ -71,7 +71,33 @@ struct Job {
   }
 };
 
+/// Of the spaces that have primaries that files can say: Rec. ITU-R BT.709-6, and AP1 and AP0 with
+/// the white of ACES (SMPTE ST 2065-1, Academy S-2014-004).
+std::optional<std::array<float, 8>> chromaticities_of(std::string_view space) {
+  using Points = std::array<float, 8>;
+  if (space == "Linear" || space == "sRGB" || canonical_colorspace(space) == "lin_rec709") {
+    return Points{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
+  }
+  if (canonical_colorspace(space) == "acescg") {
+    return Points{0.713f, 0.293f, 0.165f, 0.83f, 0.128f, 0.044f, 0.32168f, 0.33767f};
+  }
+  return std::nullopt;
+}
+
+/// What the file is said to be, and of what.
+std::vector<std::pair<std::string, std::string>> texts_of(const Job& job) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  const auto add = [&](const char* name, const std::string& text) {
+    if (!text.empty()) texts.emplace_back(name, text);
+  };
+  add("Software", job.encoding.software);
+  add("nacre:document", job.encoding.document);
+  add("nacre:output", job.encoding.output);
+  return texts;
+}
+
 ImageHeader header_of(const Job& job) {
+  const bool is_color = job.output().type == Type::color3 || job.output().type == Type::color4;
   return {.kind = job.format.kind,
           .width = job.settings.width,
           .height = job.settings.height,
@@ -79,7 +105,9 @@ ImageHeader header_of(const Job& job) {
           .samples = job.type().value(),
           .colorspace = job.file_colorspace(),
           .codes_srgb = job.format.is_integer && job.is_srgb(),
-          .repeats = !job.encoding.is_tile};
+          .repeats = !job.encoding.is_tile,
+          .chromaticities = is_color ? chromaticities_of(job.file_colorspace()) : std::nullopt,
+          .texts = texts_of(job)};
 }
 
 /// Turns numbers as computed into those that the file is to hold, but for what its writer does.

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/diagnostic.h"
@@ -26,8 +28,11 @@ struct ImageHeader {
   std::string colorspace;                      ///< As OpenImageIO calls it.
   /// Of integers: all but a fourth channel get the codes of sRGB for linear values.
   bool codes_srgb = false;
-  bool repeats = true;                            ///< Of a .tx.
-  std::map<std::string, std::string> texts = {};  ///< Of an .exr: more attributes, by name.
+  bool repeats = true;  ///< Beyond its edges the image is there again, else its edge.
+  /// x and y of red, green, blue and white, where they are known; of an .exr.
+  std::optional<std::array<float, 8>> chromaticities = std::nullopt;
+  /// Further attributes, by the names that OpenImageIO has for them.
+  std::vector<std::pair<std::string, std::string>> texts = {};
 };
 
 /// Rows on their way into a file: `planes` has a plane of width * rows floats for each channel.

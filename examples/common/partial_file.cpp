@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <string_view>
@@ -23,7 +24,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view prefix = ".nacre-";
-constexpr std::string_view random_part = "XXXXXX";
+constexpr std::string_view random_part = "-XXXXXX";
+constexpr std::size_t boot_size = 8;
+
+/// What another machine has left is swept only if nothing was written there for so long.
+constexpr auto patience = std::chrono::hours(1);
+
+/// Names this machine since it was started: disks that machines share may have locks that they do
+/// not share (NFS with local_lock), which say nothing of a process elsewhere.
+const std::string& boot() {
+  static const std::string* const name = new std::string([] {
+    std::ifstream file("/proc/sys/kernel/random/boot_id");
+    std::string id;
+    file >> id;
+    id.resize(boot_size, '0');
+    return id;
+  }());
+  return *name;
+}
 
 /// The folders of this process's partial files. One set for the process, because it is the
 /// process that is killed and has to leave nothing behind.
@@ -49,7 +67,7 @@ Lock lock_folder(const std::string& folder) {
   if (file < 0) return {.file = -1, .is_gone = errno == ENOENT};
   const bool locked = ::flock(file, LOCK_EX | LOCK_NB) == 0;
   bool is_gone = !locked && errno == EWOULDBLOCK;
-  struct stat status{};
+  struct stat status {};
   if (locked && ::fstat(file, &status) == 0 && status.st_uid == ::geteuid()) {
     // Who swept between our opening and our locking has removed it: no links are left.
     if (status.st_nlink > 0) return {.file = file, .is_gone = false};
@@ -66,29 +84,29 @@ std::vector<std::string> candidates(const std::string& folder) {
   if (stream == nullptr) return names;
   while (const dirent* entry = ::readdir(stream)) {
     const std::string_view name = entry->d_name;
-    const bool fits = name.starts_with(prefix) && name.size() == prefix.size() + random_part.size();
+    const bool fits =
+        name.starts_with(prefix) && name.size() == prefix.size() + boot_size + random_part.size();
     if (fits) names.emplace_back(name);
   }
   ::closedir(stream);
   return names;
 }
 
-/// Removes what processes that are no more have left in `folder`.
-void sweep(const std::string& folder) {
-  for (const std::string& name : candidates(folder)) {
-    const std::string left = (fs::path(folder) / name).string();
-    const Lock lock = lock_folder(left);
-    if (lock.file < 0) continue;
-    std::error_code ignored;
-    fs::remove_all(left, ignored);
-    ::close(lock.file);
+/// Whether nothing in a folder was written for a while.
+bool is_idle(const std::string& folder) {
+  const auto now = fs::file_time_type::clock::now();
+  std::error_code error;
+  if (now - fs::last_write_time(folder, error) < patience || error) return false;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (now - fs::last_write_time(entry, error) < patience || error) return false;
   }
+  return !error;
 }
 
 /// Why a file of that path cannot come to be, as far as can be told beforehand, or "".
 std::string obstacle(const std::string& path) {
   const fs::path name = fs::path(path).filename();
-  struct stat status{};
+  struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
     if (errno != ENOENT) return last_error();
     return name.empty() || name == "." || name == ".." ? "this is no name of a file" : "";
@@ -108,17 +126,30 @@ std::string sync_file(const std::string& path) {
 
 }  // namespace
 
+void sweep_partial_files(const std::string& folder) {
+  for (const std::string& name : candidates(folder)) {
+    const std::string left = (fs::path(folder) / name).string();
+    const Lock lock = lock_folder(left);
+    if (lock.file < 0) continue;
+    const bool is_ours = name.compare(prefix.size(), boot_size, boot()) == 0;
+    std::error_code ignored;
+    if (is_ours || is_idle(left)) fs::remove_all(left, ignored);
+    ::close(lock.file);
+  }
+}
+
 PartialFile::PartialFile(std::string path) : path_(std::move(path)) {
   problem_ = obstacle(path_);
   if (!problem_.empty()) return;
   const fs::path parent = fs::path(path_).parent_path();
   const std::string beside = parent.empty() ? "." : parent.string();
-  sweep(beside);
+  sweep_partial_files(beside);
   Living& all = living();
   const std::scoped_lock guard(all.mutex);
   Lock lock;
   do {  // Another process may take a new folder for left over before it is locked.
-    folder_ = (fs::path(beside) / (std::string(prefix) + std::string(random_part))).string();
+    const std::string name = std::string(prefix) + boot() + std::string(random_part);
+    folder_ = (fs::path(beside) / name).string();
     if (::mkdtemp(folder_.data()) == nullptr) {
       problem_ = last_error();
       folder_.clear();

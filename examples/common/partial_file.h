@@ -35,6 +35,9 @@ class PartialFile {
   int lock_ = -1;
 };
 
+/// Takes away what killed processes have left in a folder.
+void sweep_partial_files(const std::string& folder);
+
 /// Removes the partial files of this process for good: whatever would make, name or remove
 /// one waits from then on. For a process that is about to end while threads still work.
 void abandon_partial_files();

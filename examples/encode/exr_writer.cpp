@@ -51,6 +51,13 @@ bool has_long_names(const ImageHeader& image) {
          std::ranges::any_of(image.texts, [](auto& text) { return text.first.size() > most; });
 }
 
+void append_string(Bytes& header, std::string_view name, const std::string& text) {
+  append_attribute(header, name, "string", {text.begin(), text.end()});
+}
+
+/// OpenEXR's own name for what OpenImageIO calls otherwise.
+std::string exr_name(const std::string& name) { return name == "Software" ? "software" : name; }
+
 std::uint16_t half_of(float value) {
   if (std::isfinite(value)) return float_to_half(value);
   if (std::isnan(value)) return 0x7e00;
@@ -123,6 +130,11 @@ class ExrWriter final : public ImageWriter {
     channels.push_back(0);
     append_attribute(bytes, "channels", "chlist", channels);
     append_attribute(bytes, "compression", "compression", {3});  // ZIP.
+    if (image.chromaticities) {
+      Bytes points;
+      for (const float number : *image.chromaticities) append_float(points, number);
+      append_attribute(bytes, "chromaticities", "chromaticities", points);
+    }
     Bytes window;
     for (const int corner : {0, 0, image.width - 1, image.height - 1}) append_int(window, corner);
     append_attribute(bytes, "dataWindow", "box2i", window);
@@ -130,17 +142,15 @@ class ExrWriter final : public ImageWriter {
     append_attribute(bytes, "lineOrder", "lineOrder", {0});  // From the top.
     // Linear is what a reader takes for granted.
     if (image.colorspace != "Linear") {
-      append_attribute(bytes, "oiio:ColorSpace", "string",
-                       {image.colorspace.begin(), image.colorspace.end()});
+      append_string(bytes, "oiio:ColorSpace", image.colorspace);
     }
     Bytes one;
     append_float(one, 1.0f);
     append_attribute(bytes, "pixelAspectRatio", "float", one);
     append_attribute(bytes, "screenWindowCenter", "v2f", Bytes(8));
     append_attribute(bytes, "screenWindowWidth", "float", one);
-    for (const auto& [name, text] : image.texts) {
-      append_attribute(bytes, name, "string", {text.begin(), text.end()});
-    }
+    for (const auto& [name, text] : image.texts) append_string(bytes, exr_name(name), text);
+    append_string(bytes, "wrapmodes", image.repeats ? "periodic,periodic" : "clamp,clamp");
     bytes.push_back(0);
     return bytes;
   }

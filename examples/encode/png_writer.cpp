@@ -29,6 +29,7 @@ class PngWriter final : public ImageWriter {
     file_.append(std::array<unsigned char, 8>{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
     append_header();
     append_colorspace();
+    for (const auto& [name, text] : header.texts) append_text(name, text);
   }
 
   int block_rows() const override {
@@ -92,8 +93,12 @@ class PngWriter final : public ImageWriter {
     } else if (header_.colorspace == "Linear") {
       numbers("gAMA", {100000});
     }
-    const std::string text = std::string("oiio:ColorSpace") + '\0' + header_.colorspace;
-    file_.append(png_chunk("tEXt", {text.begin(), text.end()}));
+    append_text("oiio:ColorSpace", header_.colorspace);
+  }
+
+  void append_text(const std::string& name, const std::string& text) {
+    const std::string all = name + '\0' + text;
+    file_.append(png_chunk("tEXt", {all.begin(), all.end()}));
   }
 
   bool is_coded(std::size_t channel) const { return header_.codes_srgb && channel != 3; }

@@ -24,6 +24,7 @@ OIIO::ImageSpec spec_of(const ImageHeader& header) {
   spec.attribute("oiio:UnassociatedAlpha", 1);
   spec.attribute("oiio:ColorSpace", header.colorspace);
   spec.attribute("DateTime", "");  // Else the writers note the time.
+  for (const auto& [name, text] : header.texts) spec.attribute(name, text);
   spec.attribute("tiff:half", 1);  // Else 16-bit floats become 32-bit ones.
   return spec;
 }

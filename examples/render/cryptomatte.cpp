@@ -69,7 +69,7 @@ std::vector<std::string> Mattes::channels() const {
   return all;
 }
 
-std::map<std::string, std::string> Mattes::attributes() const {
+std::vector<std::pair<std::string, std::string>> Mattes::attributes() const {
   nlohmann::json manifest = nlohmann::json::object();
   for (const std::string& name : names) manifest[name] = fmt::format("{:08x}", matte_hash(name));
   const std::string head =

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,7 +45,7 @@ struct Mattes {
   /// Channels of an image for the planes: "CryptoObject00.R", …
   std::vector<std::string> channels() const;
   /// What the specification wants in the image's header, names of attributes with texts.
-  std::map<std::string, std::string> attributes() const;
+  std::vector<std::pair<std::string, std::string>> attributes() const;
 };
 
 }  // namespace nacre::host

@@ -71,7 +71,7 @@ void append_passes(const PassFilm& passes, ImageHeader& header, Planes& planes) 
     const std::vector<std::string> channels = mattes.channels();
     header.channels.insert(header.channels.end(), channels.begin(), channels.end());
     planes.insert(planes.end(), mattes.planes.begin(), mattes.planes.end());
-    header.texts.merge(mattes.attributes());
+    for (const auto& text : mattes.attributes()) header.texts.push_back(text);
   }
 }
 
@@ -85,6 +85,7 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
                      .samples = SampleType::unsigned8,
                      .colorspace = exr ? "Linear" : "sRGB"};
   if (exr) header.samples = options.half ? SampleType::half : SampleType::floating;
+  header.repeats = false;
   if (film.has_alpha()) header.channels.emplace_back("A");
   Planes planes = exr ? linear(film) : developed(film, options);
   if (exr) append_passes(film.passes, header, planes);

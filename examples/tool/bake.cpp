@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "examples/bake/plane_tiles.h"
 #include "examples/bake/write_texture.h"
 #include "examples/common/image_writer.h"
 #include "examples/tool/bake_document.h"
+#include "examples/tool/bake_ledger.h"
 #include "examples/tool/bake_report.h"
 #include "examples/tool/file_stems.h"
+#include "examples/tool/manifest_request.h"
 #include "examples/tool/material_inputs.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
@@ -37,6 +40,8 @@ struct BakeOptions {
   std::string document;
   TextureRequest textures;
   SamplingRequest sampling;
+  ManifestRequest manifest;
+  bool average = false;
   bool report = false;
   bool json = false;
   std::string out;   ///< "": beside the document that is written, or here.
@@ -84,37 +89,59 @@ struct Piece {
   std::string name;
   SourceLocation where;
   TextureSettings texture;
-  std::vector<std::string> files;
+  std::vector<BakeItem> items;
+  std::vector<BakeStep> steps;  ///< What there is to do about each.
+
+  bool has(BakeStep step) const { return std::ranges::find(steps, step) != steps.end(); }
 };
 
 std::vector<Piece> pieces(const BakeOptions& options, const Opened& opened,
-                          const std::vector<UdimTile>& tiles, Diagnostics& diagnostics) {
+                          const host::BakeSettings& settings, const std::vector<UdimTile>& tiles,
+                          BakeLedger& ledger, Diagnostics& diagnostics) {
   std::vector<Piece> all;
   FileStems stems;
   for (const std::string& name : wanted(options, opened, diagnostics)) {
     const Element* output = output_element(*opened.document, name);
-    Piece piece{
-        .name = name, .where = {options.common.file, 0, 0, name}, .texture = {}, .files = {}};
+    Piece piece{.name = name,
+                .where = {options.common.file, 0, 0, name},
+                .texture = {},
+                .items = {},
+                .steps = {}};
     if (output != nullptr) piece.where = location(*output);
     if (!texture_settings(options.textures, output, piece.texture, diagnostics)) continue;
     piece.texture.encoding.is_tile = !tiles.empty();
+    piece.texture.encoding.output = name;
     const std::string stem = stems.stem_of(name, piece.where, diagnostics);
-    const auto add = [&](const std::string& number) {
-      piece.files.push_back((fs::path(options.out) / (stem + number + piece.texture.extension)));
+    const auto add = [&](const std::string& number, const UdimTile& tile) {
+      const fs::path path = fs::path(options.out) /
+                            file_name(options.textures.name, stem, number, piece.texture.extension);
+      piece.items.push_back(
+          ledger.item(path.string(), settings_of(name, piece.texture, settings, tile)));
+      piece.steps.push_back(ledger.step(piece.items.back(), diagnostics));
     };
-    if (tiles.empty()) add("");
-    for (const UdimTile& tile : tiles) add("." + tile.number());
+    if (tiles.empty()) add("", {});
+    for (const UdimTile& tile : tiles) add(tile.number(), tile);
     all.push_back(std::move(piece));
   }
   return all;
 }
 
+/// Says what is known of files that are there already.
+void report_kept(const Piece& piece, const BakeLedger& ledger, BakeReport& report) {
+  for (std::size_t i = 0; i < piece.items.size(); ++i) {
+    if (piece.steps[i] != BakeStep::keep) continue;
+    report.add(kept_map(piece.items[i].path, ledger.record(piece.items[i]), piece.texture,
+                        ledger.is_merging()));
+  }
+}
+
 /// One output into its files.
 void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& piece,
                 host::BakeSettings settings, const std::vector<UdimTile>& tiles,
-                ShaderOptions shader, PlaneReads& reads, BakeReport& report,
+                ShaderOptions shader, BakeLedger& ledger, PlaneReads& reads, BakeReport& report,
                 Diagnostics& diagnostics) {
-  shader = with_profile(opened, piece.name, false, std::move(shader), diagnostics);
+  const std::size_t errors = diagnostics.error_count();
+  shader = reproducible(with_profile(opened, piece.name, false, std::move(shader), diagnostics));
   shader.compile.stop = stop_from_now(shader.compile);
   const auto graph = build_graph(*opened.document, opened.system->library(),
                                  {.outputs = {piece.name}, .material = {}},
@@ -126,20 +153,29 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
   settings.height = piece.texture.height;
   const Type type = kernel->outputs[0].type;
   warn_of_no_mean(settings.sampling, type, piece.where, diagnostics);
-  for (std::size_t i = 0; i < piece.files.size(); ++i) {
-    const std::string& path = piece.files[i];
+  for (std::size_t i = 0; i < piece.items.size(); ++i) {
+    if (piece.steps[i] != BakeStep::bake) continue;
+    const std::string& path = piece.items[i].path;
     if (!tiles.empty()) settings.corner_u = tiles[i].u;
     if (!tiles.empty()) settings.corner_v = tiles[i].v;
+    const OutputKernel loaded =
+        host::with_tiles(*kernel, 0, settings, opened.system->textures(), diagnostics);
     ProgressLine line(fs::path(path).stem().string(), options.common.quiet);
     const host::BakeControl control{.stop = stop().token(),
                                     .progress = [&](double share) { line.update(share); }};
     const Stopwatch watch;
     host::TextureReport said;
     said.histogram = options.json;
-    if (host::bake_to_file(*kernel, 0, settings, piece.texture.encoding, path, diagnostics, control,
+    if (host::bake_to_file(loaded, 0, settings, piece.texture.encoding, path, diagnostics, control,
                            &said)) {
       file_is_written(path, options.common.quiet || options.json);
-      report.add(BakedMap{path, piece.name, type, piece.texture, said.statistics, watch.seconds()});
+      const BakedMap map{path, piece.name, type, piece.texture, said.statistics, watch.seconds()};
+      report.add(map);
+      // What lacks an image, say, is written, but not finished.
+      const bool is_right = is_sound(*opened.system, errors, diagnostics);
+      if (is_right && !ledger.add(piece.items[i], record_of(map), loaded.kernel, diagnostics)) {
+        return;
+      }
     }
     if (stop().is_due()) return;
   }
@@ -148,19 +184,23 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
 
 void bake_outputs(const BakeOptions& options, const Opened& opened,
                   const host::BakeSettings& settings, const std::vector<UdimTile>& tiles,
-                  ShaderOptions shader, BakeReport& report, Diagnostics& diagnostics) {
-  const std::vector<Piece> all = pieces(options, opened, tiles, diagnostics);
+                  ShaderOptions shader, BakeLedger& ledger, BakeReport& report,
+                  Diagnostics& diagnostics) {
+  const std::vector<Piece> all = pieces(options, opened, settings, tiles, ledger, diagnostics);
   for (const Piece& piece : all) {
-    promise_files(piece.files);
-    for (const std::string& file : piece.files) {
-      if (!host::prepare_image(file, diagnostics)) return;
+    report_kept(piece, ledger, report);
+    for (std::size_t i = 0; i < piece.items.size(); ++i) {
+      if (piece.steps[i] != BakeStep::bake) continue;
+      promise_files({piece.items[i].path});
+      if (!host::prepare_image(piece.items[i].path, diagnostics)) return;
     }
   }
   PlaneReads reads(diagnostics);
   for (const Piece& piece : all) {
     if (stop().is_due()) return;
+    if (!piece.has(BakeStep::bake)) continue;
     shader.graph.output_space = host::output_space(piece.texture.extension, piece.texture.encoding);
-    bake_piece(options, opened, piece, settings, tiles, shader, reads, report, diagnostics);
+    bake_piece(options, opened, piece, settings, tiles, shader, ledger, reads, report, diagnostics);
   }
 }
 
@@ -190,7 +230,7 @@ std::string texture_folder(const BakeOptions& options) {
 int run(BakeOptions& options) {
   Diagnostics diagnostics;
   host::BakeSettings settings;
-  if (!options.textures.check(diagnostics) ||
+  if (!options.textures.check(diagnostics) || !options.manifest.check(diagnostics) ||
       !options.sampling.read(settings.sampling, diagnostics)) {
     report(diagnostics);
     return status_usage;
@@ -209,21 +249,41 @@ int run(BakeOptions& options) {
       read_tiles(options.udim, *opened.document, options.common.search_paths, diagnostics,
                  options.common.allow_outside);
   if (diagnostics.has_errors()) return report(diagnostics);
+  if (!check_file_name(options.textures.name, !tiles.empty(), diagnostics)) {
+    report(diagnostics);
+    return status_usage;
+  }
   ShaderOptions shader = options.common.shader_options();
   shader.graph.frame = static_cast<int>(options.frame);
+  // What stands for images that cannot be had is decided while compiling.
+  shader.defer_tiles = shader.missing_images == MissingImages::error;
+  options.textures.document = document_digest(*opened.document);
+  BakeManifest head;
+  if (options.manifest.is_asked() && !describe_inputs(options.common, opened, head, diagnostics)) {
+    return report(diagnostics);
+  }
+  BakeLedger ledger(options.manifest, options.out, options.common.file, std::move(head));
+  if (!ledger.open(diagnostics)) return report(diagnostics);
   if (options.document.empty()) {
-    bake_outputs(options, opened, settings, tiles, shader, told, diagnostics);
+    bake_outputs(options, opened, settings, tiles, shader, ledger, told, diagnostics);
+    ledger.finish(diagnostics);
     told.print();
     report_texels(*opened.system, diagnostics);
     return report(diagnostics);
   }
   shader.graph.working_space = "lin_rec709";  // What the textures are tagged with.
-  const DocumentBake bake{
-      options.document, wanted_materials(options, *opened.document, diagnostics),
-      options.out,      options.textures,
-      settings,         tiles,
-      shader,           options.common.quiet || options.json};
-  if (!bake.materials.empty()) bake_document(bake, opened, told, diagnostics);
+  const DocumentBake bake{options.document,
+                          wanted_materials(options, *opened.document, diagnostics),
+                          options.out,
+                          options.textures,
+                          settings,
+                          tiles,
+                          shader,
+                          options.common.quiet || options.json,
+                          options.manifest.shard.has_value(),
+                          options.average};
+  if (!bake.materials.empty()) bake_document(bake, opened, ledger, told, diagnostics);
+  ledger.finish(diagnostics);
   told.print();
   report_texels(*opened.system, diagnostics);
   return report(diagnostics);
@@ -244,14 +304,20 @@ void add_bake(CLI::App& app, int& status) {
       .add_option("--material", options->material,
                   "The inputs of this material's surface shader that graphs feed")
       ->type_name("NAME");
+  CLI::Option* document =
+      command
+          .add_option("--document", options->document,
+                      "Write a document too, in which textures and values stand for the graphs "
+                      "that feed --material, or every material")
+          ->type_name("FILE.mtlx")
+          ->excludes(outputs);
   command
-      .add_option("--document", options->document,
-                  "Write a document too, in which textures and values stand for the graphs that "
-                  "feed --material, or every material")
-      ->type_name("FILE.mtlx")
-      ->excludes(outputs);
+      .add_flag("--average", options->average,
+                "With --document, values alone: of each map the mean of its texels")
+      ->needs(document);
   options->textures.add(command);
   options->sampling.add(command);
+  options->manifest.add(command);
   CLI::Option* text =
       command.add_flag("--report", options->report,
                        "Say of each map how long it took, its samples, and the range and mean of "

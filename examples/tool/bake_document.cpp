@@ -6,11 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
+#include "examples/bake/plane_tiles.h"
 #include "examples/common/atomic_file.h"
 #include "examples/common/image_writer.h"
 #include "examples/tool/baked_document.h"
 #include "examples/tool/file_stems.h"
+#include "examples/tool/map_plan.h"
+#include "examples/tool/paths.h"
 #include "examples/tool/plane_reads.h"
 #include "examples/tool/process.h"
 #include "examples/tool/sampling_request.h"
@@ -23,35 +27,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path absolute_path(const fs::path& path) {
-  std::error_code error;
-  return fs::absolute(path, error).lexically_normal();
-}
-
-const std::vector<UdimTile> one_tile(1);
-
-/// Textures have at most four channels: a matrix takes one for each of its rows.
-int matrix_rows(Type type) {
-  if (type == Type::matrix33) return 3;
-  return type == Type::matrix44 ? 4 : 1;
-}
-
 /// The whole numbers that channels of so many bits hold without a gap.
 float largest_integer(int bits) { return bits == 16 ? 2048.0f : 16777216.0f; }
 
-/// The texel of a uniform map.
-std::vector<float> least_of(const host::TexelStatistics& statistics) {
+/// The texel of a uniform map, or the mean of others.
+std::vector<float> texel_of(const host::TexelStatistics& statistics) {
+  const bool is_uniform = statistics.is_uniform();
   std::vector<float> texel;
-  for (const host::ChannelStatistics& channel : statistics.channels) texel.push_back(channel.least);
+  for (const host::ChannelStatistics& channel : statistics.channels) {
+    texel.push_back(is_uniform ? channel.least : static_cast<float>(channel.mean()));
+  }
   return texel;
 }
 
 class MaterialBaker {
  public:
   MaterialBaker(const DocumentBake& options, const Opened& opened, const Definitions& definitions,
-                BakeReport& report, Diagnostics& diagnostics)
+                BakeLedger& ledger, BakeReport& report, Diagnostics& diagnostics)
       : options_(options),
         opened_(opened),
+        ledger_(ledger),
         report_(report),
         diagnostics_(diagnostics),
         reads_(diagnostics),
@@ -60,7 +55,7 @@ class MaterialBaker {
                diagnostics) {}
 
   void run() {
-    promise_files({options_.document});
+    if (!options_.is_shard) promise_files({options_.document});
     if (!is_new_document() || !host::prepare_output(options_.document, diagnostics_) ||
         !host::prepare_folder(options_.folder, diagnostics_)) {
       return;
@@ -72,7 +67,8 @@ class MaterialBaker {
       if (stop().is_due() || diagnostics_.error_count() != errors) return;
       bake(job);
     }
-    if (!stop().is_due() && diagnostics_.error_count() == errors) write();
+    const bool is_done = !stop().is_due() && diagnostics_.error_count() == errors;
+    if (is_done && left_.empty() && !options_.is_shard) write();
   }
 
  private:
@@ -97,6 +93,7 @@ class MaterialBaker {
   }
 
   void bake(const BakedDocument::Job& job) {
+    if (left_.contains(job.source)) return;
     if (const auto known = results_.find(job.source); known != results_.end()) {
       return finish(job, known->second);
     }
@@ -105,7 +102,28 @@ class MaterialBaker {
     texture.encoding.is_direction = !job.frame.empty();
     texture.encoding.encodes_vectors = false;  // The document reads them as they are.
     texture.encoding.is_tile = !options_.tiles.empty();
-    ShaderOptions shader = with_profile(opened_, job.request, false, options_.shader, diagnostics_);
+    texture.encoding.output = job.stem;
+    const std::string stem = stems_.stem_of(job.stem, where_of(job), diagnostics_);
+    MapPlan plan =
+        plan_map(job.stem, job.type, stem, texture, options_.settings, options_.tiles,
+                 {absolute_path(options_.folder), folder_, options_.textures.name}, ledger_);
+    // Images that are not kept are not finished for whoever wants them.
+    if (options_.average) {
+      for (PlannedImage& image : plan.images) image.item.settings["average"] = "yes";
+    }
+    if (const BakedRecord* const known = ledger_.value(plan.images.front().item)) {
+      return set_value(job, known->value, host::output_space(texture.extension, texture.encoding));
+    }
+    for (PlannedImage& image : plan.images) image.step = ledger_.step(image.item, diagnostics_);
+    if (plan.has(BakeStep::bake)) return compile(job, plan);
+    conclude(job, plan, {});
+  }
+
+  void compile(const BakedDocument::Job& job, const MapPlan& plan) {
+    const TextureSettings& texture = plan.texture;
+    const std::size_t errors = diagnostics_.error_count();
+    ShaderOptions shader =
+        reproducible(with_profile(opened_, job.request, false, options_.shader, diagnostics_));
     shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
     shader.compile.stop = stop_from_now(shader.compile);
     const auto graph = build_graph(*opened_.document, opened_.system->library(),
@@ -114,70 +132,129 @@ class MaterialBaker {
     const auto kernel =
         graph ? opened_.system->compile_outputs(*graph, shader, diagnostics_) : nullptr;
     if (kernel == nullptr) return;
+    // Without an image, say, there is to be no document: nothing is finished then.
+    const bool is_right = is_sound(*opened_.system, errors, diagnostics_);
+    if (ledger_.is_recording() && !is_right) return;
     reads_.warn(*graph, kernel->kernel.program(), !job.frame.empty(), where_of(job));
-    host::BakeSettings settings = options_.settings;
-    settings.width = texture.width;
-    settings.height = texture.height;
     // What asks for nothing of a point is the same at all of them.
     if (kernel->kernel.program().inputs.empty()) {
+      host::BakeSettings settings = options_.settings;
       settings.width = settings.height = 1;
-      const std::vector<float> texel = host::bake_image(*kernel, 0, settings);
+      const OutputKernel loaded =
+          host::with_tiles(*kernel, 0, settings, opened_.system->textures(), diagnostics_);
+      const std::vector<float> texel = host::bake_image(loaded, 0, settings);
       if (texel.empty()) return host::report_too_many_steps(kernel->outputs[0], diagnostics_);
+      BakedRecord record;
+      record.type = type_name(job.type);
+      record.value = texel;
+      if (is_sound(*opened_.system, errors, diagnostics_)) {
+        ledger_.add_value(plan.images.front().item, record, loaded.kernel, diagnostics_);
+      }
       return set_value(job, texel, shader.graph.output_space);
     }
-    bake_texture(job, *kernel, settings, texture);
+    bake_map(job, *kernel, plan);
     report_code(kernel->kernel, shader, diagnostics_);
   }
 
-  /// A texture for every tile, of a matrix for every row; or a value, where all
-  /// texels of all of them are alike.
-  void bake_texture(const BakedDocument::Job& job, const OutputKernel& kernel,
-                    host::BakeSettings settings, TextureSettings& texture) {
-    const std::string whole = stems_.stem_of(job.stem, where_of(job), diagnostics_);
-    std::vector<std::unique_ptr<host::PartialFile>> files;
-    std::vector<std::string> names;
-    std::vector<BakedMap> maps;
-    host::TexelStatistics all;
+  /// Of each image what is not there yet.
+  void bake_map(const BakedDocument::Job& job, const OutputKernel& kernel, const MapPlan& plan) {
+    std::vector<Written> written;
+    const std::size_t errors = diagnostics_.error_count();
+    host::BakeSettings settings = options_.settings;
+    settings.width = plan.texture.width;
+    settings.height = plan.texture.height;
     warn_of_no_mean(settings.sampling, job.type, where_of(job), diagnostics_);
-    const int rows = matrix_rows(job.type);
-    for (int row = 0; row < rows; ++row) {
-      host::TexelStatistics row_all;
-      texture.encoding.first_channel = row * rows;
-      texture.encoding.channels = rows == 1 ? 0 : rows;
-      const std::string stem = rows == 1 ? whole : fmt::format("{}.row{}", whole, row + 1);
-      for (const UdimTile& tile : options_.tiles.empty() ? one_tile : options_.tiles) {
-        settings.corner_u = tile.u;
-        settings.corner_v = tile.v;
-        const fs::path file = file_of(stem, options_.tiles.empty() ? "" : tile.number(), texture);
-        const Stopwatch watch;
-        host::TextureReport report;
-        report.is_judged = !options_.textures.clip;
-        report.histogram = report_.form() == BakeReport::Form::json;
-        files.push_back(bake_file(kernel, settings, texture, file, report));
-        if (files.back() == nullptr) return;
-        row_all.add(report.statistics);
-        maps.push_back({file.lexically_relative(absolute_path(".")).string(), job.stem, job.type,
-                        texture, report.statistics, watch.seconds()});
+    for (const PlannedImage& image : plan.images) {
+      if (image.step != BakeStep::bake) continue;
+      settings.corner_u = image.tile.u;
+      settings.corner_v = image.tile.v;
+      const Stopwatch watch;
+      host::TextureReport report;
+      report.is_judged = !options_.textures.clip;
+      report.histogram = report_.form() == BakeReport::Form::json;
+      const TextureSettings texture = plan.texture_of(image.row);
+      const fs::path path = image.item.path;
+      const OutputKernel loaded =
+          host::with_tiles(kernel, 0, settings, opened_.system->textures(), diagnostics_);
+      auto file = bake_file(loaded, settings, texture, path, report);
+      if (file == nullptr) return;
+      const BakedMap map{shown(path), job.stem,          job.type,
+                         texture,     report.statistics, watch.seconds()};
+      // Else it has its name only once all of the map is known to be right.
+      if (ledger_.is_recording()) {
+        if (!host::commit(*file, diagnostics_)) return;
+        // What lacks a tile, say, is written, but not finished.
+        if (!is_sound(*opened_.system, errors, diagnostics_)) return;
+        if (!ledger_.add(image.item, record_of(map), loaded.kernel, diagnostics_)) return;
+        file_is_written(map.file, options_.quiet);
       }
-      names.push_back(relative(file_of(stem, options_.tiles.empty() ? "" : "<UDIM>", texture)));
+      written.push_back({&image, std::move(file), map});
+    }
+    conclude(job, plan, std::move(written));
+  }
+
+  /// An image that this run has baked.
+  struct Written {
+    const PlannedImage* image;
+    std::unique_ptr<host::PartialFile> file;
+    BakedMap map;
+  };
+
+  /// All of a map at once, with those images that were there.
+  std::vector<BakedMap> whole_map(const MapPlan& plan, const std::vector<Written>& written) const {
+    std::vector<BakedMap> maps;
+    auto next = written.begin();
+    for (const PlannedImage& image : plan.images) {
+      if (next != written.end() && next->image == &image) {
+        maps.push_back((next++)->map);
+      } else if (image.step == BakeStep::keep) {
+        maps.push_back(kept_map(shown(image.item.path), ledger_.record(image.item),
+                                plan.texture_of(image.row), ledger_.is_merging()));
+      }
+    }
+    return maps;
+  }
+
+  /// The input gets a texture; or a value, where all texels of all images are alike.
+  void conclude(const BakedDocument::Job& job, const MapPlan& plan, std::vector<Written> written) {
+    std::vector<BakedMap> maps = whole_map(plan, written);
+    if (maps.size() < plan.images.size()) {
+      for (BakedMap& map : maps) report_.add(std::move(map));
+      left_.insert(job.source);
+      return;
+    }
+    host::TexelStatistics all;
+    const std::size_t of_a_row = maps.size() / static_cast<std::size_t>(plan.rows);
+    for (std::size_t row = 0; row < maps.size(); row += of_a_row) {
+      host::TexelStatistics row_all;
+      for (std::size_t i = 0; i < of_a_row; ++i) row_all.add(maps[row + i].statistics);
       all.channels.insert(all.channels.end(), row_all.channels.begin(), row_all.channels.end());
     }
-    if (all.is_uniform()) {
-      return set_value(job, least_of(all), host::output_space(texture.extension, texture.encoding));
+    const TextureSettings& texture = plan.texture;
+    if (all.is_uniform() || (options_.average && host::has_mean(job.type))) {
+      if (ledger_.is_recording()) {
+        for (const PlannedImage& image : plan.images) ledger_.drop(image.item);
+      }
+      return set_value(job, texel_of(all), host::output_space(texture.extension, texture.encoding));
     }
     if (!check_range(job, texture, all)) return;
-    for (const auto& file : files) {
-      if (!host::commit(*file, diagnostics_)) return;
-      const fs::path path = file->path();
-      file_is_written(path.lexically_relative(absolute_path(".")).string(), options_.quiet);
+    for (const Written& one : written) {
+      if (ledger_.is_recording()) break;
+      if (!host::commit(*one.file, diagnostics_)) return;
+      file_is_written(one.map.file, options_.quiet);
     }
     for (BakedMap& map : maps) report_.add(std::move(map));
     if (!options_.tiles.empty()) baked_.set_tiles(options_.tiles);
     finish(
         job,
         remember(job, {{},
-                       std::move(names),
+                       plan.names,
                        host::texture_colorspace(job.type, texture.extension, texture.encoding)}));
+  }
+
+  /// As messages have it.
+  static std::string shown(const fs::path& path) {
+    return path.lexically_relative(absolute_path(".")).string();
   }
 
   const Result& remember(const BakedDocument::Job& job, Result result) {
@@ -192,19 +269,6 @@ class MaterialBaker {
   SourceLocation where_of(const BakedDocument::Job& job) const {
     if (job.output != nullptr) return location(*job.output);
     return {opened_.document->files().front(), 0, 0, job.stem};
-  }
-
-  fs::path file_of(const std::string& stem, const std::string& tile,
-                   const TextureSettings& texture) const {
-    const std::string name =
-        fmt::format("{}{}{}{}", stem, tile.empty() ? "" : ".", tile, texture.extension);
-    return absolute_path(fs::path(options_.folder) / name);
-  }
-
-  /// As it reads from the document's folder.
-  std::string relative(const fs::path& file) const {
-    const std::string name = file.lexically_relative(folder_).generic_string();
-    return name.empty() ? file.string() : name;
   }
 
   std::unique_ptr<host::PartialFile> bake_file(const OutputKernel& kernel,
@@ -270,27 +334,30 @@ class MaterialBaker {
     if (host::write_text_atomically(options_.document, baked_.text(), diagnostics_)) {
       file_is_written(options_.document, options_.quiet);
       report_.set_document(options_.document);
+      ledger_.set_document(options_.document);
     }
   }
 
   const DocumentBake& options_;
   const Opened& opened_;
+  BakeLedger& ledger_;
   BakeReport& report_;
   Diagnostics& diagnostics_;
   PlaneReads reads_;
   FileStems stems_;
   std::map<std::string, Result> results_;  ///< By Job::source.
+  std::set<std::string> left_;             ///< The same of what other shards have to bake, too.
   fs::path folder_;
   BakedDocument baked_;
 };
 
 }  // namespace
 
-void bake_document(const DocumentBake& options, const Opened& opened, BakeReport& report,
-                   Diagnostics& diagnostics) {
+void bake_document(const DocumentBake& options, const Opened& opened, BakeLedger& ledger,
+                   BakeReport& report, Diagnostics& diagnostics) {
   const Definitions definitions(*opened.document, &opened.system->library().definitions(),
                                 diagnostics);
-  MaterialBaker(options, opened, definitions, report, diagnostics).run();
+  MaterialBaker(options, opened, definitions, ledger, report, diagnostics).run();
 }
 
 }  // namespace nacre::tool

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "examples/bake/write_texture.h"
+#include "examples/tool/bake_ledger.h"
 #include "examples/tool/bake_report.h"
 #include "examples/tool/options.h"
 #include "examples/tool/texture_request.h"
@@ -21,13 +22,15 @@ struct DocumentBake {
   std::vector<UdimTile> tiles;  ///< One texture for each; none: one for uv from 0 to 1.
   ShaderOptions shader;
   bool quiet = false;
+  bool is_shard = false;  ///< Then there is no document.
+  bool average = false;   ///< Means in place of textures.
 };
 
 /// Bakes what feeds materials into textures, and writes a document that has them
 /// in place of the graphs. The opened document gets outputs for it. A file that
 /// could not be written is an error, and then there is no document; nor is there if the work
-/// is stopped.
-void bake_document(const DocumentBake& options, const Opened& opened, BakeReport& report,
-                   Diagnostics& diagnostics);
+/// is stopped, or some of it is another shard's or missing.
+void bake_document(const DocumentBake& options, const Opened& opened, BakeLedger& ledger,
+                   BakeReport& report, Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -33,7 +34,23 @@ double samples_of_a_texel(const host::TexelStatistics& statistics) {
              : static_cast<double>(statistics.samples) / static_cast<double>(statistics.texels);
 }
 
-Json json_of(const host::ChannelStatistics& channel, const std::string& name, bool is_direction) {
+const char* name_of(BakedMap::State state) {
+  switch (state) {
+    case BakedMap::State::written: return "written";
+    case BakedMap::State::skipped: return "skipped";
+    case BakedMap::State::merged: break;
+  }
+  return "merged";
+}
+
+/// Whether there are counts: of what another run has baked there may be none.
+bool has_histogram(const BakedMap& map, const host::ChannelStatistics& channel) {
+  return map.state == BakedMap::State::written ||
+         std::ranges::any_of(channel.histogram, [](std::uint64_t count) { return count != 0; });
+}
+
+Json json_of(const host::ChannelStatistics& channel, const std::string& name, bool is_direction,
+             bool has_counts) {
   Json one;
   one["name"] = name;
   one["min"] = channel.least;
@@ -41,6 +58,7 @@ Json json_of(const host::ChannelStatistics& channel, const std::string& name, bo
   one["max"] = channel.most;
   one["infinite"] = channel.unbounded;
   one["nan"] = channel.no_number;
+  if (!has_counts) return one;
   Json& histogram = one["histogram"];
   histogram["from"] = is_direction ? -1.0 : 0.0;
   histogram["to"] = 1.0;
@@ -60,6 +78,7 @@ bool is_direction(const BakedMap& map) {
 Json json_of(const BakedMap& map) {
   Json one;
   one["file"] = map.file;
+  one["state"] = name_of(map.state);
   one["output"] = map.output;
   one["type"] = type_name(map.type);
   one["width"] = map.texture.width;
@@ -79,8 +98,9 @@ Json json_of(const BakedMap& map) {
   one["shading_cpu_seconds"] = map.statistics.shading_seconds;
   one["channels"] = Json::array();
   for (std::size_t c = 0; c < map.statistics.channels.size(); ++c) {
+    const host::ChannelStatistics& channel = map.statistics.channels[c];
     one["channels"].push_back(
-        json_of(map.statistics.channels[c], channel_name(map, c), is_direction(map)));
+        json_of(channel, channel_name(map, c), is_direction(map), has_histogram(map, channel)));
   }
   return one;
 }
@@ -93,6 +113,25 @@ std::string numbers(const std::vector<float>& value) {
 
 }  // namespace
 
+BakedMap kept_map(const std::string& file, const BakedRecord& record,
+                  const TextureSettings& texture, bool is_merged) {
+  return {file,
+          record.output,
+          parse_type(record.type).value_or(Type::none),
+          texture,
+          record.statistics,
+          record.seconds,
+          is_merged ? BakedMap::State::merged : BakedMap::State::skipped};
+}
+
+BakedRecord record_of(const BakedMap& map) {
+  BakedRecord record;
+  record.type = type_name(map.type);
+  record.statistics = map.statistics;
+  record.seconds = map.seconds;
+  return record;
+}
+
 void BakeReport::print() const {
   if (form_ == Form::text) print_text();
   if (form_ == Form::json) print_json();
@@ -100,9 +139,11 @@ void BakeReport::print() const {
 
 void BakeReport::print_text() const {
   for (const BakedMap& map : maps_) {
-    fmt::print("{}: {} {}x{}, {:g} samples a texel, {:.3g} s{}\n", map.file, map.output,
+    const bool is_ours = map.state == BakedMap::State::written;
+    fmt::print("{}: {} {}x{}, {:g} samples a texel, {:.3g} s{}{}{}\n", map.file, map.output,
                map.texture.width, map.texture.height, samples_of_a_texel(map.statistics),
-               map.seconds, map.statistics.is_uniform() ? "; uniform: a value would do" : "");
+               map.seconds, is_ours ? "" : ", ", is_ours ? "" : name_of(map.state),
+               map.statistics.is_uniform() ? "; uniform: a value would do" : "");
     for (std::size_t c = 0; c < map.statistics.channels.size(); ++c) {
       const host::ChannelStatistics& channel = map.statistics.channels[c];
       fmt::print("  {}: {:g} to {:g}, mean {:g}\n", channel_name(map, c), channel.least,
@@ -126,6 +167,11 @@ void BakeReport::print_json() const {
     one["value"] = value.value;
     one["colorspace"] = value.colorspace;
     all["values"].push_back(one);
+  }
+  for (const auto state :
+       {BakedMap::State::written, BakedMap::State::skipped, BakedMap::State::merged}) {
+    all[name_of(state)] =
+        std::ranges::count_if(maps_, [&](const BakedMap& map) { return map.state == state; });
   }
   all["seconds"] = watch_.seconds();
   // Names come from documents, which may hold bytes that are no UTF-8.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "examples/bake/texel_statistics.h"
+#include "examples/tool/bake_manifest.h"
 #include "examples/tool/texture_request.h"
 
 namespace nacre::tool {
@@ -28,7 +29,15 @@ struct BakedMap {
   TextureSettings texture;
   host::TexelStatistics statistics;
   double seconds = 0.0;  ///< To shade and to write it, without compiling.
+  /// Whether this run wrote it, or found that another had.
+  enum class State { written, skipped, merged } state = State::written;
 };
+
+/// Of an image that another run has baked: one found there, or merged.
+BakedMap kept_map(const std::string& file, const BakedRecord& record,
+                  const TextureSettings& texture, bool is_merged);
+/// What a manifest has of an image, but for what BakeLedger adds.
+BakedRecord record_of(const BakedMap& map);
 
 /// Something baked that is the same everywhere, and is no file.
 struct BakedValue {

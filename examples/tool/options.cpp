@@ -64,6 +64,13 @@ void CommonOptions::add_document(CLI::App& command) {
                    "Refuse what the standard has no meaning for; else what MaterialX makes code "
                    "of is read as that code has it, with a warning");
   command.add_flag("-q,--quiet", quiet, "No progress on standard error");
+  command
+      .add_option("--texture-memory", texture_limits.budget,
+                  "Bytes of images in memory at once (64MB, 2GB); those that there is no room for "
+                  "are read piece by piece")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE")
+      ->default_str("2GB");
   add_limits(command);
 }
 
@@ -284,6 +291,15 @@ ShaderOptions with_profile(const Opened& opened, const std::string& name, bool i
                            ShaderOptions options, Diagnostics& diagnostics) {
   if (opened.profile) apply_profile(*opened.profile, {name}, is_material, options, diagnostics);
   return options;
+}
+
+ShaderOptions reproducible(ShaderOptions options) {
+  if (options.compile.accuracy == Accuracy::fast) options.compile.asynchronous = false;
+  return options;
+}
+
+bool is_sound(ShadingSystem& system, std::size_t errors, const Diagnostics& diagnostics) {
+  return diagnostics.error_count() == errors && system.textures().statistics().read_failures == 0;
 }
 
 void report_texels(ShadingSystem& system, Diagnostics& diagnostics) {

@@ -87,6 +87,14 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics);
 ShaderOptions with_profile(const Opened& opened, const std::string& name, bool is_material,
                            ShaderOptions options, Diagnostics& diagnostics);
 
+/// With the same bytes whenever and however fast code is there: where the interpreter's bits are
+/// others, as in `fast`, nothing is interpreted meanwhile.
+ShaderOptions reproducible(ShaderOptions options);
+
+/// Whether all that was made is right since there were so many errors: that there are no more,
+/// and that all texels of images could be read.
+bool is_sound(ShadingSystem& system, std::size_t errors, const Diagnostics& diagnostics);
+
 /// Says what was taken for 0 in images that could be had: numbers that are none, and what
 /// could no longer be read while it was looked up.
 void report_texels(ShadingSystem& system, Diagnostics& diagnostics);

@@ -65,6 +65,12 @@ void TextureRequest::add(CLI::App& command) {
                   "what its nodes read)")
       ->check(CLI::IsMember({"raw", "encoded"}))
       ->capture_default_str();
+  command
+      .add_option("--name", name,
+                  "How images are called, with {output}, {udim} and {ext} in braces; what has no "
+                  "tiles is called without {udim} and the '.', '_' or '-' before it")
+      ->type_name("TEXT")
+      ->capture_default_str();
   command.add_flag("--clip", clip,
                    "With --document, cut numbers off at the ends of what a texture holds, with a "
                    "warning, where that is an error otherwise");
@@ -80,6 +86,8 @@ bool texture_settings(const TextureRequest& request, const Element* output,
                       TextureSettings& settings, Diagnostics& diagnostics) {
   settings = {};
   settings.encoding.bits = request.bits;
+  settings.encoding.software = "nacre " NACRE_TOOL_VERSION;
+  settings.encoding.document = request.document;
   settings.encoding.encodes_vectors = request.vectors == "encoded";
   if (!request.size.empty()) {
     parse_size(request.size, settings.width, settings.height, diagnostics);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "examples/bake/write_texture.h"
+#include "examples/tool/file_name.h"
 #include "jit/document/document.h"
 #include "runtime/diagnostic.h"
 
@@ -16,11 +17,13 @@ namespace nacre::tool {
 /// taken from the `width`, `height`, `bitdepth` and `colorspace` of an <output>
 /// (MaterialX Specification, "Output Elements"), then from the format.
 struct TextureRequest {
-  std::string size;             ///< --size: "N", "WxH", or "" if not given.
-  int bits = 0;                 ///< --bitdepth, 0 if not given.
-  std::string format;           ///< --format, "" if not given.
-  std::string vectors = "raw";  ///< --vectors: "raw" or "encoded".
-  bool clip = false;            ///< --clip, for --document: cut off rather than refuse.
+  std::string size;                      ///< --size: "N", "WxH", or "" if not given.
+  int bits = 0;                          ///< --bitdepth, 0 if not given.
+  std::string format;                    ///< --format, "" if not given.
+  std::string vectors = "raw";           ///< --vectors: "raw" or "encoded".
+  bool clip = false;                     ///< --clip, for --document: cut off rather than refuse.
+  std::string name = default_file_name;  ///< --name: see file_name.h.
+  std::string document = {};             ///< Not of the command line: the digest that files name.
 
   void add(CLI::App& command);
   /// True if what was given can be understood.

@@ -73,16 +73,46 @@ Range of_table(const Table& table) {
   return std::isfinite(low) && std::isfinite(high) ? rounded(low, high) : Range{};
 }
 
+bool is_point(const Range& a) { return a.is_bounded() && a.low == a.high; }
+
+Range floored(const Range& a) {
+  return a.is_bounded() ? Range{std::floor(a.low), std::floor(a.high), false} : Range{};
+}
+
+/// Of Op::f_to_i.
+Range whole(const Range& a) {
+  return a.is_bounded() ? Range{std::trunc(a.low), std::trunc(a.high), false} : Range{};
+}
+
+/// Of integers, which wrap around: nothing is known of what may.
+Range integers(double low, double high) {
+  return low >= -0x1p31 && high < 0x1p31 ? Range{low, high, false} : Range{};
+}
+
+Range integer_sum(const Range& a, const Range& b) {
+  return a.is_bounded() && b.is_bounded() ? integers(a.low + b.low, a.high + b.high) : Range{};
+}
+
+Range integer_product(const Range& a, const Range& b) {
+  if (!a.is_bounded() || !b.is_bounded()) return {};
+  const auto [low, high] =
+      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+  return integers(low, high);
+}
+
 class Ranges {
  public:
-  explicit Ranges(const Program& program) : program_(program) {
+  explicit Ranges(const Program& program, std::span<const Range> inputs = {})
+      : program_(program), inputs_(inputs) {
     for (const Table& table : program.tables) tables_.push_back(of_table(table));
   }
 
   std::vector<Range> run() {
     for (const Instruction& instruction : program_.entry().code) {
-      const bool is_float = instruction.type == Scalar::f32;
-      list_.push_back(is_float ? of(instruction) : Range{});
+      Range range;
+      if (instruction.type == Scalar::f32) range = of(instruction);
+      if (instruction.type == Scalar::i32 && !inputs_.empty()) range = of_integer(instruction);
+      list_.push_back(range);
     }
     return std::move(list_);
   }
@@ -98,8 +128,10 @@ class Ranges {
         const double value = std::bit_cast<float>(flush_denormal(x.imm));
         return std::isfinite(value) ? Range{value, value, false} : Range{};
       }
-      case Op::add: return sum(at(x, 0), at(x, 1));
-      case Op::sub: return sum(at(x, 0), negated(at(x, 1)));
+      case Op::input: return inputs_.empty() ? Range{} : inputs_[x.imm];
+      case Op::floor: return inputs_.empty() ? Range{} : floored(at(x, 0));
+      case Op::add: return total(at(x, 0), at(x, 1));
+      case Op::sub: return total(at(x, 0), negated(at(x, 1)));
       case Op::mul: return product(at(x, 0), at(x, 1));
       case Op::fma: return sum(product(at(x, 0), at(x, 1)), at(x, 2));
       case Op::div: return quotient(at(x, 0), at(x, 1));
@@ -118,7 +150,31 @@ class Ranges {
     }
   }
 
+  /// Numbers that are known add up to one that is: so it stays the number of a tile.
+  Range total(const Range& a, const Range& b) const {
+    if (inputs_.empty() || !is_point(a) || !is_point(b)) return sum(a, b);
+    const double exact = static_cast<float>(a.low + b.low);
+    return std::isfinite(exact) ? Range{exact, exact, false} : Range{};
+  }
+
+  Range of_integer(const Instruction& x) const {
+    switch (x.op) {
+      case Op::constant: {
+        const auto value = static_cast<double>(std::bit_cast<std::int32_t>(x.imm));
+        return {value, value, false};
+      }
+      case Op::f_to_i: return whole(at(x, 0));
+      case Op::iadd: return integer_sum(at(x, 0), at(x, 1));
+      case Op::isub: return integer_sum(at(x, 0), negated(at(x, 1)));
+      case Op::imul: return integer_product(at(x, 0), at(x, 1));
+      case Op::select: return hull(at(x, 1), at(x, 2));
+      case Op::merge: return hull(at(x, 0), at(x, 1));
+      default: return {};
+    }
+  }
+
   const Program& program_;
+  std::span<const Range> inputs_;
   std::vector<Range> tables_;
   std::vector<Range> list_;
 };
@@ -128,5 +184,9 @@ class Ranges {
 bool Range::is_bounded() const { return !nan && low > -infinity && high < infinity; }
 
 std::vector<Range> ranges_of(const Program& program) { return Ranges(program).run(); }
+
+std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs) {
+  return Ranges(program, inputs).run();
+}
 
 }  // namespace nacre

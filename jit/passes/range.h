@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "runtime/program/program.h"
@@ -22,5 +23,8 @@ struct Range {
 /// interval arithmetic of the operations as op.h says them, with room for the rounding of floats;
 /// inputs, parameters, texels, carries and results of calls may be anything.
 std::vector<Range> ranges_of(const Program& program);
+
+/// The same where so much is known of each of Program::inputs. Then i32 values have ranges, too.
+std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs);
 
 }  // namespace nacre

@@ -85,15 +85,31 @@ TextureSet RecordedTextures::acquire_tiles(const TextureKey& pattern, Diagnostic
     return {};
   }
   const bool is_given = given_.contains(pattern.path);
+  if (!is_given) files_.emplace(pattern.path, FileIdentity{});
   return acquire_set(store_, pattern, problems, [&](const TextureKey& tile) {
-    return is_given ? acquire_allowed(tile, problems) : acquire(tile, problems);
+    return is_given ? acquire_allowed(tile, problems) : acquire_tile(tile, problems);
   });
+}
+
+/// Now, or what stands for it until it is wanted.
+TextureHandle RecordedTextures::acquire_tile(const TextureKey& key, Diagnostics& problems) {
+  if (access_.defers_tiles && may_read(key.path)) {
+    TextureHandle stand_in = store_.stand_in(key, access_.stop);
+    if (stand_in != nullptr) {
+      deferred_.emplace(stand_in, key);
+      return stand_in;
+    }
+  }
+  return acquire(key, problems);
 }
 
 /// What is called otherwise is complained of by that name.
 TextureHandle RecordedTextures::acquire_allowed(const TextureKey& key, Diagnostics& problems) {
   const auto given = given_.find(key.path);
-  if (given == given_.end()) return store_.acquire(key, problems, access_.stop);
+  if (given == given_.end()) {
+    files_.emplace(key.path, identify(key.path));
+    return store_.acquire(key, problems, access_.stop);
+  }
   Diagnostics said;
   TextureHandle texture = store_.acquire(key, said, access_.stop);
   for (Diagnostic problem : said.all()) {
@@ -144,6 +160,7 @@ std::optional<std::string> RecordedTextures::read(const std::string& name) {
   Diagnostics problems;
   std::optional<std::string> bytes;
   if (may_read(name)) {
+    if (!given_.contains(name)) files_.emplace(name, identify(name));
     bytes = read_file(name, most_bytes, problems);
   } else {
     problems.error("file-outside", {name, 0, 0, {}}, "the file is outside the allowed folders",
@@ -159,6 +176,45 @@ RecordedTextures::Snapshot RecordedTextures::snapshot() const {
     const TextureHandle& texture =
         now.textures.emplace_back(slot.image != nullptr ? slot.image->get() : slot.texture);
     now.bindings.push_back({texture->words().data(), texture->words().size()});
+  }
+  return now;
+}
+
+namespace {
+
+/// Code made for one texture can read the other.
+bool is_alike(const Texture& a, const Texture& b) {
+  using namespace texture_layout;
+  const auto is_single = [](const Texture& texture) {
+    return texture.words()[word_level_count] == 1;
+  };
+  return b.resident() && a.words()[word_format] == b.words()[word_format] &&
+         a.words()[word_channels] == b.words()[word_channels] && is_single(a) == is_single(b);
+}
+
+}  // namespace
+
+RecordedTextures::Snapshot RecordedTextures::load_tiles(const std::vector<bool>& wanted,
+                                                        std::map<std::string, FileIdentity>& files,
+                                                        Diagnostics& diagnostics) const {
+  Snapshot now = snapshot();
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    const auto deferred = deferred_.find(now.textures[slot]);
+    if (deferred == deferred_.end() || !wanted[slot]) continue;
+    const std::string& path = deferred->second.path;
+    files.emplace(path, identify(path));
+    const TextureHandle texture = store_.acquire(deferred->second, diagnostics, access_.stop);
+    if (texture->missing()) continue;  // That is said.
+    if (!is_alike(*now.textures[slot], *texture)) {
+      diagnostics.error(
+          "tile-changed", {path, 0, 0, {}},
+          texture->resident() ? "the tile is another than when its set was found"
+                              : "there is no room for the tile beside the others",
+          texture->resident() ? "as many channels of the same type" : "more memory for textures");
+      continue;
+    }
+    now.bindings[slot] = {texture->words().data(), texture->words().size()};
+    now.textures[slot] = texture;
   }
   return now;
 }

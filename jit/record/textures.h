@@ -12,6 +12,7 @@
 #include "runtime/kernel.h"
 #include "runtime/node/texture_source.h"
 #include "runtime/program/recorder.h"
+#include "runtime/texture/file_identity.h"
 #include "runtime/texture/texture_set.h"
 #include "runtime/texture/texture_store.h"
 
@@ -23,6 +24,8 @@ struct ImageAccess {
   /// Whether a file may be read; null: all may.
   std::function<bool(const std::string& path)> may_read;
   Stop stop;  ///< Images that are not read by then are missing.
+  /// Tiles of sets are not loaded: see RecordedTextures::load_tiles.
+  bool defers_tiles = false;
 };
 
 /// The textures that one recording uses: finds them in the store while nodes
@@ -51,6 +54,9 @@ class RecordedTextures final : public TextureProvider {
   void give_access(ImageAccess access) { access_ = std::move(access); }
   /// How many of its complaints were errors: of images, with which kernels are made all the same.
   std::size_t error_count() const { return errors_; }
+  /// The files that were looked for, and what they were then: all zero where there was none, and
+  /// of names with <UDIM> or <UVTILE>, which stand for those there are. Not what a resolver gave.
+  const std::map<std::string, FileIdentity>& files() const { return files_; }
   /// Who asks for what is found from now on: complaints are made there.
   void asked_by(const SourceLocation& where) { where_ = where; }
 
@@ -60,6 +66,13 @@ class RecordedTextures final : public TextureProvider {
     std::vector<TextureBinding> bindings;  ///< For KernelArguments::textures.
   };
   Snapshot snapshot() const;
+  /// What is bound where tiles were left for later (ImageAccess::defers_tiles) and those slots are
+  /// wanted; in place of the others there are black ones. The tiles' files are added to `files`.
+  /// A tile that is no longer what it was when it was found is an error.
+  Snapshot load_tiles(const std::vector<bool>& wanted, std::map<std::string, FileIdentity>& files,
+                      Diagnostics& diagnostics) const;
+  /// Whether there are any.
+  bool has_deferred() const { return !deferred_.empty(); }
   /// Whether the next snapshot may be another.
   bool may_change() const;
   /// For KernelArguments::texture_callback; `user` is the RecordedTextures.
@@ -67,6 +80,7 @@ class RecordedTextures final : public TextureProvider {
 
  private:
   TextureHandle acquire(const TextureKey& key, Diagnostics& problems);
+  TextureHandle acquire_tile(const TextureKey& key, Diagnostics& problems);
   TextureHandle acquire_allowed(const TextureKey& key, Diagnostics& problems);
   TextureSet acquire_tiles(const TextureKey& pattern, Diagnostics& problems);
   /// What a slot is bound to.
@@ -93,6 +107,8 @@ class RecordedTextures final : public TextureProvider {
   std::size_t errors_ = 0;
   std::vector<Slot> slots_;
   std::map<std::string, Given> given_;  ///< By path.
+  std::map<std::string, FileIdentity> files_;
+  std::map<TextureHandle, TextureKey> deferred_;  ///< By what stands in for them.
   std::map<std::string, TextureSources> found_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "jit/passes/reached_tiles.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
 #include "jit/shading/bound_code.h"
@@ -15,6 +16,7 @@ BoundKernel::BoundKernel(std::shared_ptr<const Kernel> kernel,
   if (textures_ != nullptr) {
     bindings_ = textures_->snapshot().bindings;
     may_change_ = textures_->may_change();
+    files_ = textures_->files();
   }
   for (const ParameterSlot& slot : program().parameters) parameters_.push_back(slot.value);
 }
@@ -66,6 +68,21 @@ std::optional<std::size_t> BoundKernel::parameter_index(std::string_view name) c
     if (slots[i].name == name) return i;
   }
   return std::nullopt;
+}
+
+bool BoundKernel::has_deferred_tiles() const {
+  return textures_ != nullptr && textures_->has_deferred();
+}
+
+BoundKernel BoundKernel::within(std::span<const Range> inputs, Diagnostics& diagnostics) const {
+  BoundKernel bound = *this;
+  if (!has_deferred_tiles()) return bound;
+  bound.files_ = textures_->files();
+  RecordedTextures::Snapshot now =
+      textures_->load_tiles(reached_textures(program(), inputs), bound.files_, diagnostics);
+  bound.bindings_ = std::move(now.bindings);
+  bound.tiles_ = std::move(now.textures);
+  return bound;
 }
 
 template <class Run>

@@ -3,17 +3,22 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "jit/passes/range.h"
 #include "runtime/batch/binder.h"
 #include "runtime/batch/layout.h"
 #include "runtime/diagnostic.h"
 #include "runtime/kernel.h"
+#include "runtime/texture/file_identity.h"
+#include "runtime/texture/texture.h"
 
 namespace nacre {
 
@@ -58,6 +63,17 @@ class BoundKernel {
   /// Index of a slot in the block, if this kernel reads it.
   std::optional<std::size_t> parameter_index(std::string_view name) const;
 
+  /// For points of which so much is known, for each of Program::inputs: with those tiles of sets
+  /// that ShaderOptions::defer_tiles has left for later and such points may read. A tile that
+  /// cannot be had is an error.
+  BoundKernel within(std::span<const Range> inputs, Diagnostics& diagnostics) const;
+  /// Whether there are such tiles.
+  bool has_deferred_tiles() const;
+
+  /// The files that its nodes read, images above all, and what they were then, without deferred
+  /// tiles that are not loaded; see RecordedTextures::files.
+  const std::map<std::string, FileIdentity>& files() const { return files_; }
+
   /// See KernelArguments and RunStatus. `parameters` empty: those of the document. As many
   /// of each as the Program has, else nothing is run: RunStatus::wrong_arguments.
   [[nodiscard]] RunStatus run(std::span<const void* const> inputs, std::span<void* const> outputs,
@@ -85,6 +101,8 @@ class BoundKernel {
   std::shared_ptr<const Kernel> kernel_;
   std::shared_ptr<const RecordedTextures> textures_;
   std::vector<TextureBinding> bindings_;
+  std::vector<TextureHandle> tiles_;  ///< Hold what within() has bound.
+  std::map<std::string, FileIdentity> files_;
   bool may_change_ = false;  ///< Then `bindings_` are those of the time when it was made.
   std::vector<std::uint32_t> parameters_;
 };

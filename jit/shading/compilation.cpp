@@ -139,7 +139,9 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   const FileRoots roots = options_.files_anywhere
                               ? FileRoots{}
                               : image_roots(graph, options_.search_paths, parts_.texts->roots());
-  textures_->give_access(image_access(roots, options_.missing_images, options_.compile.stop));
+  ImageAccess access = image_access(roots, options_.missing_images, options_.compile.stop);
+  access.defers_tiles = options_.defer_tiles;
+  textures_->give_access(std::move(access));
   const RecordOptions options = record_options(roots);
   if (!options_.varying.empty()) {
     recorder_.vary_parameters([this](std::string_view slot) { return varies(slot); });

@@ -99,6 +99,9 @@ struct ShaderOptions {
   /// Whether an image that cannot be had is an error or a warning. The kernels are made in
   /// both cases, so that a host that shows pictures can go on showing them.
   MissingImages missing_images = MissingImages::error;
+  /// Tiles of sets (<UDIM>, <UVTILE>) are not loaded with the kernel, which has black ones until
+  /// BoundKernel::within loads those that are needed.
+  bool defer_tiles = false;
 };
 
 /// Outputs of node graphs as one kernel: channel "<name>", or "<name>.x" ... for

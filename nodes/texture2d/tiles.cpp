@@ -70,7 +70,7 @@ Float4 sample_tiles(Recorder& recorder, const TextureSources& sources, ImageLook
   for (const Group& group : group_tiles(sources.images)) {
     TextureSource image = group.image;
     const std::vector<float> slots = slots_of_cells(sources, group);
-    const std::string name = "tiles." + std::to_string(image.slot.constant());
+    const std::string name = std::string(tile_table_prefix) + std::to_string(image.slot.constant());
     const std::array<Ref, 1> index{cell.index.ref()};
     const Float slot(recorder.emit(Op::table, index, recorder.table(name, slots)));
     if (group.tiles.size() > 1) image.slot = to_int(slot);

@@ -119,6 +119,19 @@ TextureStore::Loaded TextureStore::load_image(const TextureKey& key, const Stop&
   return {std::move(texture), std::exchange(reservation.bytes, 0)};
 }
 
+TextureHandle TextureStore::stand_in(const TextureKey& key, const Stop& stop) const {
+  ImageReader reader;
+  if (reader.open(key.path, key.layer, options_.limits, stop)) return nullptr;
+  const texture_layout::Plan whole = plan_texture(reader.info(), key.policy);
+  if (whole.bytes() > options_.budget) return nullptr;
+  const int side = whole.levels == 1 ? 1 : 2;
+  const texture_layout::Plan plan = texture_layout::plan(whole.format, side, side, whole.channels);
+  AlignedWords words = AlignedWords::allocate(plan.total_words, options_.memory);
+  if (words.empty()) return nullptr;
+  texture_layout::write_header(plan, 0, words.span());
+  return std::make_shared<Texture>(std::move(words), 0);
+}
+
 TextureHandle TextureStore::open_tiled(const TextureKey& key, const ImageInfo& info) {
   std::shared_ptr<TileCache> cache;
   {

@@ -91,6 +91,11 @@ class TextureStore {
   /// image that failed is tried again once nobody holds the failed texture.
   TextureHandle acquire(const TextureKey& key, Diagnostics& diagnostics, const Stop& stop = {});
 
+  /// What stands for a texture that is acquired later: of its format, channels and number of texels
+  /// as far as kernels know them, but of few and black. Null where the image cannot be had, or
+  /// would not be resident.
+  TextureHandle stand_in(const TextureKey& key, const Stop& stop = {}) const;
+
   /// Images in memory, by names of the host's: documents that name one get it in place of a file.
   /// Set again, it is replaced in all kernels that have it, by an image of as many channels that is
   /// kept as the first one was. False, with a diagnostic, for what cannot be meant, does not fit

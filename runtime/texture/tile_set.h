@@ -56,7 +56,9 @@ std::optional<std::vector<TileFile>> find_tiles(const std::string& pattern,
 /// tile the coordinates are u - floor(u), v - floor(v), and taps clamp at its edge.
 inline constexpr std::uint32_t tile_directory_magic = 0x4e545301;  // "NTS" and version 1
 inline constexpr std::uint32_t no_tile = 0xffffffffu;              ///< In a cell without a file.
-inline constexpr std::size_t tile_directory_header_words = 16;     ///< Cells begin behind them.
+/// Tables of kernels that say in which slot a cell's tile is, or -1, have names that begin so.
+inline constexpr std::string_view tile_table_prefix = "tiles.";
+inline constexpr std::size_t tile_directory_header_words = 16;  ///< Cells begin behind them.
 
 /// `tiles` as find_tiles gives them; not empty.
 std::vector<std::uint32_t> tile_directory(const std::vector<TileFile>& tiles);
