@@ -28,7 +28,7 @@ struct Open {
 
 std::optional<Digest> digest_of_file(const std::string& path, FileIdentity* identity) {
   const Open open(path);
-  struct stat before {};
+  struct stat before{};
   if (open.file < 0 || ::fstat(open.file, &before) != 0 || !S_ISREG(before.st_mode)) return {};
   Sha256 digest;
   std::vector<char> bytes(std::size_t{1} << 20);
@@ -39,7 +39,7 @@ std::optional<Digest> digest_of_file(const std::string& path, FileIdentity* iden
     if (count == 0) break;
     digest.add({bytes.data(), static_cast<std::size_t>(count)});
   }
-  struct stat after {};
+  struct stat after{};
   const bool same = ::fstat(open.file, &after) == 0 && identity_of(after) == identity_of(before);
   if (!same) return {};
   if (identity != nullptr) *identity = identity_of(before);

@@ -67,7 +67,7 @@ Lock lock_folder(const std::string& folder) {
   if (file < 0) return {.file = -1, .is_gone = errno == ENOENT};
   const bool locked = ::flock(file, LOCK_EX | LOCK_NB) == 0;
   bool is_gone = !locked && errno == EWOULDBLOCK;
-  struct stat status {};
+  struct stat status{};
   if (locked && ::fstat(file, &status) == 0 && status.st_uid == ::geteuid()) {
     // Who swept between our opening and our locking has removed it: no links are left.
     if (status.st_nlink > 0) return {.file = file, .is_gone = false};
@@ -106,7 +106,7 @@ bool is_idle(const std::string& folder) {
 /// Why a file of that path cannot come to be, as far as can be told beforehand, or "".
 std::string obstacle(const std::string& path) {
   const fs::path name = fs::path(path).filename();
-  struct stat status {};
+  struct stat status{};
   if (::stat(path.c_str(), &status) != 0) {
     if (errno != ENOENT) return last_error();
     return name.empty() || name == "." || name == ".." ? "this is no name of a file" : "";

@@ -18,7 +18,10 @@ work=$(mktemp -d)
 chmod 755 "$work"
 daemons=()
 end() {
-  for daemon in "${daemons[@]}"; do kill "$daemon" 2> /dev/null || true; done
+  [ -z "${array:-}" ] || scancel "$array" 2> /dev/null || true
+  kill "${daemons[@]:1}" 2> /dev/null || true
+  sleep 1
+  kill "${daemons[0]}" 2> /dev/null || true
   wait 2> /dev/null || true
   rm -rf "$work"
 }
@@ -65,7 +68,8 @@ PartitionName=farm Nodes=n[1-3] Default=YES MaxTime=INFINITE State=UP
 EOF
 
 munged --foreground --force --key-file="$work/munge/key" --socket="$work/socket" \
-  --pid-file="$work/munge/pid" --log-file="$work/munge/log" --seed-file="$work/munge/seed" &
+  --pid-file="$work/munge/pid" --log-file="$work/munge/log" --seed-file="$work/munge/seed" \
+  &> "$work/log/munged" &
 daemons+=($!)
 for _ in $(seq 100); do [ -S "$work/socket" ] && break; sleep 0.1; done
 slurmctld -D -i &> "$work/log/ctld.out" &
@@ -73,8 +77,7 @@ daemons+=($!)
 declare -A node
 start_node() {
   mkdir -p "$work/spooln$1"
-  # A group of its own, for all of it to be lost at once.
-  setsid slurmd -D -N "n$1" &> "$work/log/n$1.out" &
+  slurmd -D -N "n$1" &> "$work/log/n$1.out" &
   node[$1]=$!
   daemons+=($!)
 }
@@ -121,26 +124,15 @@ sleep 0.5
 lost=$(squeue -h -r -j "${array}_2" -o %N)
 say "shard 2 runs on $lost, which is lost now:"
 squeue -r -j "$array" -o "%i %T %N"
-number=${lost#n}
-scontrol listpids 2> /dev/null | head -0
-pkill_group() {  # slurmd, and what it started: slurmstepd, the script, nacre.
-  local all=("$1") next=("$1")
-  while [ "${#next[@]}" -gt 0 ]; do
-    mapfile -t next < <(for id in "${next[@]}"; do ps -o pid= --ppid "$id" | tr -d ' '; done)
-    all+=("${next[@]}")
-  done
-  kill -KILL "${all[@]}" 2> /dev/null || true
-}
-steps=$(ps -eo pid=,args= | awk -v job="slurmstepd: \\[${array}" '$0 ~ job {print $1}')
-for step in $steps; do
-  # Of all elements of the array that of the lost node: its spool is open in its step daemon.
-  grep -qz "SLURMD_NODENAME=$lost" "/proc/$step/environ" 2> /dev/null && pkill_group "$step"
-  for child in $(ps -o pid= --ppid "$step"); do
-    grep -qz "SLURMD_NODENAME=$lost" "/proc/$child/environ" 2> /dev/null && pkill_group "$step"
-  done
-done
-pkill_group "${node[$number]}"
-ls -A farm | grep -c '^\.nacre-' | sed 's/^/partial files now: /' || true
+# Its daemon, the daemon of the job's step, and what that has started.
+job=$(squeue -h -r -j "${array}_2" -o %A)
+mapfile -t of_job < <(pgrep -f "^slurmstepd: \[$job\." || true
+  for id in $(pgrep -x 'nacre|bash|nacre-compile-w'); do
+    grep -qsz "^SLURM_JOB_ID=$job$" "/proc/$id/environ" && echo "$id"
+  done || true)
+kill -KILL "${node[${lost#n}]}" "${of_job[@]}"
+say "killed: slurmd of $lost and ${#of_job[@]} processes of its job;" \
+  "partial files left: $(find farm -name '.nacre-*' | wc -l)"
 
 for _ in $(seq 120); do
   state=$(sinfo -h -n "$lost" -o %T)
@@ -151,7 +143,7 @@ say "$lost is $state; its shard:"
 squeue -r -j "$array" -o "%i %T %N %r"
 sleep 1
 say "$lost comes back"
-start_node "$number"
+start_node "${lost#n}"
 for _ in $(seq 1200); do
   state=$(scontrol show job "$merge" | sed -n 's/.*JobState=\([A-Z]*\).*/\1/p')
   [[ $state == COMPLETED || $state == FAILED || $state == CANCELLED ]] && break

@@ -22,10 +22,11 @@ constexpr std::uint64_t most_kept = std::uint64_t{256} << 20;
 /// A level on its way: rows come from the top.
 struct Level {
   int width, height;
-  int rows = 0;             ///< That have come.
-  std::vector<float> band;  ///< Rows that were not written yet.
-  std::vector<float> even;  ///< The row above, where the next one makes a row of the next level.
-  std::string file = {};    ///< Where its rows are kept; "": the texture itself.
+  int rows = 0;                  ///< That have come.
+  std::vector<float> band = {};  ///< Rows that were not written yet.
+  std::vector<float> even =
+      {};                 ///< The row above, where the next one makes a row of the next level.
+  std::string file = {};  ///< Where its rows are kept; "": the texture itself.
   std::ofstream stream = {};
 };
 
