@@ -17,7 +17,10 @@ namespace {
 class LevelWriter final : public ImageWriter {
  public:
   LevelWriter(std::string file, const ImageHeader& header)
-      : file_(std::move(file)), repeats_(header.repeats), image_(spec_of(header)) {}
+      : file_(std::move(file)),
+        repeats_(header.repeats),
+        texts_(header.texts),
+        image_(spec_of(header)) {}
 
   int block_rows() const override { return 16; }
 
@@ -48,6 +51,7 @@ class LevelWriter final : public ImageWriter {
     config.attribute("maketx:highlightcomp", 0);
     config.attribute("tiff:half", 1);
     config.attribute("DateTime", "");
+    for (const auto& [name, text] : texts_) config.attribute(name, text);
     config.attribute("wrapmodes", repeats_ ? "periodic,periodic" : "clamp,clamp");
     const std::string levels = file_ + ".levels.tx";
     std::string why;
@@ -68,6 +72,7 @@ class LevelWriter final : public ImageWriter {
  private:
   std::string file_;
   bool repeats_;
+  std::vector<std::pair<std::string, std::string>> texts_;
   OIIO::ImageBuf image_;
 };
 

@@ -119,11 +119,10 @@ TEST_F(BakeShard, NumbersThatMeanNothingAreSaid) {
 
 // Threads, shards and what is there already make no difference, in any format.
 TEST_F(BakeShard, BytesDependOnNothingButTheBake) {
-  for (const std::string format :
-       {"exr", "png", "tx", "exr --bitdepth 16", "png --bitdepth 16", "tx --bitdepth 16"}) {
+  for (const std::string format : {"exr", "png --bitdepth 16", "tx", "exr --bitdepth 16"}) {
     const std::string same =
         "--size 150x70 --samples 2 --output G/image --format " + format + " --out ";
-    const std::string stem = format.substr(0, 3) + std::to_string(format.size());
+    const std::string stem = format.substr(0, 2) + std::to_string(format.size());
     ASSERT_EQ(bake(same + file(stem + "one") + " --threads 1"), 0) << errors_;
     ASSERT_EQ(bake(same + file(stem + "many") + " --threads 7 --no-cache --wait-for-code"), 0);
     EXPECT_EQ(baked(stem + "one"), baked(stem + "many")) << format;

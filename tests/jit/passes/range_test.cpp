@@ -75,5 +75,33 @@ TEST(Ranges, OfQuotientsBySomethingThatMayBeZeroAreUnknown) {
   EXPECT_NEAR(quotient(0.5f).high, 4, 1e-5);
 }
 
+/// Of an integer that points with such x and y have.
+Range range_of_index(const Range& x, const Range& y) {
+  Recorder recorder;
+  const Float u = input(recorder, "x");
+  const Float v = input(recorder, "y");
+  // The cell of a tile in a directory of seven columns that begins at column 2 of row 3.
+  const Int index = to_int(floor(v) - 3.0f) * Int(7) + to_int(floor(u) - 2.0f);
+  const std::vector<SliceOutput> outputs{{"i", index.ref()}};
+  const Program program = slice(recorder.program(), "test", outputs);
+  std::vector<Range> inputs;
+  for (const Channel& channel : program.inputs) inputs.push_back(channel.name == "x" ? x : y);
+  return ranges_of(program, inputs)[program.entry().code.back().operands[0]];
+}
+
+TEST(Ranges, OfKnownInputsNameTheCellOfATile) {
+  const auto within = [](double low, double high) { return Range{low, high, false}; };
+  EXPECT_EQ(range_of_index(within(4.01, 4.99), within(5.01, 5.99)), within(2 * 7 + 2, 2 * 7 + 2));
+  EXPECT_EQ(range_of_index(within(8, 8.5), within(3, 3.5)), within(6, 6));
+  const Range several = range_of_index(within(4.5, 5.5), within(5.01, 5.99));
+  EXPECT_LE(several.low, 16);
+  EXPECT_GE(several.high, 17);
+  EXPECT_GT(several.low, 14);
+  EXPECT_LT(several.high, 19);
+  EXPECT_FALSE(range_of_index({}, within(5.01, 5.99)).is_bounded());
+  EXPECT_FALSE(range_of_index(within(4, 1e12), within(5.01, 5.99)).is_bounded());
+  EXPECT_FALSE(range_of_index({4, 5, true}, within(5.01, 5.99)).is_bounded());
+}
+
 }  // namespace
 }  // namespace nacre
