@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "examples/common/atomic_file.h"
 #include "examples/common/file_digest.h"
 #include "examples/common/partial_file.h"
 #include "examples/tool/paths.h"
@@ -52,6 +53,7 @@ BakeLedger::BakeLedger(const ManifestRequest& request, std::string folder, std::
 
 bool BakeLedger::open(Diagnostics& diagnostics) {
   if (!is_recording()) return true;
+  if (!host::prepare_output(manifest_, diagnostics)) return false;
   host::sweep_partial_files(folder_);
   const std::size_t errors = diagnostics.error_count();
   auto manifest = read_manifest(manifest_, diagnostics);
