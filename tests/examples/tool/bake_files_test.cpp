@@ -78,7 +78,7 @@ TEST_F(BakeFiles, MeansStandForMaps) {
   EXPECT_EQ(bake("--average"), 2);
 }
 
-class BakeTiles : public BakeFiles {
+class BakedTileSets : public BakeFiles {
  protected:
   void SetUp() override {
     Farm::SetUp();
@@ -121,7 +121,7 @@ class BakeTiles : public BakeFiles {
   }
 };
 
-TEST_F(BakeTiles, OnlyThoseAreLoadedThatPointsMayRead) {
+TEST_F(BakedTileSets, OnlyThoseAreLoadedThatPointsMayRead) {
   using Names = std::set<std::string>;
   EXPECT_EQ(tiles_of(sum("0, 0"), "1001"), Names{"s.1001.png"});
   EXPECT_EQ(tiles_of(sum("0, 0"), "1012"), Names{"s.1012.png"});

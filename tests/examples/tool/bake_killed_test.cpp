@@ -21,14 +21,23 @@ double seconds_since(Clock::time_point start) {
 class BakeKilled : public Farm {
  protected:
   std::vector<std::string> arguments(const std::string& folder, int run) const {
-    return {"bake",       file("a.mtlx"),
-            "--udim",     "auto",
-            "--cache",    file("cache"),
-            "--document", file(folder + "/b.mtlx"),
-            "--manifest", file("m/" + folder + ".json"),
-            "--size",     "192",
-            "--samples",  "16",
-            "--format",   formats_[static_cast<std::size_t>(run) % 3]};
+    return {"bake",
+            file("a.mtlx"),
+            "--udim",
+            "auto",
+            "--cache",
+            file("cache"),
+            "--document",
+            file(folder + "/b.mtlx"),
+            "--manifest",
+            file("m/" + folder + ".json"),
+            "--size",
+            "192",
+            "--samples",
+            "16",
+            "--clip",
+            "--format",
+            formats_[static_cast<std::size_t>(run) % 3]};
   }
   const std::array<std::string, 3> formats_{"exr", "png", "tx"};
 };
