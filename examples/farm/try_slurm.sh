@@ -106,7 +106,7 @@ cat > "$work/shared/a.mtlx" << EOF
 </materialx>
 EOF
 cd "$work/shared"
-bake=(a.mtlx --udim auto --size "${SIZE:-768}" --samples "${SAMPLES:-16}")
+bake=(a.mtlx --udim auto --size "${SIZE:-768}" --samples "${SAMPLES:-64}")
 say "one run"
 "$nacre" bake "${bake[@]}" --document one/b.mtlx --quiet > /dev/null 2>&1
 
@@ -120,8 +120,8 @@ for _ in $(seq 600); do
   [ -e farm/nacre-bake.2-of-4.json ] && break
   sleep 0.1
 done
-sleep 0.5
 lost=$(squeue -h -r -j "${array}_2" -o %N)
+[ -n "$lost" ] || { say "shard 2 has ended already: try SAMPLES=256"; exit 1; }
 say "shard 2 runs on $lost, which is lost now:"
 squeue -r -j "$array" -o "%i %T %N"
 # Its daemon, the daemon of the job's step, and what that has started.
