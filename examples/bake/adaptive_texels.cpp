@@ -14,7 +14,7 @@ int set_size(std::size_t set) { return 4 << (2 * set); }
 AdaptiveTexels::AdaptiveTexels(PointShader& shader, float error)
     : shader_(shader),
       error_(error),
-      width_(static_cast<std::size_t>(shader.plane().width())),
+      width_(static_cast<std::size_t>(shader.width())),
       means_(static_cast<std::size_t>(shader.components())),
       along_(means_.size()),
       across_(means_.size()) {
@@ -24,15 +24,16 @@ AdaptiveTexels::AdaptiveTexels(PointShader& shader, float error)
 RunStatus AdaptiveTexels::rows(int first, int rows, std::vector<std::vector<float>>& planes,
                                const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
   const int above = first > 0 ? 1 : 0;
-  const int below = first + rows < shader_.plane().height() ? 1 : 0;
+  const int below = first + rows < shader_.height() ? 1 : 0;
   const std::size_t begin = static_cast<std::size_t>(above) * width_;
   const std::size_t count = static_cast<std::size_t>(rows) * width_;
+  shader_.enter(first - above, rows + above + below);
   RunStatus status = first_set(first - above, rows + above + below, stop, counts);
   if (status != RunStatus::done) return status;
   look_around();
   std::vector<std::size_t> texels;
   for (std::size_t i = begin; i < begin + count; ++i) {
-    if (is_near_error(i) || wants_more(i, 0)) texels.push_back(i);
+    if (covered_[i] != 0 && (is_near_error(i) || wants_more(i, 0))) texels.push_back(i);
   }
   for (std::size_t set = 1; set < sets && !texels.empty(); ++set) {
     status = next_set(set, first - above, texels, stop, counts);
@@ -52,10 +53,15 @@ RunStatus AdaptiveTexels::first_set(int first, int rows, const std::atomic<std::
   const std::size_t count = static_cast<std::size_t>(rows) * width_;
   errors_.assign(count, 0.0f);
   for (auto* planes : {&means_, &along_, &across_}) {
-    for (std::vector<float>& plane : *planes) plane.resize(count);
+    for (std::vector<float>& plane : *planes) plane.assign(count, 0.0f);
   }
-  std::vector<std::size_t> texels(count);
-  for (std::size_t i = 0; i < count; ++i) texels[i] = i;
+  hits_.assign(count, 0);
+  covered_.resize(count);
+  std::vector<std::size_t> texels;
+  for (std::size_t i = 0; i < count; ++i) {
+    covered_[i] = shader_.covers(static_cast<std::size_t>(first) * width_ + i) ? 1 : 0;
+    if (covered_[i] != 0) texels.push_back(i);
+  }
   return next_set(0, first, texels, stop, counts);
 }
 
@@ -64,21 +70,20 @@ RunStatus AdaptiveTexels::next_set(std::size_t set, int first,
                                    const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
   const std::vector<SamplePlace>& places = places_[set];
   const std::size_t samples = places.size();
-  // What earlier sets count for.
-  std::size_t before = 0;
-  for (std::size_t i = 0; i < set; ++i) before += places_[i].size();
   points_.footprint = 1.0f / std::sqrt(static_cast<float>(samples));
   const std::size_t step = std::max<std::size_t>(1, shader_.points_of_a_run() / samples);
   for (std::size_t begin = 0; begin < texels.size(); begin += step) {
     const std::size_t count = std::min(step, texels.size() - begin);
     points_.x.clear();
     points_.y.clear();
+    points_.texel.clear();
     for (std::size_t i = begin; i < begin + count; ++i) {
       const auto column = static_cast<float>(texels[i] % width_);
       const auto row = static_cast<float>(static_cast<std::size_t>(first) + texels[i] / width_);
       for (const SamplePlace& place : places) {
         points_.x.push_back(column + place.x);
         points_.y.push_back(row + place.y);
+        points_.texel.push_back(static_cast<std::size_t>(first) * width_ + texels[i]);
       }
     }
     const RunStatus status = shader_.run(points_, stop);
@@ -87,13 +92,22 @@ RunStatus AdaptiveTexels::next_set(std::size_t set, int first,
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t texel = texels[begin + i];
       float error = set == 0 ? 0.0f : errors_[texel] / 3.0f;
+      const std::size_t before = hits_[texel];  // What earlier sets count for.
+      std::size_t hits = 0;
+      for (std::size_t k = 0; k < samples; ++k) hits += shader_.counts(i * samples + k) ? 1 : 0;
+      hits_[texel] += static_cast<std::uint32_t>(hits);
       for (std::size_t c = 0; c < means_.size(); ++c) {
         const float* values = shader_.result(c).data() + i * samples;
         double sum = 0.0;
-        for (std::size_t k = 0; k < samples; ++k) sum += static_cast<double>(values[k]);
+        for (std::size_t k = 0; k < samples; ++k) {
+          if (shader_.counts(i * samples + k)) sum += static_cast<double>(values[k]);
+        }
         const float old = means_[c][texel];
         if (set > 0) sum += static_cast<double>(old) * static_cast<double>(before);
-        means_[c][texel] = static_cast<float>(sum / static_cast<double>(before + samples));
+        // Where none counts all are the same point, which stands for the texel until one does.
+        means_[c][texel] = before + hits == 0
+                               ? values[0]
+                               : static_cast<float>(sum / static_cast<double>(before + hits));
         if (set == 0) {
           along_[c][texel] = 0.5f * ((values[2] + values[3]) - (values[0] + values[1]));
           across_[c][texel] = 0.5f * ((values[1] + values[3]) - (values[0] + values[2]));
@@ -114,18 +128,20 @@ float AdaptiveTexels::relative(float difference, std::size_t component, std::siz
   return std::abs(difference) / std::max(1.0f, std::abs(means_[component][texel]));
 }
 
-/// At the image's edges a texel stands for the one that is not there.
+/// At the edges of the image and of the surface a texel stands for the one that is not there.
 void AdaptiveTexels::look_around() {
   edges_.assign(errors_.size(), 0.0f);
   for (std::size_t c = 0; c < means_.size(); ++c) {
     const std::vector<float>& mean = means_[c];
     for (std::size_t i = 0; i < mean.size(); ++i) {
+      if (covered_[i] == 0) continue;
       const std::size_t x = i % width_;
       const float here = mean[i];
-      const float left = x > 0 ? mean[i - 1] : here;
-      const float right = x + 1 < width_ ? mean[i + 1] : here;
-      const float up = i >= width_ ? mean[i - width_] : here;
-      const float down = i + width_ < mean.size() ? mean[i + width_] : here;
+      const auto at = [&](std::size_t other) { return covered_[other] != 0 ? mean[other] : here; };
+      const float left = x > 0 ? at(i - 1) : here;
+      const float right = x + 1 < width_ ? at(i + 1) : here;
+      const float up = i >= width_ ? at(i - width_) : here;
+      const float down = i + width_ < mean.size() ? at(i + width_) : here;
       const float along = relative(left + right - 2.0f * here, c, i);
       const float across = relative(up + down - 2.0f * here, c, i);
       edges_[i] = std::max({edges_[i], along, across});

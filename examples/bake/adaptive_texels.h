@@ -24,8 +24,8 @@ namespace nacre::host {
 ///   difference of texels, d, is worth d / 2n of a texel where n samples do not see it; more than
 ///   four times the error asked for is looked into.
 ///
-/// What it gives does not depend on the rows it is asked for together: a row above and below
-/// are looked at with the first set.
+/// Samples beside the surface are no samples; see TexelSampler. What it gives does not depend on
+/// the rows it is asked for together: a row above and below are looked at with the first set.
 class AdaptiveTexels {
  public:
   static constexpr int most_samples = 4 + 16 + 64 + 256 + 1024;
@@ -60,6 +60,8 @@ class AdaptiveTexels {
   /// By component: by how much the samples on the right of the first set exceed those on the
   /// left, and those below those above.
   std::vector<std::vector<float>> along_, across_;
+  std::vector<std::uint8_t> covered_;  ///< Texels that have some of the surface.
+  std::vector<std::uint32_t> hits_;    ///< Samples of each that count.
   std::vector<float> errors_;
   std::vector<float> edges_;  ///< The highest edge that may be in a texel.
 };

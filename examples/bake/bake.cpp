@@ -30,7 +30,7 @@ double thread_seconds() {
 class Baker {
  public:
   Baker(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings)
-      : shader_(kernel, output, settings) {
+      : shader_(kernel, output, settings), leaves_gaps_(settings.surface != nullptr) {
     const Sampling& sampling = settings.sampling;
     if (!has_mean(kernel.outputs[output].type)) {
       fixed_.emplace(shader_, 1);
@@ -43,14 +43,25 @@ class Baker {
 
   RunStatus rows(BakedRows& block, const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
     block.planes.resize(static_cast<std::size_t>(shader_.components()));
-    if (adaptive_) return adaptive_->rows(block.first, block.rows, block.planes, stop, counts);
-    counts.samples += fixed_->count() * static_cast<std::uint64_t>(block.rows) *
-                      static_cast<std::uint64_t>(shader_.plane().width());
-    return fixed_->rows(block.first, block.rows, block.planes, stop);
+    const RunStatus status =
+        adaptive_ ? adaptive_->rows(block.first, block.rows, block.planes, stop, counts)
+                  : fixed_->rows(block.first, block.rows, block.planes, stop, counts);
+    if (leaves_gaps_) note_gaps(block);
+    return status;
   }
 
  private:
+  void note_gaps(BakedRows& block) const {
+    const auto width = static_cast<std::size_t>(shader_.width());
+    const std::size_t first = static_cast<std::size_t>(block.first) * width;
+    block.covered.resize(static_cast<std::size_t>(block.rows) * width);
+    for (std::size_t i = 0; i < block.covered.size(); ++i) {
+      block.covered[i] = shader_.covers(first + i) ? 1 : 0;
+    }
+  }
+
   PointShader shader_;
+  bool leaves_gaps_;
   std::optional<TexelSampler> fixed_;
   std::optional<AdaptiveTexels> adaptive_;
 };
@@ -84,8 +95,10 @@ BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettin
           next_thread++, threads, [&] { return kernel.kernel.is_pending() ? 1 : 0; },
           [&] { return queue.is_begun() || ends != 0; });
       while (const std::optional<int> number = queue.begin()) {
-        BakedRows block{
-            *number * block_rows, std::min(block_rows, settings.height - *number * block_rows), {}};
+        BakedRows block{*number * block_rows,
+                        std::min(block_rows, settings.height - *number * block_rows),
+                        {},
+                        {}};
         const double start = thread_seconds();
         const RunStatus status = baker.rows(block, ends, mine);
         mine.shading_seconds += thread_seconds() - start;

@@ -5,6 +5,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "examples/bake/dilate.h"
+#include "examples/bake/surface.h"
 #include "jit/shading/shading_system.h"
 
 namespace nacre::host {
@@ -24,7 +26,11 @@ struct BakeSettings {
   int threads = 0;                 ///< 0: as many as the machine has.
   float frame = 1.0f;
   float time = 0.0f;
-  Sampling sampling = {};  ///< Of outputs of floats; others have one sample a texel.
+  Sampling sampling = {};                ///< Of outputs of floats; others have one sample a texel.
+  const BakeSurface* surface = nullptr;  ///< Null: the plane.
+  Dilation dilation = {};                ///< Of what a surface leaves empty.
+  /// Of vectors: as the surface's tangent, bitangent and normal have them, rather than the world.
+  bool in_frame = false;
 };
 
 /// Texels of whole rows of one output, width * rows of each component, booleans and integers
@@ -33,6 +39,8 @@ struct BakedRows {
   int first = 0;
   int rows = 0;
   std::vector<std::vector<float>> planes;
+  /// Of each texel 1 where it has some of the surface; empty: all have.
+  std::vector<std::uint8_t> covered;
 };
 
 /// What it took.
@@ -64,8 +72,9 @@ using RowSink = std::function<std::function<bool()>(BakedRows&)>;
 /// True for outputs that have a mean.
 bool has_mean(Type type);
 
-/// Shades the plane with one output of a kernel and hands over blocks of `block_rows` rows, the
-/// last of which may have fewer. The texels do not depend on threads or blocks.
+/// Shades the surface with one output of a kernel and hands over blocks of `block_rows` rows, the
+/// last of which may have fewer. The texels do not depend on threads or blocks. Those that have
+/// nothing of the surface are 0.
 BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
                 int block_rows, const RowSink& sink, const BakeControl& control = {},
                 BakeCounts* counts = nullptr);

@@ -3,13 +3,28 @@
 #include <algorithm>
 #include <bit>
 
+#include "examples/bake/plane.h"
+
 namespace nacre::host {
+
+namespace {
+
+std::unique_ptr<SurfacePoints> surface_of(const BakeSettings& settings, const Program& program) {
+  if (settings.surface != nullptr) return settings.surface->points(settings, program);
+  return std::make_unique<Plane>(settings.width, settings.height, settings.corner_u,
+                                 settings.corner_v);
+}
+
+}  // namespace
 
 PointShader::PointShader(const OutputKernel& kernel, std::size_t output,
                          const BakeSettings& settings)
     : kernel_(kernel),
       output_(kernel.outputs[output]),
-      plane_(settings.width, settings.height, settings.corner_u, settings.corner_v),
+      width_(settings.width),
+      height_(settings.height),
+      in_frame_(settings.in_frame),
+      surface_(surface_of(settings, kernel.kernel.program())),
       parameters_(kernel.kernel.parameters()),
       inputs_(kernel.kernel.program().inputs.size()),
       in_(inputs_.size()),
@@ -18,7 +33,7 @@ PointShader::PointShader(const OutputKernel& kernel, std::size_t output,
   set("frame", settings.frame);
   set("time", settings.time);
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    inputs_[i].is_constant = plane_.is_constant(kernel.kernel.program().inputs[i].name);
+    inputs_[i].is_constant = surface_->is_constant(kernel.kernel.program().inputs[i].name);
   }
 }
 
@@ -41,7 +56,14 @@ void PointShader::fill(const TexelPoints& points) {
     Input& input = inputs_[i];
     const bool is_there = input.is_constant && input.footprint == points.footprint &&
                           input.values.size() >= points.x.size();
-    if (!is_there) plane_.fill(program.inputs[i].name, points, input.values);
+    if (!is_there) {
+      surface_->fill(program.inputs[i].name, points, input.values);
+      if (program.inputs[i].type != Scalar::f32) {
+        for (float& value : input.values) {
+          value = std::bit_cast<float>(static_cast<std::int32_t>(value));
+        }
+      }
+    }
     input.footprint = points.footprint;
     in_[i] = input.values.data();
   }
@@ -50,6 +72,7 @@ void PointShader::fill(const TexelPoints& points) {
 RunStatus PointShader::run(const TexelPoints& points, const std::atomic<std::uint32_t>& stop) {
   const Program& program = kernel_.kernel.program();
   const std::size_t count = points.x.size();
+  on_surface_ = surface_->place(points);
   fill(points);
   std::vector<void*> out(outputs_.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -67,6 +90,7 @@ RunStatus PointShader::run(const TexelPoints& points, const std::atomic<std::uin
       value = static_cast<float>(std::bit_cast<std::int32_t>(value));
     }
   }
+  if (in_frame_) surface_->turn_into_frame({results_[0], results_[1], results_[2]});
   return RunStatus::done;
 }
 

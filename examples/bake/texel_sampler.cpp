@@ -8,58 +8,70 @@ namespace nacre::host {
 TexelSampler::TexelSampler(PointShader& shader, int count)
     : shader_(shader),
       places_(sample_places(count)),
-      sums_(static_cast<std::size_t>(shader.components())) {
+      sums_(static_cast<std::size_t>(shader.components())),
+      beside_(sums_.size()) {
   points_.footprint = 1.0f / std::sqrt(static_cast<float>(count));
 }
 
 RunStatus TexelSampler::rows(int first, int rows, std::vector<std::vector<float>>& planes,
-                             const std::atomic<std::uint32_t>& stop) {
-  const int width = shader_.plane().width();
-  const int strip_rows =
-      std::clamp(static_cast<int>(shader_.points_of_a_run()) / width, 1, std::max(1, rows));
-  for (std::vector<float>& plane : planes) {
-    plane.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width));
+                             const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
+  const auto width = static_cast<std::size_t>(shader_.width());
+  const std::size_t begin = static_cast<std::size_t>(first) * width;
+  const std::size_t all = static_cast<std::size_t>(rows) * width;
+  shader_.enter(first, rows);
+  texels_.clear();
+  for (std::size_t i = begin; i < begin + all; ++i) {
+    if (shader_.covers(i)) texels_.push_back(i);
   }
-  for (int begin = 0; begin < rows; begin += strip_rows) {
-    const std::size_t at = static_cast<std::size_t>(begin) * static_cast<std::size_t>(width);
-    const RunStatus status =
-        strip(first + begin, std::min(strip_rows, rows - begin), planes, at, stop);
+  for (std::vector<float>& plane : planes) plane.assign(all, 0.0f);
+  const std::size_t step = std::max(shader_.points_of_a_run() / width * width, width);
+  for (std::size_t i = 0; i < texels_.size(); i += step) {
+    const RunStatus status = strip(i, std::min(step, texels_.size() - i), begin, planes, stop);
     if (status != RunStatus::done) return status;
   }
+  counts.samples += texels_.size() * places_.size();
   return RunStatus::done;
 }
 
-RunStatus TexelSampler::strip(int first, int rows, std::vector<std::vector<float>>& planes,
-                              std::size_t at, const std::atomic<std::uint32_t>& stop) {
-  const int width = shader_.plane().width();
-  const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(width);
-  for (std::vector<double>& sum : sums_) sum.assign(places_.size() == 1 ? 0 : count, 0.0);
+RunStatus TexelSampler::strip(std::size_t begin, std::size_t count, std::size_t first,
+                              std::vector<std::vector<float>>& planes,
+                              const std::atomic<std::uint32_t>& stop) {
+  const auto width = static_cast<std::size_t>(shader_.width());
+  const bool is_mean = places_.size() > 1;
+  for (std::vector<double>& sum : sums_) sum.assign(is_mean ? count : 0, 0.0);
+  for (std::vector<float>& values : beside_) values.resize(is_mean ? count : 0);
+  hits_.assign(count, 0);
   points_.x.resize(count);
   points_.y.resize(count);
+  points_.texel.assign(texels_.begin() + static_cast<std::ptrdiff_t>(begin),
+                       texels_.begin() + static_cast<std::ptrdiff_t>(begin + count));
   for (const SamplePlace& place : places_) {
-    std::size_t next = 0;
-    for (int j = first; j < first + rows; ++j) {
-      for (int i = 0; i < width; ++i, ++next) {
-        points_.x[next] = static_cast<float>(i) + place.x;
-        points_.y[next] = static_cast<float>(j) + place.y;
-      }
+    for (std::size_t i = 0; i < count; ++i) {
+      points_.x[i] = static_cast<float>(points_.texel[i] % width) + place.x;
+      points_.y[i] = static_cast<float>(points_.texel[i] / width) + place.y;
     }
     const RunStatus status = shader_.run(points_, stop);
     if (status != RunStatus::done) return status;
     for (std::size_t c = 0; c < planes.size(); ++c) {
       const std::vector<float>& result = shader_.result(c);
-      if (places_.size() == 1) {
-        std::copy(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(count),
-                  planes[c].begin() + static_cast<std::ptrdiff_t>(at));
-        continue;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!is_mean) {
+          planes[c][points_.texel[i] - first] = result[i];
+        } else if (shader_.counts(i)) {
+          sums_[c][i] += static_cast<double>(result[i]);
+        } else {
+          beside_[c][i] = result[i];
+        }
       }
-      for (std::size_t i = 0; i < count; ++i) sums_[c][i] += static_cast<double>(result[i]);
     }
+    for (std::size_t i = 0; i < count; ++i) hits_[i] += shader_.counts(i) ? 1 : 0;
   }
-  if (places_.size() == 1) return RunStatus::done;
+  if (!is_mean) return RunStatus::done;
   for (std::size_t c = 0; c < planes.size(); ++c) {
     for (std::size_t i = 0; i < count; ++i) {
-      planes[c][at + i] = static_cast<float>(sums_[c][i] / static_cast<double>(places_.size()));
+      planes[c][points_.texel[i] - first] =
+          hits_[i] == 0 ? beside_[c][i]
+                        : static_cast<float>(sums_[c][i] / static_cast<double>(hits_[i]));
     }
   }
   return RunStatus::done;

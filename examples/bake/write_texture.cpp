@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "examples/bake/adaptive_texels.h"
+#include "examples/bake/bake_filled.h"
 #include "examples/bake/cut.h"
 #include "examples/bake/texture_format.h"
 #include "examples/common/atomic_file.h"
@@ -135,6 +136,18 @@ Cut encode(const Job& job, std::span<std::vector<float>> planes,
   return cut;
 }
 
+/// What the surface itself has of planes.
+std::vector<std::vector<float>> covered_texels(std::span<const std::vector<float>> planes,
+                                               const std::vector<std::uint8_t>& covered) {
+  std::vector<std::vector<float>> own(planes.size());
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+      if (covered[i] != 0) own[c].push_back(planes[c][i]);
+    }
+  }
+  return own;
+}
+
 /// Bakes into an image that is open.
 BakeResult bake_into(const Job& job, ImageWriter& image) {
   const StatisticsRequest request{job.report.histogram, job.is_direction() ? -1.0f : 0.0f, 1.0f};
@@ -142,7 +155,9 @@ BakeResult bake_into(const Job& job, ImageWriter& image) {
     const auto planes = std::span(rows.planes)
                             .subspan(static_cast<std::size_t>(job.encoding.first_channel),
                                      static_cast<std::size_t>(job.channels()));
-    const TexelStatistics statistics = statistics_of(planes, request);
+    const TexelStatistics statistics =
+        rows.covered.empty() ? statistics_of(planes, request)
+                             : statistics_of(covered_texels(planes, rows.covered), request);
     const Cut cut = encode(job, planes, statistics);
     return [&, statistics, cut, encoded = image.encode({rows.first, rows.rows, planes})] {
       job.report.statistics.add(statistics);
@@ -151,8 +166,9 @@ BakeResult bake_into(const Job& job, ImageWriter& image) {
     };
   };
   BakeCounts counts;
+  const auto run = job.settings.surface == nullptr ? bake : bake_filled;
   const BakeResult result =
-      bake(job.kernel, job.index, job.settings, image.block_rows(), sink, job.control, &counts);
+      run(job.kernel, job.index, job.settings, image.block_rows(), sink, job.control, &counts);
   job.report.statistics.samples += counts.samples;
   job.report.statistics.unfinished += counts.unfinished;
   job.report.statistics.shading_seconds += counts.shading_seconds;

@@ -10,12 +10,13 @@
 #include "examples/tool/bake_document.h"
 #include "examples/tool/bake_ledger.h"
 #include "examples/tool/bake_report.h"
+#include "examples/tool/bake_target.h"
 #include "examples/tool/file_stems.h"
 #include "examples/tool/manifest_request.h"
 #include "examples/tool/material_inputs.h"
+#include "examples/tool/mesh_options.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
-#include "examples/tool/plane_reads.h"
 #include "examples/tool/process.h"
 #include "examples/tool/sampling_request.h"
 #include "examples/tool/stop.h"
@@ -42,6 +43,7 @@ struct BakeOptions {
   SamplingRequest sampling;
   ManifestRequest manifest;
   bool average = false;
+  MeshOptions mesh;
   bool report = false;
   bool json = false;
   std::string out;   ///< "": beside the document that is written, or here.
@@ -138,7 +140,7 @@ void report_kept(const Piece& piece, const BakeLedger& ledger, BakeReport& repor
 /// One output into its files.
 void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& piece,
                 host::BakeSettings settings, const std::vector<UdimTile>& tiles,
-                ShaderOptions shader, BakeLedger& ledger, PlaneReads& reads, BakeReport& report,
+                ShaderOptions shader, BakeLedger& ledger, BakeTarget& target, BakeReport& report,
                 Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.error_count();
   shader = reproducible(with_profile(opened, piece.name, false, std::move(shader), diagnostics));
@@ -148,7 +150,7 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
                                  opened.system->graph_options(shader), diagnostics);
   const auto kernel = graph ? opened.system->compile_outputs(*graph, shader, diagnostics) : nullptr;
   if (kernel == nullptr) return;
-  reads.warn(*graph, kernel->kernel.program(), false, piece.where);
+  if (!target.prepare(*graph, kernel->kernel.program(), false, piece.where)) return;
   settings.width = piece.texture.width;
   settings.height = piece.texture.height;
   const Type type = kernel->outputs[0].type;
@@ -158,6 +160,7 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
     const std::string& path = piece.items[i].path;
     if (!tiles.empty()) settings.corner_u = tiles[i].u;
     if (!tiles.empty()) settings.corner_v = tiles[i].v;
+    if (!target.lay_out(settings)) return;
     const OutputKernel loaded =
         host::with_tiles(*kernel, 0, settings, opened.system->textures(), diagnostics);
     ProgressLine line(fs::path(path).stem().string(), options.common.quiet);
@@ -169,7 +172,8 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
     if (host::bake_to_file(loaded, 0, settings, piece.texture.encoding, path, diagnostics, control,
                            &said)) {
       file_is_written(path, options.common.quiet || options.json);
-      const BakedMap map{path, piece.name, type, piece.texture, said.statistics, watch.seconds()};
+      const BakedMap map{path, piece.name, type, piece.texture, said.statistics, watch.seconds(),
+                         settings.surface != nullptr};
       report.add(map);
       // What lacks an image, say, is written, but not finished.
       const bool is_right = is_sound(*opened.system, errors, diagnostics);
@@ -184,7 +188,7 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
 
 void bake_outputs(const BakeOptions& options, const Opened& opened,
                   const host::BakeSettings& settings, const std::vector<UdimTile>& tiles,
-                  ShaderOptions shader, BakeLedger& ledger, BakeReport& report,
+                  ShaderOptions shader, BakeLedger& ledger, BakeTarget& target, BakeReport& report,
                   Diagnostics& diagnostics) {
   const std::vector<Piece> all = pieces(options, opened, settings, tiles, ledger, diagnostics);
   for (const Piece& piece : all) {
@@ -195,12 +199,11 @@ void bake_outputs(const BakeOptions& options, const Opened& opened,
       if (!host::prepare_image(piece.items[i].path, diagnostics)) return;
     }
   }
-  PlaneReads reads(diagnostics);
   for (const Piece& piece : all) {
     if (stop().is_due()) return;
     if (!piece.has(BakeStep::bake)) continue;
     shader.graph.output_space = host::output_space(piece.texture.extension, piece.texture.encoding);
-    bake_piece(options, opened, piece, settings, tiles, shader, ledger, reads, report, diagnostics);
+    bake_piece(options, opened, piece, settings, tiles, shader, ledger, target, report, diagnostics);
   }
 }
 
@@ -230,7 +233,15 @@ std::string texture_folder(const BakeOptions& options) {
 int run(BakeOptions& options) {
   Diagnostics diagnostics;
   host::BakeSettings settings;
+  if (!options.mesh.scene.empty() && options.manifest.is_asked()) {
+    diagnostics.error("no-manifest-of-meshes", {},
+                      "nothing is recorded or shared of what is baked on meshes",
+                      "--scene, or --manifest, --shard or --merge");
+    report(diagnostics);
+    return status_usage;
+  }
   if (!options.textures.check(diagnostics) || !options.manifest.check(diagnostics) ||
+      !options.mesh.read(settings.dilation, diagnostics) ||
       !options.sampling.read(settings.sampling, diagnostics)) {
     report(diagnostics);
     return status_usage;
@@ -245,9 +256,15 @@ int run(BakeOptions& options) {
   settings.time = options.time;
   const Opened opened = open(options.common, diagnostics);
   if (!opened) return report(diagnostics);
+  BakeTarget target(options.mesh.open(options.time, diagnostics), options.mesh.is_viewed(),
+                    diagnostics);
+  if (diagnostics.has_errors()) return report(diagnostics);
+  settings.surface = target.surface();
   const std::vector<UdimTile> tiles =
-      read_tiles(options.udim, *opened.document, options.common.search_paths, diagnostics,
-                 options.common.allow_outside);
+      target.surface() != nullptr
+          ? read_tiles(options.udim, *target.surface(), options.mesh.scene, diagnostics)
+          : read_tiles(options.udim, *opened.document, options.common.search_paths, diagnostics,
+                       options.common.allow_outside);
   if (diagnostics.has_errors()) return report(diagnostics);
   if (!check_file_name(options.textures.name, !tiles.empty(), diagnostics)) {
     report(diagnostics);
@@ -256,7 +273,10 @@ int run(BakeOptions& options) {
   ShaderOptions shader = options.common.shader_options();
   shader.graph.frame = static_cast<int>(options.frame);
   // What stands for images that cannot be had is decided while compiling.
-  shader.defer_tiles = shader.missing_images == MissingImages::error;
+  // Which tiles a mesh reads is not known before.
+  shader.defer_tiles =
+      shader.missing_images == MissingImages::error && target.surface() == nullptr;
+  target.prepare(shader);
   options.textures.document = document_digest(*opened.document);
   BakeManifest head;
   if (options.manifest.is_asked() && !describe_inputs(options.common, opened, head, diagnostics)) {
@@ -265,7 +285,7 @@ int run(BakeOptions& options) {
   BakeLedger ledger(options.manifest, options.out, options.common.file, std::move(head));
   if (!ledger.open(diagnostics)) return report(diagnostics);
   if (options.document.empty()) {
-    bake_outputs(options, opened, settings, tiles, shader, ledger, told, diagnostics);
+    bake_outputs(options, opened, settings, tiles, shader, ledger, target, told, diagnostics);
     ledger.finish(diagnostics);
     told.print();
     report_texels(*opened.system, diagnostics);
@@ -279,10 +299,11 @@ int run(BakeOptions& options) {
                           settings,
                           tiles,
                           shader,
+                          options.mesh.uv_set,
                           options.common.quiet || options.json,
                           options.manifest.shard.has_value(),
                           options.average};
-  if (!bake.materials.empty()) bake_document(bake, opened, ledger, told, diagnostics);
+  if (!bake.materials.empty()) bake_document(bake, opened, ledger, target, told, diagnostics);
   ledger.finish(diagnostics);
   told.print();
   report_texels(*opened.system, diagnostics);
@@ -318,6 +339,7 @@ void add_bake(CLI::App& app, int& status) {
   options->textures.add(command);
   options->sampling.add(command);
   options->manifest.add(command);
+  options->mesh.add(command);
   CLI::Option* text =
       command.add_flag("--report", options->report,
                        "Say of each map how long it took, its samples, and the range and mean of "
@@ -344,11 +366,19 @@ void add_bake(CLI::App& app, int& status) {
       ->check(number_within(-largest_whole, largest_whole))
       ->capture_default_str();
   command.footer(
-      "Graphs are baked on a plane: texel (i, j) of a W x H image, j from the top, has uv = "
+      "Without --scene graphs are baked on a plane: texel (i, j) of a W x H image, j from the top, "
+      "has uv = "
       "((i+1/2)/W, 1-(j+1/2)/H) in every set, position (u, v, 0), normal (0, 0, 1), tangent "
       "(1, 0, 0), bitangent (0, 1, 0) and a viewer straight above; more samples lie in the texel's "
       "square; vertex colours are 0, "
-      "properties have their defaults. What reads more than uv is named in a warning.");
+      "properties have their defaults. What reads more than uv is named in a warning.\n\n"
+      "With --scene a texel that a triangle touches is shaded at its middle, or at the triangle's "
+      "point next to it; of more samples those on triangles count. Positions, frames, vertex "
+      "colours and properties are the mesh's, footprints its texels'. Properties that "
+      "graphs may read by name (geompropvalue), made from rays into the whole scene and from the "
+      "mesh: ambientocclusion (float, 1 where nothing is near), bentnormal (vector3, unit, world "
+      "space: the mean direction that is open), curvature (float, mean, 1/unit, positive where "
+      "convex) and thickness (float, units, mean length of rays inwards).");
   options->common.add_compile(command);
   options->common.add_profile(command);
   options->common.add_waiting(command);

@@ -15,7 +15,6 @@
 #include "examples/tool/file_stems.h"
 #include "examples/tool/map_plan.h"
 #include "examples/tool/paths.h"
-#include "examples/tool/plane_reads.h"
 #include "examples/tool/process.h"
 #include "examples/tool/sampling_request.h"
 #include "examples/tool/stop.h"
@@ -43,16 +42,19 @@ std::vector<float> texel_of(const host::TexelStatistics& statistics) {
 class MaterialBaker {
  public:
   MaterialBaker(const DocumentBake& options, const Opened& opened, const Definitions& definitions,
-                BakeLedger& ledger, BakeReport& report, Diagnostics& diagnostics)
+                BakeLedger& ledger, BakeTarget& target, BakeReport& report,
+                Diagnostics& diagnostics)
       : options_(options),
         opened_(opened),
         ledger_(ledger),
+        target_(target),
         report_(report),
         diagnostics_(diagnostics),
-        reads_(diagnostics),
         folder_(absolute_path(options.document).parent_path()),
         baked_(*opened.document, definitions, options.shader.graph.lenient, folder_.string(),
-               diagnostics) {}
+               diagnostics) {
+    baked_.set_uv_set(options.uv_set);
+  }
 
   void run() {
     if (!options_.is_shard) promise_files({options_.document});
@@ -135,10 +137,14 @@ class MaterialBaker {
     // Without an image, say, there is to be no document: nothing is finished then.
     const bool is_right = is_sound(*opened_.system, errors, diagnostics_);
     if (ledger_.is_recording() && !is_right) return;
-    reads_.warn(*graph, kernel->kernel.program(), !job.frame.empty(), where_of(job));
-    // What asks for nothing of a point is the same at all of them.
-    if (kernel->kernel.program().inputs.empty()) {
-      host::BakeSettings settings = options_.settings;
+    if (!target_.prepare(*graph, kernel->kernel.program(), !job.frame.empty(), where_of(job))) {
+      return;
+    }
+    host::BakeSettings settings = options_.settings;
+    // What asks for nothing of a point is the same at all of them, but for the frame it is in.
+    const bool is_turned = !job.frame.empty() && settings.surface != nullptr;
+    if (kernel->kernel.program().inputs.empty() && !is_turned) {
+      settings.surface = nullptr;
       settings.width = settings.height = 1;
       const OutputKernel loaded =
           host::with_tiles(*kernel, 0, settings, opened_.system->textures(), diagnostics_);
@@ -163,11 +169,13 @@ class MaterialBaker {
     host::BakeSettings settings = options_.settings;
     settings.width = plan.texture.width;
     settings.height = plan.texture.height;
+    settings.in_frame = !job.frame.empty();
     warn_of_no_mean(settings.sampling, job.type, where_of(job), diagnostics_);
     for (const PlannedImage& image : plan.images) {
       if (image.step != BakeStep::bake) continue;
       settings.corner_u = image.tile.u;
       settings.corner_v = image.tile.v;
+      if (!target_.lay_out(settings)) return;
       const Stopwatch watch;
       host::TextureReport report;
       report.is_judged = !options_.textures.clip;
@@ -178,8 +186,8 @@ class MaterialBaker {
           host::with_tiles(kernel, 0, settings, opened_.system->textures(), diagnostics_);
       auto file = bake_file(loaded, settings, texture, path, report);
       if (file == nullptr) return;
-      const BakedMap map{shown(path), job.stem,          job.type,
-                         texture,     report.statistics, watch.seconds()};
+      const BakedMap map{shown(path),       job.stem,        job.type, texture,
+                         report.statistics, watch.seconds(), settings.surface != nullptr};
       // Else it has its name only once all of the map is known to be right.
       if (ledger_.is_recording()) {
         if (!host::commit(*file, diagnostics_)) return;
@@ -341,9 +349,9 @@ class MaterialBaker {
   const DocumentBake& options_;
   const Opened& opened_;
   BakeLedger& ledger_;
+  BakeTarget& target_;
   BakeReport& report_;
   Diagnostics& diagnostics_;
-  PlaneReads reads_;
   FileStems stems_;
   std::map<std::string, Result> results_;  ///< By Job::source.
   std::set<std::string> left_;             ///< The same of what other shards have to bake, too.
@@ -354,10 +362,10 @@ class MaterialBaker {
 }  // namespace
 
 void bake_document(const DocumentBake& options, const Opened& opened, BakeLedger& ledger,
-                   BakeReport& report, Diagnostics& diagnostics) {
+                   BakeTarget& target, BakeReport& report, Diagnostics& diagnostics) {
   const Definitions definitions(*opened.document, &opened.system->library().definitions(),
                                 diagnostics);
-  MaterialBaker(options, opened, definitions, ledger, report, diagnostics).run();
+  MaterialBaker(options, opened, definitions, ledger, target, report, diagnostics).run();
 }
 
 }  // namespace nacre::tool

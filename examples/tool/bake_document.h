@@ -7,6 +7,7 @@
 #include "examples/bake/write_texture.h"
 #include "examples/tool/bake_ledger.h"
 #include "examples/tool/bake_report.h"
+#include "examples/tool/bake_target.h"
 #include "examples/tool/options.h"
 #include "examples/tool/texture_request.h"
 #include "examples/tool/udim.h"
@@ -21,6 +22,7 @@ struct DocumentBake {
   host::BakeSettings settings;  ///< But for the size and the tile.
   std::vector<UdimTile> tiles;  ///< One texture for each; none: one for uv from 0 to 1.
   ShaderOptions shader;
+  int uv_set = 0;  ///< That textures are read by.
   bool quiet = false;
   bool is_shard = false;  ///< Then there is no document.
   bool average = false;   ///< Means in place of textures.
@@ -31,6 +33,7 @@ struct DocumentBake {
 /// could not be written is an error, and then there is no document; nor is there if the work
 /// is stopped, or some of it is another shard's or missing.
 void bake_document(const DocumentBake& options, const Opened& opened, BakeLedger& ledger,
+                   BakeTarget& target,
                    BakeReport& report, Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

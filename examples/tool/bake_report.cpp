@@ -91,6 +91,7 @@ Json json_of(const BakedMap& map) {
   const auto bytes = std::filesystem::file_size(map.file, ignored);
   one["bytes"] = ignored ? 0 : bytes;
   one["uniform"] = map.statistics.is_uniform();
+  one["covered_texels"] = map.statistics.texels;
   one["samples"] = map.statistics.samples;
   one["samples_per_texel"] = samples_of_a_texel(map.statistics);
   one["texels_with_most_samples"] = map.statistics.unfinished;
@@ -111,6 +112,14 @@ std::string numbers(const std::vector<float>& value) {
   return text;
 }
 
+/// How much of a map there is something in.
+std::string coverage(const BakedMap& map) {
+  if (!map.has_islands) return {};
+  const double all = static_cast<double>(map.texture.width) * map.texture.height;
+  return fmt::format(", {:.3g} % of it islands",
+                     100.0 * static_cast<double>(map.statistics.texels) / all);
+}
+
 }  // namespace
 
 BakedMap kept_map(const std::string& file, const BakedRecord& record,
@@ -121,6 +130,7 @@ BakedMap kept_map(const std::string& file, const BakedRecord& record,
           texture,
           record.statistics,
           record.seconds,
+          false,
           is_merged ? BakedMap::State::merged : BakedMap::State::skipped};
 }
 
@@ -140,9 +150,10 @@ void BakeReport::print() const {
 void BakeReport::print_text() const {
   for (const BakedMap& map : maps_) {
     const bool is_ours = map.state == BakedMap::State::written;
-    fmt::print("{}: {} {}x{}, {:g} samples a texel, {:.3g} s{}{}{}\n", map.file, map.output,
-               map.texture.width, map.texture.height, samples_of_a_texel(map.statistics),
-               map.seconds, is_ours ? "" : ", ", is_ours ? "" : name_of(map.state),
+    fmt::print("{}: {} {}x{}{}, {:g} samples a texel, {:.3g} s{}{}{}\n", map.file, map.output,
+               map.texture.width, map.texture.height, coverage(map),
+               samples_of_a_texel(map.statistics), map.seconds, is_ours ? "" : ", ",
+               is_ours ? "" : name_of(map.state),
                map.statistics.is_uniform() ? "; uniform: a value would do" : "");
     for (std::size_t c = 0; c < map.statistics.channels.size(); ++c) {
       const host::ChannelStatistics& channel = map.statistics.channels[c];

@@ -28,7 +28,8 @@ struct BakedMap {
   Type type = Type::none;
   TextureSettings texture;
   host::TexelStatistics statistics;
-  double seconds = 0.0;  ///< To shade and to write it, without compiling.
+  double seconds = 0.0;      ///< To shade and to write it, without compiling.
+  bool has_islands = false;  ///< What was baked need not fill it; statistics are of what it has.
   /// Whether this run wrote it, or found that another had.
   enum class State { written, skipped, merged } state = State::written;
 };

@@ -20,7 +20,7 @@ namespace nacre::tool {
 /// they are and every connected number an image of a graph NG_baked_<node>.
 ///
 /// Inputs whose default is the surface's normal, tangent or bitangent hold a direction; it is
-/// baked on the plane, whose frame is the identity.
+/// baked as the frame of the surface has it; the plane's is the identity.
 class BakedDocument {
  public:
   /// One input to bake.
@@ -53,6 +53,9 @@ class BakedDocument {
   }
   /// The tiles that textures with <UDIM> in their names have: the document's udimset.
   void set_tiles(const std::vector<UdimTile>& tiles) { tiles_ = tiles; }
+
+  /// By which set of texture coordinates textures are read.
+  void set_uv_set(int number) { inputs_.set_uv_set(number); }
 
   /// The XML, once all jobs are finished: to be asked for once.
   std::string text();

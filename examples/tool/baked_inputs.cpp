@@ -101,6 +101,11 @@ Element& BakedInputs::add_image(const BakedInput& baked, const std::string& suff
   Element& name = document_.add_input(image, "file", "filename");
   document_.set(name, "value", file);
   if (!colorspace.empty()) document_.set(name, "colorspace", colorspace);
+  if (uv_set_ != 0) {
+    Element& uv = add_node(baked, "texcoord", suffix + "_uv", "vector2");
+    document_.set(document_.add_input(uv, "index", "integer"), "value", std::to_string(uv_set_));
+    document_.set(document_.add_input(image, "texcoord", "vector2"), "nodename", uv.name());
+  }
   return image;
 }
 

@@ -35,6 +35,8 @@ class BakedInputs {
   /// Textures of booleans and integers are read texel by texel.
   void set_texture(const BakedInput& baked, const std::vector<std::string>& files,
                    std::string_view colorspace);
+  /// By which set of texture coordinates textures are read, if not the first.
+  void set_uv_set(int number) { uv_set_ = number; }
   /// In the order they were needed; they stand nowhere yet.
   const std::vector<Element*>& graphs() const { return graphs_; }
 
@@ -47,6 +49,7 @@ class BakedInputs {
   Element& graph_of(const BakedInput& baked);
 
   NewDocument& document_;
+  int uv_set_ = 0;
   std::vector<Element*> graphs_;
   std::unordered_map<const Element*, Element*> graph_of_node_;
 };

@@ -4,106 +4,16 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <cstring>
 #include <map>
 
+#include "examples/render/batch_channels.h"
 #include "runtime/channel/channel_name.h"
 
 namespace nacre::tool {
 
-namespace {
-
-using host::Lanes2;
 using host::Lanes3;
 using host::ShadingBatch;
-
-/// A group of three lanes of the batch, and the attribute that fills it.
-struct Group3 {
-  std::string_view name;
-  Lanes3 ShadingBatch::* lanes;
-  std::uint32_t attribute;
-};
-
-constexpr std::array<Group3, 14> groups3{{
-    {"P", &ShadingBatch::P, 0},
-    {"N", &ShadingBatch::N, 0},
-    {"Ng", &ShadingBatch::Ng, 0},
-    {"wo", &ShadingBatch::wo, 0},
-    {"T", &ShadingBatch::T, host::attribute_tangents},
-    {"B", &ShadingBatch::B, host::attribute_tangents},
-    {"Po", &ShadingBatch::P_object, host::attribute_object_space},
-    {"No", &ShadingBatch::N_object, host::attribute_object_space},
-    {"To", &ShadingBatch::T_object, host::attribute_object_space | host::attribute_tangents},
-    {"Bo", &ShadingBatch::B_object, host::attribute_object_space | host::attribute_tangents},
-    {"dPdx", &ShadingBatch::dPdx, host::attribute_footprint_position},
-    {"dPdy", &ShadingBatch::dPdy, host::attribute_footprint_position},
-    {"dPodx", &ShadingBatch::dPdx_object,
-     host::attribute_footprint_position | host::attribute_object_space},
-    {"dPody", &ShadingBatch::dPdy_object,
-     host::attribute_footprint_position | host::attribute_object_space},
-}};
-
-float* component(const Lanes3& lanes, int i) {
-  return i == 0 ? lanes.x : i == 1 ? lanes.y : lanes.z;
-}
-float* component(const Lanes2& lanes, int i) { return i == 0 ? lanes.x : lanes.y; }
-
-using Source = std::function<const void*(const ShadingBatch&)>;
-
-/// The lanes of a standard channel; empty for others.
-Source standard_channel(std::string_view group, int i, std::uint32_t& attributes) {
-  for (const Group3& known : groups3) {
-    if (group != known.name) continue;
-    attributes |= known.attribute;
-    return [lanes = known.lanes, i](const ShadingBatch& b) { return component(b.*lanes, i); };
-  }
-  if (group == "uv0") return [i](const ShadingBatch& b) { return component(b.uv, i); };
-  if (group == "duv0dx" || group == "duv0dy") {
-    attributes |= host::attribute_footprint_uv;
-    const auto lanes = group == "duv0dx" ? &ShadingBatch::dUVdx : &ShadingBatch::dUVdy;
-    return [lanes, i](const ShadingBatch& b) { return component(b.*lanes, i); };
-  }
-  if (group == "exterior_index") return [](const ShadingBatch& b) { return b.exterior_index; };
-  if (group == "time" || group == "frame") {  // Of each point: see varying_slots().
-    attributes |= host::attribute_time;
-    const auto lane = group == "time" ? &ShadingBatch::times : &ShadingBatch::frames;
-    return [lane](const ShadingBatch& b) { return b.*lane; };
-  }
-  return {};
-}
-
-/// Which entry of a matrix "object_to_world.7" is, as a bit of Capabilities::matrix_entries.
-std::optional<int> matrix_entry(std::string_view channel) {
-  for (const auto& [name, first] : {std::pair{"object_to_world.", 0}, {"world_to_object.", 16}}) {
-    if (!channel.starts_with(name)) continue;
-    const std::string_view digits = channel.substr(std::string_view(name).size());
-    int number = -1;
-    std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (number >= 0 && number < 16) return first + number;
-  }
-  return {};
-}
-
-/// The lane of an entry of a matrix; empty for other channels.
-Source matrix_channel(std::string_view channel, std::uint32_t& entries) {
-  const auto entry = matrix_entry(channel);
-  if (!entry) return {};
-  entries |= 1u << *entry;
-  const auto lanes = *entry < 16 ? &ShadingBatch::object_to_world : &ShadingBatch::world_to_object;
-  return [lanes, i = static_cast<std::size_t>(*entry % 16)](const ShadingBatch& b) {
-    return (b.*lanes)[i];
-  };
-}
-
-/// The host's name of a vertex attribute: "uv1" is "texcoord1", "geomprop.foo" "foo".
-std::string primvar_name(std::string_view group) {
-  if (group.starts_with("uv")) return "texcoord" + std::string(group.substr(2));
-  if (group.starts_with("geomprop.")) return std::string(group.substr(9));
-  return std::string(group);
-}
-
-}  // namespace
 
 bool has_medium(const MaterialKernels& kernels) {
   if (!kernels.interior) return false;
@@ -169,18 +79,6 @@ void KernelShader::find_columns(const std::vector<host::GraphValue>& values) {
   for (const host::GraphValue& value : values) add(value.name, value.components);
 }
 
-int KernelShader::find_primvar(std::string_view name, int components) {
-  auto& list = capabilities_.primvars;
-  const auto found =
-      std::find_if(list.begin(), list.end(), [&](const auto& each) { return each.name == name; });
-  if (found == list.end()) {
-    list.push_back({std::string(name), components});
-    return static_cast<int>(list.size()) - 1;
-  }
-  found->components = std::max(found->components, components);
-  return static_cast<int>(found - list.begin());
-}
-
 void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
                         const std::vector<std::string_view>& extras) {
   if (!kernel.has_value()) return;
@@ -200,23 +98,12 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
     }
     const auto [group, i] = parse_channel(channel.name);
     reads_uv_ = reads_uv_ || group == "uv0";
-    Source& source = bound.from_batch.back();
-    source = standard_channel(group, i, capabilities_.attributes);
-    if (!source) source = matrix_channel(channel.name, capabilities_.matrix_entries);
-    const bool is_presence = i < 0 && group.starts_with("geomprop.");
-    if (source || (i < 0 && !is_presence)) continue;
-    const int primvar = find_primvar(primvar_name(group), std::max(i, 0) + 1);
-    if (is_presence) {  // Of each point: see varying_slots().
-      source = [primvar](const ShadingBatch& b) { return b.primvars[primvar].present; };
-      continue;
-    }
+    bound.from_batch.back() = host::batch_channel(channel.name, capabilities_);
     // A slot named as the property says whether the mesh has it (nodes/geometric).
-    if (const auto slot = kernel->parameter_index(group))
-      bound.present.emplace_back(*slot, primvar);
-    // Clang 19 takes no structured binding into a lambda under its own name without a warning.
-    source = [primvar, component = i](const ShadingBatch& b) {
-      return b.primvars[primvar].component[component];
-    };
+    if (const auto slot = i < 0 ? std::nullopt : kernel->parameter_index(group)) {
+      bound.present.emplace_back(
+          *slot, host::request_primvar(host::primvar_name(group), i + 1, capabilities_));
+    }
   }
 }
 

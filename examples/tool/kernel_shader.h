@@ -97,7 +97,6 @@ class KernelShader final : public host::Shader {
 
   void bind(std::optional<BoundKernel>& kernel, Bound& bound,
             const std::vector<std::string_view>& extras);
-  int find_primvar(std::string_view name, int components);
   void run(const Bound& bound, const host::ShadingBatch& batch, const void* state,
            std::span<const void* const> extras, std::span<void* const> outputs) const;
   std::vector<float> run_by_lobe(const Bound& bound, const LobeParts& parts,

@@ -23,8 +23,6 @@ class PlaneReads {
   void warn(const Graph& graph, const Program& program, bool in_frame, const SourceLocation& where);
 
  private:
-  void warn_once(const std::string& group, const std::string& path, const SourceLocation& where);
-
   Diagnostics& diagnostics_;
   std::set<std::pair<std::string, std::string>> said_;  ///< Channel group, path.
 };

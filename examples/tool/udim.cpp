@@ -98,6 +98,13 @@ void add_all_files(const Element& element, const std::vector<std::string>& searc
 
 std::string UdimTile::number() const { return std::to_string(1001 + u + 10 * v); }
 
+std::vector<UdimTile> parse_tiles(std::string_view text, const SourceLocation& where,
+                                  Diagnostics& diagnostics) {
+  std::vector<UdimTile> tiles;
+  if (!add_list(text, where, tiles, diagnostics)) return {};
+  return tiles;
+}
+
 std::vector<UdimTile> read_tiles(std::string_view text, const Document& document,
                                  const std::vector<std::string>& search_paths,
                                  Diagnostics& diagnostics, bool anywhere) {
@@ -105,8 +112,8 @@ std::vector<UdimTile> read_tiles(std::string_view text, const Document& document
   const SourceLocation where{document.files().front(), 0, 0, {}};
   Diagnostics ignored;
   const std::vector<UdimTile> known = tiles_of(document, search_paths, ignored, anywhere);
-  std::vector<UdimTile> tiles;
   if (text.empty()) {
+    std::vector<UdimTile> tiles;
     if (known.empty() || known == std::vector<UdimTile>(1)) return tiles;
     diagnostics.warning("udim-not-baked", where,
                         "the document has tiles, but one image of uv from 0 to 1 is baked",
@@ -115,7 +122,8 @@ std::vector<UdimTile> read_tiles(std::string_view text, const Document& document
   }
   SourceLocation flag = where;
   flag.path = "--udim";
-  if (!add_list(text, flag, tiles, diagnostics)) return {};
+  std::vector<UdimTile> tiles = parse_tiles(text, flag, diagnostics);
+  if (tiles.empty()) return {};
   if (known.empty()) {
     diagnostics.warning("no-udim", where,
                         "the document says nothing of tiles: each is what its graphs make of uv",

@@ -27,6 +27,11 @@ std::vector<UdimTile> read_tiles(std::string_view text, const Document& document
                                  const std::vector<std::string>& search_paths,
                                  Diagnostics& diagnostics, bool anywhere = false);
 
+/// Numbers with commas between them, without what is said twice; empty, and an error at `where`,
+/// for what cannot be understood.
+std::vector<UdimTile> parse_tiles(std::string_view text, const SourceLocation& where,
+                                  Diagnostics& diagnostics);
+
 /// The tiles that a document is made of: the udimset of its geometries (MaterialX 1.39
 /// Geometry Extensions, "Reserved GeomProp Names"), and without one the files that its
 /// names with <UDIM> or <UVTILE> stand for, beside it or on the search paths, and below
