@@ -44,6 +44,14 @@ echo "== displacement"
 "$nacre" render "$here/displacement/pebbles.mtlx" --spp "$spp" --size "$size" \
   --out "$out/rendered/pebbles.png"
 
+# Maps of what only a mesh has: where little light gets to, and where it bulges.
+echo "== worn"
+"$python" "$here/worn/urn.py" "$out/urn.gltf"
+"$nacre" bake "$here/worn/worn.mtlx" --scene "$out/urn.gltf" --mesh urn --size "$baked" --rays 64 \
+  --format png --document "$out/worn/worn.mtlx"
+"$nacre" render "$out/worn/worn.mtlx" --scene "$out/urn.gltf" --ground --spp "$spp" --size "$size" \
+  --out "$out/rendered/worn.png"
+
 # A closed room: light of a window and of a lamp with a measured profile, a floor of cobbles.
 echo "== room"
 "$python" "$here/room/scene.py" "$out/room.gltf"

@@ -118,10 +118,24 @@ RunStatus AdaptiveTexels::next_set(std::size_t set, int first,
                                      : means_[c][texel] - old;
         error = std::max(error, relative(0.5f * difference, c, texel));
       }
+      if (set == 0 && hits < samples) error = std::max(error, spread(i * samples, samples, texel));
       errors_[texel] = error;
     }
   }
   return RunStatus::done;
+}
+
+/// Where few of the first samples are on the surface: as if another one was as far from the mean.
+float AdaptiveTexels::spread(std::size_t first, std::size_t samples, std::size_t texel) const {
+  float widest = 0.0f;
+  for (std::size_t c = 0; c < means_.size(); ++c) {
+    for (std::size_t k = first; k < first + samples; ++k) {
+      if (!shader_.counts(k)) continue;
+      const float difference = shader_.result(c)[k] - means_[c][texel];
+      widest = std::max(widest, relative(difference, c, texel));
+    }
+  }
+  return widest;
 }
 
 float AdaptiveTexels::relative(float difference, std::size_t component, std::size_t texel) const {

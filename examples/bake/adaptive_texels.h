@@ -49,6 +49,7 @@ class AdaptiveTexels {
   bool wants_more(std::size_t texel, std::size_t set) const;
   /// Whether a texel or one of the eight around it is not exact enough.
   bool is_near_error(std::size_t texel) const;
+  float spread(std::size_t first, std::size_t samples, std::size_t texel) const;
   float relative(float difference, std::size_t component, std::size_t texel) const;
 
   PointShader& shader_;

@@ -20,8 +20,7 @@ int rows_of_a_block(const BakeSettings& settings) {
 BakedRows whole(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings) {
   const std::size_t texels =
       static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
-  const auto components =
-      static_cast<std::size_t>(component_count(kernel.outputs[output].type));
+  const auto components = static_cast<std::size_t>(component_count(kernel.outputs[output].type));
   BakedRows all{0, settings.height, {}, std::vector<std::uint8_t>(texels, 1)};
   all.planes.assign(components, std::vector<float>(texels));
   return all;

@@ -38,17 +38,16 @@ std::vector<std::uint32_t> next_in_columns(const std::vector<std::uint8_t>& has,
   return next;
 }
 
-/// Gives texels that are not covered that of the next one that has a value, at most `most` away;
-/// they have one then.
+/// Gives texels that are not covered the value of the next one that has one, at most `most` columns
+/// and rows away; they have one then.
 void take_next(std::vector<std::vector<float>>& planes, const std::vector<std::uint8_t>& covered,
                std::vector<std::uint8_t>& has, std::size_t width, std::size_t most) {
   const std::vector<std::uint32_t> next = next_in_columns(has, width, most);
   std::vector<std::uint8_t> grown = has;
-  const std::size_t reach = most * most;
   for (std::size_t i = 0; i < has.size(); ++i) {
     if (covered[i] != 0) continue;
     const std::size_t y = i / width, x = i % width;
-    std::size_t best = reach + 1, from = i;
+    std::size_t best = std::numeric_limits<std::size_t>::max(), from = i;
     for (std::size_t c = x - std::min(x, most); c < std::min(width, x + most + 1); ++c) {
       const std::uint32_t row = next[y * width + c];
       if (row == none) continue;

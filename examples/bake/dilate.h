@@ -7,8 +7,8 @@ namespace nacre::host {
 
 /// How texels of a map get values that have nothing of the surface.
 struct Dilation {
-  /// So far from the surface they are what the next texel of it is, by their middles; beyond that
-  /// 0, or as `fills` says.
+  /// So many columns and rows from a texel of the surface they are what the next one is, by their
+  /// middles; beyond that 0, or as `fills` says.
   int texels = 4;
   /// The rest is the mean of what is in the smallest square around, of 2, 4, 8, ... texels along
   /// its sides at a multiple of that, that is not empty: so the means that mip levels are of are

@@ -156,7 +156,7 @@ MeshPoints::Filler MeshPoints::transport_of(std::string_view property, int compo
     values.resize(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const float ambient = component == 0 ? openness_[i].ambient : 0.f;
-      values[i] = !is_direction    ? ambient
+      values[i] = !is_direction   ? ambient
                   : component < 3 ? component_of(openness_[i].bent, component)
                                   : 0.f;
     }
@@ -166,8 +166,8 @@ MeshPoints::Filler MeshPoints::transport_of(std::string_view property, int compo
 std::span<const std::uint8_t> MeshPoints::place(const TexelPoints& points) {
   const std::size_t count = points.x.size();
   if (buffer_ == nullptr || buffer_->capacity() < count) {
-    buffer_ = std::make_unique<BatchBuffer>(static_cast<std::uint32_t>(count), 0,
-                                            needs_.primvars.size());
+    buffer_ =
+        std::make_unique<BatchBuffer>(static_cast<std::uint32_t>(count), 0, needs_.primvars.size());
   }
   points_.resize(count);
   is_inside_.resize(count);

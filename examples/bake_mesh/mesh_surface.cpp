@@ -61,8 +61,8 @@ bool MeshSurface::choose(Diagnostics& diagnostics) {
                                [&](const std::string& name) { return is_called(mesh, name); });
   };
   for (const std::string& name : request_.meshes) {
-    const bool is_there = std::ranges::any_of(
-        scene_.meshes, [&](const Mesh& mesh) { return is_called(mesh, name); });
+    const bool is_there =
+        std::ranges::any_of(scene_.meshes, [&](const Mesh& mesh) { return is_called(mesh, name); });
     if (is_there) continue;
     std::set<std::string> names;
     for (const Mesh& mesh : scene_.meshes) names.insert(mesh.object_name);
@@ -82,11 +82,10 @@ bool MeshSurface::choose(Diagnostics& diagnostics) {
       continue;
     }
     if (mesh.instances.size() > 1) {
-      diagnostics.warning(
-          "several-places", here,
-          fmt::format("the mesh is drawn {} times and baked where it is first",
-                      mesh.instances.size()),
-          "one place");
+      diagnostics.warning("several-places", here,
+                          fmt::format("the mesh is drawn {} times and baked where it is first",
+                                      mesh.instances.size()),
+                          "one place");
     }
     meshes_.push_back(i);
   }
@@ -157,8 +156,14 @@ bool MeshSurface::prepare(const Program& program, Diagnostics& diagnostics) {
 }
 
 bool MeshSurface::lay_out(const MapFrame& frame, Diagnostics& diagnostics) {
-  if (std::ranges::find(known_, frame) != known_.end()) return true;
-  known_.push_back(frame);
+  for (const auto& [map, is_right] : known_) {
+    if (map == frame) return is_right;
+  }
+  known_.emplace_back(frame, look_at(frame, diagnostics));
+  return known_.back().second;
+}
+
+bool MeshSurface::look_at(const MapFrame& frame, Diagnostics& diagnostics) const {
   const SourceLocation where{request_.file, 0, 0, {}};
   const auto rows = rows_of(frame);
   if (rows->depth() == 0.0) {
@@ -169,10 +174,10 @@ bool MeshSurface::lay_out(const MapFrame& frame, Diagnostics& diagnostics) {
     return false;
   }
   if (rows->depth() > most_depth) {
-    diagnostics.error(
-        "too-many-overlaps", where, "triangles lie over each other in uv as in no map",
-        fmt::format("at most {:g} times the map's area", most_depth),
-        fmt::format("{:.3g} times", rows->depth()));
+    diagnostics.error("too-many-overlaps", where,
+                      "triangles lie over each other in uv as in no map",
+                      fmt::format("at most {:g} times the map's area", most_depth),
+                      fmt::format("{:.3g} times", rows->depth()));
     return false;
   }
   std::string pairs;
@@ -181,9 +186,9 @@ bool MeshSurface::lay_out(const MapFrame& frame, Diagnostics& diagnostics) {
     texels += overlap.texels;
     if (pairs.size() > 300) continue;
     const std::string one = layout_->name_of(overlap.mesh), other = layout_->name_of(overlap.other);
-    pairs += fmt::format("{}{} {}: {}", pairs.empty() ? "" : ", ", one,
-                         overlap.mesh == overlap.other ? "on itself" : "and " + other,
-                         overlap.texels);
+    pairs +=
+        fmt::format("{}{} {}: {}", pairs.empty() ? "" : ", ", one,
+                    overlap.mesh == overlap.other ? "on itself" : "and " + other, overlap.texels);
   }
   if (texels == 0) return true;
   diagnostics.warning(
@@ -206,8 +211,7 @@ std::shared_ptr<const RowIndex> MeshSurface::rows_of(const MapFrame& frame) cons
 std::unique_ptr<SurfacePoints> MeshSurface::points(const BakeSettings& settings,
                                                    const Program& program) const {
   return std::make_unique<MeshPoints>(
-      *this,
-      rows_of({settings.width, settings.height, {settings.corner_u, settings.corner_v}}),
+      *this, rows_of({settings.width, settings.height, {settings.corner_u, settings.corner_v}}),
       program, settings.in_frame);
 }
 

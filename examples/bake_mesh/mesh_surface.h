@@ -4,6 +4,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "examples/bake/bake.h"
@@ -16,10 +18,10 @@ namespace nacre::host {
 
 /// What of a scene is baked, and how.
 struct MeshRequest {
-  std::string file;                 ///< That the scene is of, for what is said.
-  std::vector<std::string> meshes;  ///< Objects, meshes or paths by name; none: all.
-  int uv_set = 0;                   ///< By which set of texture coordinates.
-  TransportSettings transport;
+  std::string file = {};                 ///< That the scene is of, for what is said.
+  std::vector<std::string> meshes = {};  ///< Objects, meshes or paths by name; none: all.
+  int uv_set = 0;                        ///< By which set of texture coordinates.
+  TransportSettings transport = {};
 };
 
 /// Geometric properties that a mesh has without the file's saying: how light gets to it. What the
@@ -72,16 +74,17 @@ class MeshSurface : public BakeSurface {
 
   MeshSurface(Scene scene, MeshRequest request);
   bool choose(Diagnostics& diagnostics);
+  bool look_at(const MapFrame& frame, Diagnostics& diagnostics) const;
   std::shared_ptr<const RowIndex> rows_of(const MapFrame& frame) const;
 
   Scene scene_;
   MeshRequest request_;
   std::vector<std::uint32_t> meshes_;  ///< That are baked.
   std::unique_ptr<UvLayout> layout_;
-  std::unique_ptr<Bvh> bvh_;                    ///< Where rays are asked for.
-  std::vector<std::vector<float>> curvature_;   ///< By mesh and vertex, likewise.
-  std::vector<MapFrame> known_;                 ///< That were laid out.
-  mutable std::mutex mutex_;                    ///< Of the next.
+  std::unique_ptr<Bvh> bvh_;                      ///< Where rays are asked for.
+  std::vector<std::vector<float>> curvature_;     ///< By mesh and vertex, likewise.
+  std::vector<std::pair<MapFrame, bool>> known_;  ///< That were laid out, and how that ended.
+  mutable std::mutex mutex_;                      ///< Of the next.
   mutable std::shared_ptr<const RowIndex> rows_;  ///< Of the map that is baked.
 };
 

@@ -8,16 +8,15 @@ namespace nacre::host {
 namespace {
 
 int whole(double x, int least, int most) {
-  return static_cast<int>(
-      std::clamp(x, static_cast<double>(least), static_cast<double>(most)));
+  return static_cast<int>(std::clamp(x, static_cast<double>(least), static_cast<double>(most)));
 }
 
 /// What a triangle covers of a map, at most, in maps.
 double share_of(const FlatTriangle& triangle, const MapFrame& frame) {
-  const double width = std::min(triangle.high_x(), double(frame.width)) -
-                       std::max(triangle.low_x(), 0.0);
-  const double height = std::min(triangle.high_y(), double(frame.height)) -
-                        std::max(triangle.low_y(), 0.0);
+  const double width =
+      std::min(triangle.high_x(), double(frame.width)) - std::max(triangle.low_x(), 0.0);
+  const double height =
+      std::min(triangle.high_y(), double(frame.height)) - std::max(triangle.low_y(), 0.0);
   if (!(width > 0.0 && height > 0.0)) return 0.0;
   return std::min(triangle.area(), width * height) / static_cast<double>(frame.texels());
 }
@@ -36,8 +35,7 @@ Columns rows_of(const FlatTriangle& triangle, int first, int rows) {
           whole(std::ceil(triangle.high_y()), first, first + rows)};
 }
 
-RowIndex::RowIndex(const UvLayout& layout, const MapFrame& frame)
-    : layout_(layout), frame_(frame) {
+RowIndex::RowIndex(const UvLayout& layout, const MapFrame& frame) : layout_(layout), frame_(frame) {
   const auto bands = static_cast<std::size_t>((frame.height + rows_of_a_band - 1) / rows_of_a_band);
   begin_.assign(bands + 1, 0);
   const auto count = static_cast<std::uint32_t>(layout.pieces().size());
@@ -62,8 +60,7 @@ RowIndex::RowIndex(const UvLayout& layout, const MapFrame& frame)
   }
 }
 
-void RowIndex::for_each(int first, int rows,
-                        const std::function<void(std::uint32_t)>& take) const {
+void RowIndex::for_each(int first, int rows, const std::function<void(std::uint32_t)>& take) const {
   const int last_band = (first + rows - 1) / rows_of_a_band;
   // Pieces of several bands are met once, and in order.
   std::vector<std::uint32_t> all;

@@ -28,7 +28,7 @@ class RowIndex {
   const UvLayout& layout_;
   MapFrame frame_;
   double depth_ = 0.0;
-  std::vector<std::size_t> begin_;    ///< Of each band in `pieces_`, and of all the end.
+  std::vector<std::size_t> begin_;     ///< Of each band in `pieces_`, and of all the end.
   std::vector<std::uint32_t> pieces_;  ///< Those of a band in order.
 };
 

@@ -34,9 +34,9 @@ void TexelCover::add(std::uint32_t piece, int first, int rows) {
       if (is_full_[texel] != 0) continue;  // Nothing is left for those that come later.
       entries_.push_back({texel, piece});
       const double left = x, top = y;
-      const bool is_full =
-          triangle.contains({left, top}) && triangle.contains({left + 1, top}) &&
-          triangle.contains({left, top + 1}) && triangle.contains({left + 1, top + 1});
+      const bool is_full = triangle.contains({left, top}) && triangle.contains({left + 1, top}) &&
+                           triangle.contains({left, top + 1}) &&
+                           triangle.contains({left + 1, top + 1});
       is_full_[texel] = is_full ? 1 : 0;
     }
   }

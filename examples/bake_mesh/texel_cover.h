@@ -23,7 +23,9 @@ class TexelCover {
 
   /// Rows [first, first + rows), from now on.
   void enter(int first, int rows);
-  bool covers(std::size_t texel) const { return begin_[texel - first_] < begin_[texel - first_ + 1]; }
+  bool covers(std::size_t texel) const {
+    return begin_[texel - first_] < begin_[texel - first_ + 1];
+  }
 
   /// Of a place in a texel that is covered: the piece that contains it, or else the point of the
   /// texel's pieces that is next to the texel's middle.

@@ -19,15 +19,16 @@ std::vector<Ray> rays_around(const TransportPoint& point, Vec3 n, Vec3 side, std
   const Vec3 origin = offset_point(point.P, side);
   const Vec3 along = perpendicular(n), across = cross(n, along);
   for (int i = 0; i < settings.rays; ++i) {
-    const Uniform2 u = uniform2(SamplerKind::sobol,
-                                {.pixel = point.seed,
-                                 .sample = static_cast<std::uint32_t>(i),
-                                 .event = event},
-                                Draw::direction);
+    const Uniform2 u =
+        uniform2(SamplerKind::sobol,
+                 {.pixel = point.seed, .sample = static_cast<std::uint32_t>(i), .event = event},
+                 Draw::direction);
     const float radius = std::sqrt(u.x), angle = 2.f * std::numbers::pi_v<float> * u.y;
-    const Vec3 direction = (radius * std::cos(angle)) * along + (radius * std::sin(angle)) * across +
+    const Vec3 direction = (radius * std::cos(angle)) * along +
+                           (radius * std::sin(angle)) * across +
                            std::sqrt(std::max(0.f, 1.f - u.x)) * n;
-    if (dot(direction, side) > 0.f) rays.push_back({origin, normalize(direction), settings.distance});
+    if (dot(direction, side) > 0.f)
+      rays.push_back({origin, normalize(direction), settings.distance});
   }
   return rays;
 }

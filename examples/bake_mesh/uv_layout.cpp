@@ -59,11 +59,10 @@ UvLayout::UvLayout(const Scene& scene, const std::vector<std::uint32_t>& meshes,
       diagnostics.error("no-uv", where, "no triangle of the mesh has an area in uv",
                         fmt::format("a texture coordinate set {} that is laid out", uv_set));
     } else {
-      diagnostics.warning(
-          "flat-uv", where,
-          fmt::format("{} of {} triangles have no area in uv and are not baked", lost,
-                      mesh.triangles.size()),
-          "texture coordinates that are finite and not in a line");
+      diagnostics.warning("flat-uv", where,
+                          fmt::format("{} of {} triangles have no area in uv and are not baked",
+                                      lost, mesh.triangles.size()),
+                          "texture coordinates that are finite and not in a line");
     }
   }
 }
@@ -115,10 +114,9 @@ std::size_t UvLayout::outside(UvTile tile) const {
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
     const FlatTriangle triangle = in_uv(i);
-    const bool is_within = triangle.low_x() >= tile.u - uv_rounding &&
-                           triangle.high_x() <= tile.u + 1 + uv_rounding &&
-                           triangle.low_y() >= tile.v - uv_rounding &&
-                           triangle.high_y() <= tile.v + 1 + uv_rounding;
+    const bool is_within =
+        triangle.low_x() >= tile.u - uv_rounding && triangle.high_x() <= tile.u + 1 + uv_rounding &&
+        triangle.low_y() >= tile.v - uv_rounding && triangle.high_y() <= tile.v + 1 + uv_rounding;
     count += is_within ? 0 : 1;
   }
   return count;

@@ -49,7 +49,8 @@ class UvLayout {
   FlatTriangle triangle(std::uint32_t piece, const MapFrame& frame) const;
 
   /// The squares that there are in a UDIM set, u from 0 to 9 and v from 0 to 899, and that pieces
-  /// have some area in, more than `uv_rounding` wide and high, by their numbers. `outside`: how many pieces reach out of all of them.
+  /// have some area in, more than `uv_rounding` wide and high, by their numbers. `outside`: how
+  /// many pieces reach out of all of them.
   std::vector<UvTile> tiles(std::size_t& outside) const;
   /// How many pieces reach out of a square by more than `uv_rounding`.
   std::size_t outside(UvTile tile) const;

@@ -32,10 +32,8 @@ constexpr std::array<Group3, 14> groups3{{
     {"Bo", &ShadingBatch::B_object, attribute_object_space | attribute_tangents},
     {"dPdx", &ShadingBatch::dPdx, attribute_footprint_position},
     {"dPdy", &ShadingBatch::dPdy, attribute_footprint_position},
-    {"dPodx", &ShadingBatch::dPdx_object,
-     attribute_footprint_position | attribute_object_space},
-    {"dPody", &ShadingBatch::dPdy_object,
-     attribute_footprint_position | attribute_object_space},
+    {"dPodx", &ShadingBatch::dPdx_object, attribute_footprint_position | attribute_object_space},
+    {"dPody", &ShadingBatch::dPdy_object, attribute_footprint_position | attribute_object_space},
 }};
 
 float* component(const Lanes3& lanes, int i) {

@@ -50,12 +50,11 @@ bool BakeTarget::check_reads(const Graph& graph, const Program& program,
                          "a texture has no viewer, whose direction is read here",
                          "a graph of the surface alone, or --view normal");
     } else {
-      diagnostics_.warning("missing-attribute", read.where,
-                           fmt::format("the meshes do not have the {} read here: {}",
-                                       attribute_name(read.group),
-                                       read.group.starts_with("geomprop.")
-                                           ? "the node's default is taken"
-                                           : "zeros are taken"));
+      diagnostics_.warning(
+          "missing-attribute", read.where,
+          fmt::format("the meshes do not have the {} read here: {}", attribute_name(read.group),
+                      read.group.starts_with("geomprop.") ? "the node's default is taken"
+                                                          : "zeros are taken"));
     }
   }
   return is_right;

@@ -78,12 +78,9 @@ std::unique_ptr<host::MeshSurface> MeshOptions::open(float time, Diagnostics& di
   if (diagnostics.error_count() != errors) return nullptr;
   // A lamp's shape is no part of what is lit.
   std::erase_if(loaded.meshes, [](const host::Mesh& m) { return m.light_radiance.has_value(); });
-  return host::MeshSurface::make(std::move(loaded),
-                                 {.file = scene,
-                                  .meshes = meshes,
-                                  .uv_set = uv_set,
-                                  .transport = transport},
-                                 diagnostics);
+  return host::MeshSurface::make(
+      std::move(loaded),
+      {.file = scene, .meshes = meshes, .uv_set = uv_set, .transport = transport}, diagnostics);
 }
 
 std::vector<UdimTile> read_tiles(std::string_view text, const host::MeshSurface& surface,

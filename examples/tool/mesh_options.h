@@ -23,8 +23,8 @@ struct MeshOptions {
   std::string scene;  ///< --scene: a file, "builtin", or "" for the plane.
   std::vector<std::string> meshes;
   int uv_set = 0;
-  std::string view = "none";    ///< Or "normal".
-  std::string dilate = "all";   ///< Or a number of texels.
+  std::string view = "none";   ///< Or "normal".
+  std::string dilate = "all";  ///< Or a number of texels.
   host::TransportSettings transport;
   host::SceneLimits limits;
 
