@@ -4,6 +4,9 @@
 
 namespace nacre::host {
 
+/// Bytes of the largest output that is worth it: 16384 x 16384 texels of a matrix's row, and more.
+inline constexpr double largest_filled = 0x1p33;
+
 /// What bake() does, for a surface that does not fill its image: texels beside it get values as
 /// `settings.dilation` says. They may be of any texel, so that the whole output is kept in memory,
 /// 4 bytes for each texel and component, before the first block is handed over.

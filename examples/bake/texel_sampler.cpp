@@ -20,8 +20,15 @@ RunStatus TexelSampler::rows(int first, int rows, std::vector<std::vector<float>
   const std::size_t all = static_cast<std::size_t>(rows) * width;
   shader_.enter(first, rows);
   texels_.clear();
-  for (std::size_t i = begin; i < begin + all; ++i) {
-    if (shader_.covers(i)) texels_.push_back(i);
+  columns_.clear();
+  rows_.clear();
+  for (std::size_t i = begin, row = static_cast<std::size_t>(first); i < begin + all; ++row) {
+    for (std::size_t column = 0; column < width; ++column, ++i) {
+      if (!shader_.covers(i)) continue;
+      texels_.push_back(i);
+      columns_.push_back(static_cast<float>(column));
+      rows_.push_back(static_cast<float>(row));
+    }
   }
   for (std::vector<float>& plane : planes) plane.assign(all, 0.0f);
   const std::size_t step = std::max(shader_.points_of_a_run() / width * width, width);
@@ -36,7 +43,6 @@ RunStatus TexelSampler::rows(int first, int rows, std::vector<std::vector<float>
 RunStatus TexelSampler::strip(std::size_t begin, std::size_t count, std::size_t first,
                               std::vector<std::vector<float>>& planes,
                               const std::atomic<std::uint32_t>& stop) {
-  const auto width = static_cast<std::size_t>(shader_.width());
   const bool is_mean = places_.size() > 1;
   for (std::vector<double>& sum : sums_) sum.assign(is_mean ? count : 0, 0.0);
   for (std::vector<float>& values : beside_) values.resize(is_mean ? count : 0);
@@ -47,34 +53,42 @@ RunStatus TexelSampler::strip(std::size_t begin, std::size_t count, std::size_t 
                        texels_.begin() + static_cast<std::ptrdiff_t>(begin + count));
   for (const SamplePlace& place : places_) {
     for (std::size_t i = 0; i < count; ++i) {
-      points_.x[i] = static_cast<float>(points_.texel[i] % width) + place.x;
-      points_.y[i] = static_cast<float>(points_.texel[i] / width) + place.y;
+      points_.x[i] = columns_[begin + i] + place.x;
+      points_.y[i] = rows_[begin + i] + place.y;
     }
     const RunStatus status = shader_.run(points_, stop);
     if (status != RunStatus::done) return status;
-    for (std::size_t c = 0; c < planes.size(); ++c) {
-      const std::vector<float>& result = shader_.result(c);
-      for (std::size_t i = 0; i < count; ++i) {
-        if (!is_mean) {
-          planes[c][points_.texel[i] - first] = result[i];
-        } else if (shader_.counts(i)) {
-          sums_[c][i] += static_cast<double>(result[i]);
-        } else {
-          beside_[c][i] = result[i];
-        }
-      }
-    }
-    for (std::size_t i = 0; i < count; ++i) hits_[i] += shader_.counts(i) ? 1 : 0;
+    if (is_mean) add_samples(count);
   }
-  if (!is_mean) return RunStatus::done;
   for (std::size_t c = 0; c < planes.size(); ++c) {
+    const std::vector<float>& last = shader_.result(c);
     for (std::size_t i = 0; i < count; ++i) {
-      planes[c][points_.texel[i] - first] =
-          hits_[i] == 0 ? beside_[c][i]
-                        : static_cast<float>(sums_[c][i] / static_cast<double>(hits_[i]));
+      float& texel = planes[c][points_.texel[i] - first];
+      if (!is_mean) {
+        texel = last[i];
+      } else if (hits_[i] == 0) {
+        texel = beside_[c][i];
+      } else {
+        texel = static_cast<float>(sums_[c][i] / static_cast<double>(hits_[i]));
+      }
     }
   }
   return RunStatus::done;
+}
+
+/// Of the last run.
+void TexelSampler::add_samples(std::size_t count) {
+  for (std::size_t c = 0; c < sums_.size(); ++c) {
+    const std::vector<float>& result = shader_.result(c);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (shader_.counts(i)) {
+        sums_[c][i] += static_cast<double>(result[i]);
+      } else {
+        beside_[c][i] = result[i];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) hits_[i] += shader_.counts(i) ? 1 : 0;
 }
 
 }  // namespace nacre::host

@@ -26,11 +26,13 @@ class TexelSampler {
   /// Texels from `begin`, of `texels_`, which are `count`; planes begin at row `first`.
   RunStatus strip(std::size_t begin, std::size_t count, std::size_t first,
                   std::vector<std::vector<float>>& planes, const std::atomic<std::uint32_t>& stop);
+  void add_samples(std::size_t count);
 
   PointShader& shader_;
   std::vector<SamplePlace> places_;
   TexelPoints points_;
-  std::vector<std::size_t> texels_;  ///< That the surface covers, row * width + column.
+  std::vector<std::size_t> texels_;    ///< That the surface covers, row * width + column.
+  std::vector<float> columns_, rows_;  ///< Of them.
   std::vector<std::vector<double>> sums_;
   std::vector<std::vector<float>> beside_;  ///< What stands for texels without samples.
   std::vector<std::uint32_t> hits_;         ///< Samples that count.

@@ -241,6 +241,11 @@ std::string fault_of(const Job& job) {
   if (job.format.is_integer && job.channels() > 4) {
     return "a png holds at most four channels";
   }
+  const double bytes = 4.0 * job.components() * job.settings.width * job.settings.height;
+  if (job.settings.surface != nullptr && bytes > largest_filled) {
+    return fmt::format("a map of a mesh is kept in memory: {:.3g} GB, of at most {:.3g}",
+                       bytes * 1e-9, largest_filled * 1e-9);
+  }
   return {};
 }
 

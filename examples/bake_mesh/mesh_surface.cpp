@@ -130,6 +130,12 @@ std::vector<UvTile> MeshSurface::tiles(Diagnostics& diagnostics) const {
   if (all.empty()) {
     diagnostics.error("no-udim", where, "no triangle is in a tile of a UDIM set",
                       "u from 0 to 10 and v from 0 to 900");
+  } else if (all.size() > most_tiles) {
+    diagnostics.error(
+        "too-many-tiles", where, "triangles reach over more tiles than sets have",
+        fmt::format("at most {}, or those that are meant (--udim 1001,...)", most_tiles),
+        std::to_string(all.size()));
+    all.clear();
   } else if (outside > 0) {
     diagnostics.warning("outside-map", where,
                         fmt::format("{} of {} triangles reach out of all tiles that there are",

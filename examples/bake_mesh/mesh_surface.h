@@ -52,9 +52,10 @@ class MeshSurface : public BakeSurface {
   bool has_property(std::string_view name) const;
   /// Whether all of them have that set.
   bool has_uv_set(int number) const;
-  /// The squares of a UDIM set that it is in; an error where there are none, a warning where
-  /// some of it is in none.
+  /// The squares of a UDIM set that it is in; an error where there are none, or more than
+  /// `most_tiles`, a warning where some of it is in none.
   std::vector<UvTile> tiles(Diagnostics& diagnostics) const;
+  static constexpr std::size_t most_tiles = 1000;
 
   /// How many triangles reach out of a square of uv, by more than exporters round.
   std::size_t outside(UvTile tile) const { return layout_->outside(tile); }

@@ -41,7 +41,8 @@ void MeshOptions::add(CLI::App& command) {
       ->check(CLI::IsMember({"none", "normal"}))
       ->capture_default_str();
   add("--rays", transport.rays,
-      "Rays from each sample for ambientocclusion, bentnormal and thickness")
+      "Rays from each sample for ambientocclusion, bentnormal and thickness; --samples auto takes "
+      "their noise for detail")
       ->check(number_within(1, 1 << 20))
       ->capture_default_str()
       ->type_name("N");

@@ -25,9 +25,9 @@ def main() -> int:
     faults = []
     for command in ("bake", "check", "inspect", "render"):
         limits = shown(nacre, command)
-        # Only `render` has a scene.
+        # Only these have a scene.
         listed = {flag: default for flag, default, structure, _ in rows
-                  if structure != "SceneLimits" or command == "render"}
+                  if structure != "SceneLimits" or command in ("bake", "render")}
         if not limits:
             faults.append(f"nacre {command} --help shows no limits")
         for flag in sorted(limits.keys() | listed.keys()):

@@ -52,10 +52,10 @@ TEST(Dilate, TakesATexelThatIsNext) {
       bool is_next = false;
       for (std::size_t k = 0; k < before.covered.size(); ++k) {
         const int dx = static_cast<int>(k % 41) - x, dy = static_cast<int>(k / 41) - y;
-        is_next = is_next || (before.covered[k] != 0 && is_near(dx, dy) &&
-                              dx * dx + dy * dy == least &&
-                              before.planes[0][k] == map.planes[0][i] &&
-                              before.planes[1][k] == map.planes[1][i]);
+        is_next =
+            is_next ||
+            (before.covered[k] != 0 && is_near(dx, dy) && dx * dx + dy * dy == least &&
+             before.planes[0][k] == map.planes[0][i] && before.planes[1][k] == map.planes[1][i]);
       }
       EXPECT_TRUE(is_next) << x << ' ' << y;
     }

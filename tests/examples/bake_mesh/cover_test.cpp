@@ -60,8 +60,7 @@ double distance(const Polygon& triangle, FlatPlace p) {
     const FlatPlace a = triangle[i], b = triangle[(i + 1) % 3];
     for (int k = 0; k <= steps; ++k) {
       const double t = static_cast<double>(k) / steps;
-      least = std::min(least,
-                       std::hypot(a.x + t * (b.x - a.x) - p.x, a.y + t * (b.y - a.y) - p.y));
+      least = std::min(least, std::hypot(a.x + t * (b.x - a.x) - p.x, a.y + t * (b.y - a.y) - p.y));
     }
   }
   return least;
@@ -71,8 +70,8 @@ class Cover : public ::testing::Test {
  protected:
   void lay_out(Mesh mesh, int width, int height) {
     scene_ = scene_of(std::move(mesh));
-    layout_ = std::make_unique<UvLayout>(scene_, std::vector<std::uint32_t>{0}, 0, "a.obj",
-                                         diagnostics_);
+    layout_ =
+        std::make_unique<UvLayout>(scene_, std::vector<std::uint32_t>{0}, 0, "a.obj", diagnostics_);
     index_ = std::make_unique<RowIndex>(*layout_, MapFrame{width, height, {}});
   }
   /// In texels.
@@ -81,8 +80,8 @@ class Cover : public ::testing::Test {
     const MapFrame& frame = index_->frame();
     Polygon polygon;
     for (const std::uint32_t v : mesh.triangles[i].v) {
-      polygon.push_back({double(mesh.uv[v].x) * frame.width,
-                         (1.0 - double(mesh.uv[v].y)) * frame.height});
+      polygon.push_back(
+          {double(mesh.uv[v].x) * frame.width, (1.0 - double(mesh.uv[v].y)) * frame.height});
     }
     return polygon;
   }

@@ -71,6 +71,14 @@ TEST(Layout, SaysWhatCannotBeLaidOut) {
   EXPECT_TRUE(says(far, "nothing-to-bake")) << far.to_string();
 }
 
+TEST(Layout, RefusesWhatIsNoSetOfTiles) {
+  Mesh quad = make_quad("quad", {}, {1, 0, 0}, {0, 1, 0});
+  for (Vec2& uv : quad.uv) uv = {10.0f * uv.x, 200.0f * uv.y};
+  Diagnostics diagnostics;
+  EXPECT_TRUE(surface_of(quad, diagnostics)->tiles(diagnostics).empty());
+  EXPECT_TRUE(says(diagnostics, "too-many-tiles")) << diagnostics.to_string();
+}
+
 TEST(Layout, RefusesWhatIsNoMap) {
   Mesh mesh = make_quad("quad", {}, {1, 0, 0}, {0, 1, 0});
   const std::vector<Triangle> once = mesh.triangles;

@@ -94,9 +94,10 @@ TEST_F(MeshBake, TexelsHaveThePositionsAndFramesOfTheirMesh) {
   };
   for (const Case& each : cases) {
     const auto kernel = kernel_on(*surface,
-                                  "<" + each.category + " name='n' type='vector3'><input "
-                                  "name='space' type='string' value='" + each.space + "'/></" +
-                                      each.category + ">",
+                                  "<" + each.category +
+                                      " name='n' type='vector3'><input "
+                                      "name='space' type='string' value='" +
+                                      each.space + "'/></" + each.category + ">",
                                   "vector3");
     ASSERT_NE(kernel, nullptr);
     const std::vector<float> texels =
@@ -116,7 +117,7 @@ TEST_F(MeshBake, TexelsHaveThePositionsAndFramesOfTheirMesh) {
 
 TEST_F(MeshBake, PropertiesAndColoursAreTheVertices) {
   Mesh quad = host::make_quad("quad", {}, {1, 0, 0}, {0, 1, 0});
-  quad.primvars.push_back({"wear", 1, {0, 1, 1, 0}});                          // u
+  quad.primvars.push_back({"wear", 1, {0, 1, 1, 0}});                            // u
   quad.primvars.push_back({"color0", 3, {0, 0, 1, 0, 0, 1, 0, 1, 1, 0, 1, 1}});  // (0, v, 1)
   const auto surface = surface_of(host::scene_of(quad));
   const auto wear = kernel_on(*surface,
@@ -162,7 +163,9 @@ TEST_F(MeshBake, FootprintsAreTheChangeFromTexelToTexel) {
   for (std::size_t texel = 0; texel < width * height; ++texel) {
     if (!points->covers(texel)) continue;
     const float x = static_cast<float>(texel % width), y = static_cast<float>(texel / width);
-    host::TexelPoints at{{x + 0.25f, x + 0.75f, x + 0.25f}, {y + 0.25f, y + 0.25f, y + 0.75f}, 0.5f,
+    host::TexelPoints at{{x + 0.25f, x + 0.75f, x + 0.25f},
+                         {y + 0.25f, y + 0.25f, y + 0.75f},
+                         0.5f,
                          {texel, texel, texel}};
     const auto inside = points->place(at);
     if (inside[0] == 0 || inside[1] == 0 || inside[2] == 0) continue;
@@ -193,7 +196,8 @@ TEST_F(MeshBake, SamplesBesideTheMeshDoNotCount) {
                                 "float");
   ASSERT_NE(kernel, nullptr);
   for (const int count : {4096, 0}) {
-    const std::vector<float> texels = host::bake_image(*kernel, 0, settings_of(*surface, 4, 4, count));
+    const std::vector<float> texels =
+        host::bake_image(*kernel, 0, settings_of(*surface, 4, 4, count));
     for (int row = 0; row < 4; ++row) {
       // The texel that the diagonal cuts is half; the middle of its part is a third along it.
       const float right = (static_cast<float>(row) + 1.0f / 3.0f) / 4.0f;
@@ -242,7 +246,8 @@ TEST_F(MeshBake, SeamsDoNotShowOneMipLevelUp) {
                                 "</magnitude>",
                                 "float");
   ASSERT_NE(kernel, nullptr);
-  for (const host::Dilation dilation : {host::Dilation{1, false}, {16, false}, {0, true}, {4, true}}) {
+  for (const host::Dilation dilation :
+       {host::Dilation{1, false}, {16, false}, {0, true}, {4, true}}) {
     constexpr std::size_t size = 64;
     host::BakeSettings settings = settings_of(*surface, size, size);
     settings.dilation = dilation;
@@ -252,8 +257,8 @@ TEST_F(MeshBake, SeamsDoNotShowOneMipLevelUp) {
       for (std::size_t x = 0; x < size; x += 2) {
         float sum = 0.0f;
         int covered = 0;
-        for (const std::size_t i : {y * size + x, y * size + x + 1, (y + 1) * size + x,
-                                    (y + 1) * size + x + 1}) {
+        for (const std::size_t i :
+             {y * size + x, y * size + x + 1, (y + 1) * size + x, (y + 1) * size + x + 1}) {
           sum += map.planes[0][i];
           covered += map.covered[i];
         }

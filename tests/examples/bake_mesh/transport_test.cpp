@@ -105,7 +105,8 @@ TEST_F(Transport, ThicknessOfASphereAndAPlate) {
   // The tail of 1 / cosine is slow.
   EXPECT_NEAR(thickness(*bvh_, point({0, 0, 0}, {0, 1, 0}), {.rays = 65536}), 1.0f, 1e-2f);
   // Of rays that meet nothing as far as that, the distance counts: those of cosines below 1/2.
-  const float limited = thickness(*bvh_, point({0, 0, 0}, {0, 1, 0}), {.rays = 4096, .distance = 1});
+  const float limited =
+      thickness(*bvh_, point({0, 0, 0}, {0, 1, 0}), {.rays = 4096, .distance = 1});
   EXPECT_NEAR(limited, 2.0f * 0.5f * 0.5f + 0.25f, 5e-3f);
 }
 

@@ -125,8 +125,9 @@ TEST_F(BakeMesh, RefusesWhatHasNoMap) {
 }
 
 TEST_F(BakeMesh, RefusesWhatDependsOnTheView) {
-  const std::string view = "<viewdirection name=\"n\" type=\"vector3\"><input name=\"space\" "
-                           "type=\"string\" value=\"world\"/></viewdirection>";
+  const std::string view =
+      "<viewdirection name=\"n\" type=\"vector3\"><input name=\"space\" "
+      "type=\"string\" value=\"world\"/></viewdirection>";
   EXPECT_EQ(bake(view, "vector3", scene() + "--mesh floor --size 4"), 1);
   EXPECT_TRUE(says("a.mtlx:2:") && says("[view-dependent] (G/n)")) << errors_;
   EXPECT_FALSE(std::filesystem::exists(file("out/G.o.exr")));
