@@ -4,7 +4,7 @@
 
 namespace nacre::host {
 
-/// Bytes of the largest output that is worth it: 16384 x 16384 texels of a matrix's row, and more.
+/// Bytes of the largest output that it is for: 16384 x 16384 texels of four components twice over.
 inline constexpr double largest_filled = 0x1p33;
 
 /// What bake() does, for a surface that does not fill its image: texels beside it get values as
