@@ -11,7 +11,8 @@ Accumulation::Accumulation(const PassRequest& passes, const Film& film)
 
 double Accumulation::error(const Film& film, const Tile& tile) const {
   const auto relative = [](float variance, float mean) {
-    return static_cast<double>(variance) / (static_cast<double>(mean) * static_cast<double>(mean) + 0.01);
+    return static_cast<double>(variance) /
+           (static_cast<double>(mean) * static_cast<double>(mean) + 0.01);
   };
   double sum = 0;
   for (int y = tile.y0; y < tile.y1; ++y) {

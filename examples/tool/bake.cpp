@@ -172,7 +172,12 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
     if (host::bake_to_file(loaded, 0, settings, piece.texture.encoding, path, diagnostics, control,
                            &said)) {
       file_is_written(path, options.common.quiet || options.json);
-      const BakedMap map{path, piece.name, type, piece.texture, said.statistics, watch.seconds(),
+      const BakedMap map{path,
+                         piece.name,
+                         type,
+                         piece.texture,
+                         said.statistics,
+                         watch.seconds(),
                          settings.surface != nullptr};
       report.add(map);
       // What lacks an image, say, is written, but not finished.
@@ -203,7 +208,8 @@ void bake_outputs(const BakeOptions& options, const Opened& opened,
     if (stop().is_due()) return;
     if (!piece.has(BakeStep::bake)) continue;
     shader.graph.output_space = host::output_space(piece.texture.extension, piece.texture.encoding);
-    bake_piece(options, opened, piece, settings, tiles, shader, ledger, target, report, diagnostics);
+    bake_piece(options, opened, piece, settings, tiles, shader, ledger, target, report,
+               diagnostics);
   }
 }
 
@@ -274,8 +280,7 @@ int run(BakeOptions& options) {
   shader.graph.frame = static_cast<int>(options.frame);
   // What stands for images that cannot be had is decided while compiling.
   // Which tiles a mesh reads is not known before.
-  shader.defer_tiles =
-      shader.missing_images == MissingImages::error && target.surface() == nullptr;
+  shader.defer_tiles = shader.missing_images == MissingImages::error && target.surface() == nullptr;
   target.prepare(shader);
   options.textures.document = document_digest(*opened.document);
   BakeManifest head;

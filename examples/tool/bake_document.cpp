@@ -186,8 +186,13 @@ class MaterialBaker {
           host::with_tiles(kernel, 0, settings, opened_.system->textures(), diagnostics_);
       auto file = bake_file(loaded, settings, texture, path, report);
       if (file == nullptr) return;
-      const BakedMap map{shown(path),       job.stem,        job.type, texture,
-                         report.statistics, watch.seconds(), settings.surface != nullptr};
+      const BakedMap map{shown(path),
+                         job.stem,
+                         job.type,
+                         texture,
+                         report.statistics,
+                         watch.seconds(),
+                         settings.surface != nullptr};
       // Else it has its name only once all of the map is known to be right.
       if (ledger_.is_recording()) {
         if (!host::commit(*file, diagnostics_)) return;

@@ -33,7 +33,6 @@ struct DocumentBake {
 /// could not be written is an error, and then there is no document; nor is there if the work
 /// is stopped, or some of it is another shard's or missing.
 void bake_document(const DocumentBake& options, const Opened& opened, BakeLedger& ledger,
-                   BakeTarget& target,
-                   BakeReport& report, Diagnostics& diagnostics);
+                   BakeTarget& target, BakeReport& report, Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

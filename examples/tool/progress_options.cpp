@@ -30,8 +30,7 @@ void ProgressOptions::add(CLI::App& command) {
       ->type_name("S");
 }
 
-Enough::Enough(double time_limit)
-    : on_signal_(stop().token(), [this] { source_.request_stop(); }) {
+Enough::Enough(double time_limit) : on_signal_(stop().token(), [this] { source_.request_stop(); }) {
   if (!(time_limit > 0)) return;
   timer_ = std::jthread([this, time_limit](const std::stop_token& over) {
     std::mutex mutex;
@@ -61,8 +60,8 @@ void report_samples(const host::RenderStatistics& statistics, const host::Render
                         fmt::format("{} a pixel", settings.samples),
                         samples_text(statistics, settings));
   } else if (settings.noise > 0 && statistics.noisy_tiles > 0) {
-    diagnostics.warning("noisy", {}, "parts of the image are noisier than asked for",
-                        "more --spp", fmt::format("{} tiles", statistics.noisy_tiles));
+    diagnostics.warning("noisy", {}, "parts of the image are noisier than asked for", "more --spp",
+                        fmt::format("{} tiles", statistics.noisy_tiles));
   }
 }
 

@@ -17,9 +17,9 @@ namespace nacre::tool {
 
 /// How long `nacre render` works, and what it keeps of it.
 struct ProgressOptions {
-  double time_limit = 0;        ///< --time-limit: seconds of rendering; 0: none.
-  std::string checkpoint;       ///< --checkpoint
-  double checkpoint_every = 60; ///< --checkpoint-every
+  double time_limit = 0;         ///< --time-limit: seconds of rendering; 0: none.
+  std::string checkpoint;        ///< --checkpoint
+  double checkpoint_every = 60;  ///< --checkpoint-every
 
   void add(CLI::App& command);
 };

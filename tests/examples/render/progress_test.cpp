@@ -56,8 +56,8 @@ class Progress : public ::testing::Test {
  protected:
   Progress() {
     scene_.meshes.push_back(make_quad("floor", {-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
-    scene_.meshes.push_back(make_quad_light("lamp", {-0.5f, 1.f, -0.75f}, {1.f, 0, 0},
-                                            {0, 0, 1.5f}, {3.f, 2.f, 1.f}));
+    scene_.meshes.push_back(
+        make_quad_light("lamp", {-0.5f, 1.f, -0.75f}, {1.f, 0, 0}, {0, 0, 1.5f}, {3.f, 2.f, 1.f}));
     settings_.width = 48;
     settings_.height = 40;
     settings_.tile_size = 16;
@@ -69,11 +69,9 @@ class Progress : public ::testing::Test {
 
   std::optional<Film> film(const RenderControl& control = {},
                            RenderStatistics* statistics = nullptr) {
-    return render({&scene_,
-                   {&grey_, nullptr},
-                   nullptr,
-                   look_at({4.f, 0.7f, 0.f}, {0.f, 0.f, 0.f}, 0.8f)},
-                  settings_, diagnostics_, control, statistics);
+    return render(
+        {&scene_, {&grey_, nullptr}, nullptr, look_at({4.f, 0.7f, 0.f}, {0.f, 0.f, 0.f}, 0.8f)},
+        settings_, diagnostics_, control, statistics);
   }
 
   Scene scene_;
