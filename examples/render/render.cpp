@@ -124,9 +124,11 @@ void work(Shared& shared) {
   paths.reserve(most);
   while (const auto work = shared.queue.take()) {
     const int done = render_tile(shared, *work, wavefront, paths);
-    if (shared.control.stop.stop_requested()) shared.queue.close();
     if (shared.control.enough.stop_requested()) shared.queue.wrap_up();
-    shared.queue.give_back(*work, done, is_good(shared, work->tile, done), shared.control.progress);
+    const bool is_over = shared.control.stop.stop_requested();
+    if (is_over) shared.queue.close();
+    shared.queue.give_back(*work, done, is_good(shared, work->tile, done),
+                           is_over ? nullptr : shared.control.progress);
     Checkpoint* const checkpoint = shared.control.checkpoint;
     if (checkpoint == nullptr || !checkpoint->is_due()) continue;
     shared.queue.pause([&] {
@@ -180,8 +182,7 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
   Accumulation sums(settings.passes, film);
   std::vector<int> done(tiles.size());
   if (!resume(control, done, sums, diagnostics)) return {};
-  TileQueue queue(done, settings.samples,
-                  std::max(1, wave_size / (settings.tile_size * settings.tile_size)));
+  TileQueue queue(done, settings.samples, std::max(1, wave_size / tiles.front().pixels()));
   Shared shared{context, control, tiles, queue, sums, film, diagnostics};
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     if (is_good(shared, i, done[i])) queue.finish(i);

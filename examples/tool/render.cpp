@@ -5,10 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <vector>
 
 #include "examples/common/image_writer.h"
@@ -29,13 +27,13 @@
 #include "examples/tool/not_rendered.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
+#include "examples/tool/render_checkpoint.h"
 #include "examples/tool/render_options.h"
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
 #include "examples/tool/varying_slots.h"
 #include "jit/document/inheritance.h"
 #include "jit/document/select.h"
-#include "runtime/digest.h"
 
 namespace nacre::tool {
 
@@ -368,25 +366,6 @@ void complete_passes(RenderOptions& options, const host::Scene& world,
   complete_groups(options.passes, world, names, passes, diagnostics);
 }
 
-/// Where the render is kept; its key is everything that a picture hangs on: what was asked for and
-/// the files.
-std::optional<host::Checkpoint> checkpoint_of(const RenderOptions& options, const Opened& opened) {
-  if (options.progress.checkpoint.empty()) return {};
-  std::string key = options.asked + NACRE_TOOL_VERSION "\n";
-  const auto add = [&](const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << in.rdbuf();
-    key += file + '\n' + to_hex(sha256(bytes.view())) + '\n';
-  };
-  for (const std::string& file : opened.document->files()) add(file);
-  for (const std::string& file : {options.scene, options.environment}) {
-    if (!file.empty()) add(file);
-  }
-  return std::optional<host::Checkpoint>(std::in_place, options.progress.checkpoint, key,
-                                         options.progress.checkpoint_every);
-}
-
 int run(RenderOptions& options) {
   Diagnostics diagnostics;
   if (!parse_size(options.size, options.settings.width, options.settings.height, diagnostics)) {
@@ -436,11 +415,13 @@ int run(RenderOptions& options) {
   for (const auto& light : lights) input.lights.push_back(light.get());
   const std::vector<host::PunctualShader> scene_lights(world.lights.begin(), world.lights.end());
   for (const host::PunctualShader& light : scene_lights) input.lights.push_back(&light);
+  const std::size_t errors = diagnostics.error_count();
   complete_passes(options, world, lights, diagnostics);
+  if (diagnostics.error_count() != errors) return report(diagnostics);
   ShaderOptions neutral_options = options.common.shader_options();
   neutral_options.kernels.by_lobe = options.settings.passes.any_split();
   auto grey = neutral_material(*opened.system, neutral_options, diagnostics);
-  if (grey == nullptr || diagnostics.has_errors()) return report(diagnostics);
+  if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
   bind_shaders(assignments, shaders, neutral, options.scene, world, input, diagnostics);
   if (options.dice > 0.0f) displace(options, world, input, diagnostics);
@@ -480,25 +461,6 @@ int run(RenderOptions& options) {
   report_texels(*opened.system, diagnostics);
   const int status = report(diagnostics);
   return film ? status : status_problems;
-}
-
-/// What was given of a command's options, those left out that no bit of a picture hangs on.
-std::string asked_of(const CLI::App& command) {
-  constexpr std::string_view others[] = {
-      "out",      "threads",      "time-limit",       "checkpoint", "quiet",
-      "no-cache", "compile-here", "checkpoint-every", "cache",      "wait-for-code"};
-  std::string text;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->count() == 0 || std::ranges::any_of(others, [&](auto name) {
-          return option->check_lname(std::string(name));
-        })) {
-      continue;
-    }
-    text += option->get_name() + '=';
-    for (const std::string& each : option->results()) text += each + ' ';
-    text += '\n';
-  }
-  return text;
 }
 
 }  // namespace
