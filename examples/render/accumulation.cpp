@@ -1,57 +1,53 @@
 #include "examples/render/accumulation.h"
 
 #include <cmath>
-#include <cstring>
-#include <type_traits>
+
+#include "examples/render/number_bytes.h"
 
 namespace nacre::host {
 
 Accumulation::Accumulation(const PassRequest& passes, const Film& film)
-    : sums_(film.pixels().size()), passes_(passes, film.passes, film.pixels().size()) {}
+    : sums_(film.pixels().size()),
+      alphas_(film.has_alpha() ? film.pixels().size() : 0),
+      passes_(passes, film.passes, film.pixels().size()) {}
 
-double Accumulation::error(const Film& film, const Tile& tile) const {
+double Accumulation::error(const Film& film, const Tile& tile, int samples) const {
   const auto relative = [](float variance, float mean) {
-    return static_cast<double>(variance) /
-           (static_cast<double>(mean) * static_cast<double>(mean) + 0.01);
+    const auto m = static_cast<double>(mean);
+    return static_cast<double>(variance) / (m * m + 0.01);
   };
   double sum = 0;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      const PixelSum& pixel = sums_[film.index(x, y)];
-      const Vec3 variance = pixel.variance_of_mean(), mean = pixel.mean();
-      sum += (relative(variance.x, mean.x) + relative(variance.y, mean.y) +
-              relative(variance.z, mean.z)) /
-             3;
-    }
-  }
+  for_pixels(tile, [&](int x, int y) {
+    const PixelSum& pixel = sums_[film.index(x, y)];
+    const Vec3 variance = pixel.variance_of_mean(samples), mean = pixel.mean(samples);
+    sum += (relative(variance.x, mean.x) + relative(variance.y, mean.y) +
+            relative(variance.z, mean.z)) /
+           3;
+  });
   return std::sqrt(sum / tile.pixels());
 }
 
-void Accumulation::develop(Film& film) const {
-  for (int y = 0; y < film.height(); ++y) {
-    for (int x = 0; x < film.width(); ++x) {
+void Accumulation::develop(const std::vector<Tile>& tiles, const std::vector<int>& done,
+                           Film& film) const {
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    for_pixels(tiles[k], [&](int x, int y) {
       const std::size_t i = film.index(x, y);
-      film.mean(x, y) = sums_[i].mean();
-      film.variance(x, y) = sums_[i].variance_of_mean();
-      if (film.has_alpha()) film.set_alpha(x, y, sums_[i].alpha());
-      passes_.store(i, i, film.passes);
-    }
+      film.mean(x, y) = sums_[i].mean(done[k]);
+      film.variance(x, y) = sums_[i].variance_of_mean(done[k]);
+      if (film.has_alpha()) film.set_alpha(x, y, static_cast<float>(alphas_[i] / done[k]));
+      passes_.store(i, done[k], film.passes);
+    });
   }
 }
 
-std::string Accumulation::bytes() const {
-  static_assert(std::is_trivially_copyable_v<PixelSum>);
-  std::string bytes(sums_.size() * sizeof(PixelSum), '\0');
-  std::memcpy(bytes.data(), sums_.data(), bytes.size());
+void Accumulation::append_to(std::string& bytes) const {
+  append_numbers(bytes, sums_);
+  append_numbers(bytes, alphas_);
   passes_.append_to(bytes);
-  return bytes;
 }
 
 bool Accumulation::assign(std::string_view bytes) {
-  const std::size_t size = sums_.size() * sizeof(PixelSum);
-  if (bytes.size() < size) return false;
-  std::memcpy(sums_.data(), bytes.data(), size);
-  return passes_.assign(bytes.substr(size));
+  return take_numbers(bytes, sums_) && take_numbers(bytes, alphas_) && passes_.assign(bytes);
 }
 
 }  // namespace nacre::host

@@ -1,18 +1,22 @@
 #include "examples/render/checkpoint.h"
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <limits>
 
 #include "examples/common/atomic_file.h"
+#include "examples/render/number_bytes.h"
 #include "runtime/digest.h"
+#include "runtime/read_file.h"
 
 namespace nacre::host {
 
 namespace {
 
+// A file is the magic, the hash of all that follows, the hash of the key, how many tiles there are,
+// their samples, and the sums.
 constexpr std::string_view magic = "nacre render checkpoint 1\n";
+constexpr std::size_t hash_size = 64;
 
 std::string hash_of(std::string_view bytes) { return to_hex(sha256(bytes)); }
 
@@ -21,50 +25,53 @@ std::string hash_of(std::string_view bytes) { return to_hex(sha256(bytes)); }
 Checkpoint::Content Checkpoint::load(Diagnostics& diagnostics) const {
   std::error_code none;
   if (!std::filesystem::exists(file_, none)) return {};
+  const auto bytes = read_file(file_, std::numeric_limits<std::uint64_t>::max(), diagnostics);
+  if (!bytes) return {};
   const auto wrong = [&](const char* what, const char* expected) {
     diagnostics.error("bad-checkpoint", {file_, 0, 0, {}}, what, expected);
     return Content{};
   };
-  std::ifstream in(file_, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  const std::string key = hash_of(key_);
-  // The magic, the hash of what follows, the hash of the key; then how many tiles, and all else.
-  const std::size_t head = magic.size() + 2 * key.size();
-  if (!bytes.starts_with(magic) || bytes.size() < head + sizeof(std::uint64_t)) {
+  std::string_view rest(*bytes);
+  if (!rest.starts_with(magic) || rest.size() < magic.size() + 2 * hash_size) {
     return wrong("the file is no checkpoint of a render", "another name, or no such file");
   }
-  std::string_view rest(bytes);
-  rest.remove_prefix(magic.size());
-  if (hash_of(rest.substr(key.size())) != rest.substr(0, key.size())) {
+  const auto take = [&](std::size_t size) {
+    const std::string_view taken = rest.substr(0, size);
+    rest.remove_prefix(size);
+    return taken;
+  };
+  take(magic.size());
+  const std::string_view hash = take(hash_size);
+  if (hash_of(rest) != hash) {
     return wrong("the checkpoint is broken", "the bytes that were written");
   }
-  rest.remove_prefix(key.size());
-  if (rest.substr(0, key.size()) != key) {
+  if (take(hash_size) != hash_of(key_)) {
     return wrong("the checkpoint is of another render",
                  "the same files and options; or no such file");
   }
-  rest.remove_prefix(key.size());
-  std::uint64_t tiles = 0;
-  std::memcpy(&tiles, rest.data(), sizeof tiles);
-  rest.remove_prefix(sizeof tiles);
-  if (tiles > rest.size() / sizeof(int)) return wrong("the checkpoint is broken", "whole");
   Content content;
-  content.done.resize(tiles);
-  std::memcpy(content.done.data(), rest.data(), tiles * sizeof(int));
-  content.sums = rest.substr(tiles * sizeof(int));
+  std::vector<std::uint64_t> tiles(1);
+  const bool has_tiles = take_numbers(rest, tiles) && tiles[0] <= rest.size() / sizeof(int);
+  content.done.resize(has_tiles ? tiles[0] : 0);
+  if (!take_numbers(rest, content.done)) return wrong("the checkpoint is broken", "all of it");
+  content.sums = rest;
   return content;
 }
 
 bool Checkpoint::is_due() const { return Clock::now() - last_ >= every_; }
 
-bool Checkpoint::save(const Content& content, Diagnostics& diagnostics) {
+bool Checkpoint::save(const std::vector<int>& done, const std::function<void(std::string&)>& append,
+                      Diagnostics& diagnostics) {
+  std::string bytes(magic);
+  const std::size_t start = bytes.append(hash_size, '0').size();
+  bytes += hash_of(key_);
+  append_numbers(bytes, std::vector<std::uint64_t>{done.size()});
+  append_numbers(bytes, done);
+  append(bytes);
+  bytes.replace(magic.size(), hash_size, hash_of(std::string_view(bytes).substr(start)));
+  const bool is_written = write_text_atomically(file_, bytes, diagnostics);
   last_ = Clock::now();
-  std::string body = hash_of(key_);
-  const std::uint64_t tiles = content.done.size();
-  body.append(reinterpret_cast<const char*>(&tiles), sizeof tiles);
-  body.append(reinterpret_cast<const char*>(content.done.data()), tiles * sizeof(int));
-  body += content.sums;
-  return write_text_atomically(file_, std::string(magic) + hash_of(body) + body, diagnostics);
+  return is_written;
 }
 
 }  // namespace nacre::host

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,20 +14,21 @@ class Checkpoint {
  public:
   struct Content {
     std::vector<int> done;  ///< Samples by tile.
-    std::string sums;       ///< Accumulation::bytes().
+    std::string sums;       ///< Of Accumulation.
   };
 
   /// `key`: says what is rendered; a file that another key is in is of another render.
   Checkpoint(std::string file, std::string key, double every_seconds)
       : file_(std::move(file)), key_(std::move(key)), every_(every_seconds) {}
 
-  /// What the file has; empty where there is none. An error where it is of something else, or
-  /// broken.
+  /// What the file has; empty where there is none. An error where it is of something else, broken,
+  /// or cannot be read.
   Content load(Diagnostics& diagnostics) const;
   /// Whether it is time to.
   bool is_due() const;
-  /// False with an error; the file is then as it was.
-  bool save(const Content& content, Diagnostics& diagnostics);
+  /// `append`: adds the sums. False with an error; the file is then as it was.
+  bool save(const std::vector<int>& done, const std::function<void(std::string&)>& append,
+            Diagnostics& diagnostics);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace nacre::host {
@@ -47,16 +48,26 @@ void MattePixel::add(std::uint32_t name) {
   }
 }
 
-std::vector<std::pair<std::uint32_t, float>> MattePixel::ranked(std::size_t samples) const {
+std::vector<MattePixel::Count> MattePixel::ranked(std::size_t most) const {
   std::vector<Count> sorted = counts;
   std::ranges::sort(sorted, [](const Count& a, const Count& b) {
     return a.samples != b.samples ? a.samples > b.samples : a.name < b.name;
   });
-  std::vector<std::pair<std::uint32_t, float>> shares;
-  for (const Count& each : sorted) {
-    shares.emplace_back(each.name, static_cast<float>(each.samples) / static_cast<float>(samples));
+  sorted.resize(std::min(sorted.size(), most));
+  return sorted;
+}
+
+Mattes::Mattes(std::string type_name, const std::vector<std::string>& of_meshes, std::size_t pixels)
+    : type(std::move(type_name)), planes(2 * ranks, std::vector<float>(pixels)) {
+  std::map<std::string, std::uint32_t> known;
+  for (const std::string& name : of_meshes) {
+    const auto [at, is_new] = known.emplace(name, static_cast<std::uint32_t>(names.size()));
+    if (is_new) {
+      names.push_back(name);
+      ids.push_back(matte_id(matte_hash(name)));
+    }
+    of_mesh.push_back(at->second);
   }
-  return shares;
 }
 
 std::vector<std::string> Mattes::channels() const {

@@ -24,13 +24,13 @@ class MattePixel {
  public:
   /// Another sample of it. Those that hit nothing are not added.
   void add(std::uint32_t name);
-  /// Names, and their shares of so many samples, the largest first; of equal ones the lower number.
-  std::vector<std::pair<std::uint32_t, float>> ranked(std::size_t samples) const;
-
   /// How many samples show a name.
   struct Count {
     std::uint32_t name, samples;
   };
+  /// At most so many, those with the most samples first; of equal ones the lower number.
+  std::vector<Count> ranked(std::size_t most) const;
+
   std::vector<Count> counts;
 };
 
@@ -38,8 +38,12 @@ class MattePixel {
 struct Mattes {
   static constexpr int ranks = 6;  ///< Of names in a pixel that are kept; a layer holds two.
 
+  Mattes(std::string type, const std::vector<std::string>& of_meshes, std::size_t pixels);
+
   std::string type;                        ///< "CryptoObject"
-  std::vector<std::string> names;          ///< As MattePixel numbers them.
+  std::vector<std::string> names;          ///< Each once,
+  std::vector<float> ids;                  ///< and their matte_id.
+  std::vector<std::uint32_t> of_mesh;      ///< Indices of them.
   std::vector<std::vector<float>> planes;  ///< Id and share of each rank, one after another.
 
   /// Channels of an image for the planes: "CryptoObject00.R", …

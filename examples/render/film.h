@@ -59,30 +59,4 @@ class Film {
   std::vector<float> alpha_;
 };
 
-/// Samples of one pixel, added in the order of their index, in double so that
-/// many thousand do not stall.
-class PixelSum {
- public:
-  void add(Vec3 rgb, float alpha = 1.f) {
-    const double v[3] = {rgb.x, rgb.y, rgb.z};
-    for (int c = 0; c < 3; ++c) sum_[c] += v[c], squares_[c] += v[c] * v[c];
-    alpha_ += alpha;
-    ++count_;
-  }
-  float alpha() const { return count_ == 0 ? 1.f : static_cast<float>(alpha_ / count_); }
-  Vec3 mean() const { return {mean(0), mean(1), mean(2)}; }
-  Vec3 variance_of_mean() const { return {variance(0), variance(1), variance(2)}; }
-
- private:
-  float mean(int c) const { return count_ == 0 ? 0.f : static_cast<float>(sum_[c] / count_); }
-  float variance(int c) const {
-    if (count_ < 2) return 0.f;
-    const double spread = squares_[c] - sum_[c] * sum_[c] / count_;
-    return static_cast<float>(std::max(0.0, spread) / (count_ - 1) / count_);
-  }
-
-  double sum_[3] = {}, squares_[3] = {}, alpha_ = 0;
-  std::uint32_t count_ = 0;
-};
-
 }  // namespace nacre::host

@@ -9,14 +9,6 @@
 
 namespace nacre::host {
 
-/// Numbers of the meshes' names in a set of mattes, and those.
-struct MatteNames {
-  MatteNames() = default;
-  explicit MatteNames(const std::vector<std::string>& of_meshes);
-  std::vector<std::string> names;      ///< Each once.
-  std::vector<std::uint32_t> of_mesh;  ///< Indices of them.
-};
-
 /// Images beside the picture: rows from the top.
 class PassFilm {
  public:
@@ -30,16 +22,16 @@ class PassFilm {
   std::vector<std::string> channels;       ///< "direct_diffuse.R", …
   std::vector<std::vector<float>> planes;  ///< One for each.
   std::vector<Mattes> mattes;
-  std::vector<MatteNames> matte_names;  ///< Of each of them.
 };
 
-/// All samples of some pixels.
+/// All samples of an image.
 class PassSums {
  public:
   PassSums(const PassRequest& request, const PassFilm& film, std::size_t pixels);
-  void add(std::size_t pixel, const PathRecord& record);
-  /// Puts a pixel of these where it is in the film.
-  void store(std::size_t pixel, std::size_t to, PassFilm& film) const;
+  /// Sample number `sample`, from 0, of a pixel.
+  void add(std::size_t pixel, int sample, const PathRecord& record);
+  /// Puts a pixel that has so many samples into the film.
+  void store(std::size_t pixel, int samples, PassFilm& film) const;
 
   /// All of it, for a file; and back: false where it is of another image.
   void append_to(std::string& bytes) const;
@@ -47,10 +39,10 @@ class PassSums {
 
  private:
   const PassRequest& request_;
-  const std::vector<MatteNames>& names_;
+  const std::vector<Mattes>& names_;
   std::size_t channels_;
   std::vector<double> sums_;                     ///< By pixel, all channels together.
-  std::vector<std::uint32_t> samples_, hits_;    ///< By pixel.
+  std::vector<std::uint32_t> hits_;              ///< By pixel, where anything asks what was hit.
   std::vector<std::vector<MattePixel>> mattes_;  ///< By set, by pixel.
 };
 

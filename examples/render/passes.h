@@ -59,6 +59,15 @@ struct PathRecord {
   std::span<const float> values;  ///< PassRequest::values, one after another; 0 where not there.
 };
 
+/// What has to be found out for a pass.
+enum class PassNeed {
+  group,   ///< LightSplit::group,
+  split,   ///< the rest of LightSplit,
+  hit,     ///< FirstHit,
+  point,   ///< what kernels say of it, too,
+  motion,  ///< or FirstHit::motion.
+};
+
 /// An image, or a layer of one.
 struct Pass {
   enum class Mean {
@@ -70,6 +79,7 @@ struct Pass {
   std::string path_expression;        ///< The same as a light path expression: "C<RD>[LO]"
   std::string about;                  ///< For help texts.
   std::vector<std::string> channels;  ///< Of the layer: R G B, X Y Z, V, …
+  PassNeed need = PassNeed::split;
   Mean mean = Mean::samples;
   /// As many numbers as there are channels.
   void (*read)(const PathRecord& record, std::size_t which, float* to) = nullptr;
@@ -90,10 +100,8 @@ struct PassRequest {
   bool object_mattes = false;  ///< Cryptomattes: see cryptomatte.h.
   bool material_mattes = false;
 
-  bool any_split() const;  ///< Whether a pass needs LightSplit,
-  bool any_hit() const;    ///< FirstHit or mattes,
-  bool any_point() const;  ///< what kernels say of it,
-  bool any_motion() const;
+  /// Whether anything needs that; what needs more of a hit needs the hit.
+  bool any(PassNeed need) const;
   std::size_t channels() const;
   /// Floats of all values.
   std::size_t value_floats() const;

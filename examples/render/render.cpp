@@ -85,7 +85,9 @@ int render_tile(Shared& shared, const TileWork& work, Wavefront& wavefront,
       const int i = static_cast<int>(k) % tile.pixels();
       const std::size_t pixel = shared.film.index(tile.x0 + i % width, tile.y0 + i / width);
       shared.sums.add(pixel, paths[k].radiance, paths[k].alpha);
-      if (!shared.film.passes.empty()) shared.sums.add(pixel, wavefront.record(k));
+      if (shared.film.passes.empty()) continue;
+      const int sample = first + static_cast<int>(k) / tile.pixels();
+      shared.sums.add(pixel, sample, wavefront.record(k));
     }
   }
   return work.last;
@@ -95,11 +97,13 @@ int render_tile(Shared& shared, const TileWork& work, Wavefront& wavefront,
 bool is_good(const Shared& shared, std::size_t tile, int done) {
   const RenderSettings& s = shared.context.settings;
   return s.noise > 0.0 && done >= s.least_samples && shared.queue.is_end(done) &&
-         shared.sums.error(shared.film, shared.tiles[tile]) <= s.noise;
+         shared.sums.error(shared.film, shared.tiles[tile], done) <= s.noise;
 }
 
 void save(Shared& shared) {
-  shared.control.checkpoint->save({shared.queue.done(), shared.sums.bytes()}, shared.diagnostics);
+  shared.control.checkpoint->save(
+      shared.queue.done(), [&](std::string& bytes) { shared.sums.append_to(bytes); },
+      shared.diagnostics);
 }
 
 void add(RenderStatistics& sum, const RenderStatistics& s) {
@@ -207,6 +211,7 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
     }
   });
   count_samples(tiles, queue.done(), shared.statistics);
+  shared.statistics.is_whole = queue.is_finished();
   for (std::size_t i = 0; i < tiles.size() && settings.noise > 0; ++i) {
     const int samples = queue.done()[i];
     shared.statistics.noisy_tiles += samples == settings.samples && !is_good(shared, i, samples);
@@ -214,7 +219,7 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
   if (statistics != nullptr) *statistics = shared.statistics;
   if (control.checkpoint != nullptr && !control.stop.stop_requested()) save(shared);
   if (control.stop.stop_requested() || shared.statistics.least_samples == 0) return {};
-  sums.develop(film);
+  sums.develop(tiles, queue.done(), film);
   return film;
 } catch (const std::bad_alloc&) {
   diagnostics.error("out-of-memory", {}, "the render needs more memory than there is");

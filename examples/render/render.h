@@ -103,6 +103,7 @@ struct RenderStatistics {
   /// Samples that pixels have: of tiles, the fewest and the most, and the mean of all pixels.
   int least_samples = 0, most_samples = 0;
   double mean_samples = 0;
+  bool is_whole = false;        ///< Whether that is all that was asked for.
   std::size_t noisy_tiles = 0;  ///< Beyond RenderSettings::noise, with all samples.
   /// Seconds, summed over threads, within Shader calls and within Embree.
   double shading_seconds = 0, tracing_seconds = 0;

@@ -164,9 +164,9 @@ struct Capabilities {
   bool displaces = false;       ///< displacement() moves the surface.
   bool has_subsurface = false;  ///< sample() may say sample_subsurface.
   bool is_volume = false;  ///< There is no surface: light goes straight in, and volume() is all.
-  bool volume_varies = false;  ///< volume() differs from place to place.
-  bool scatters = true;        ///< False: emission only; begin, sample, evaluate are never called.
-  bool only_delta = false;     ///< evaluate() is always 0: no light sampling, no call.
+  bool volume_varies = false;    ///< volume() differs from place to place.
+  bool scatters = true;          ///< False: emission only; sample, evaluate are never called.
+  bool only_delta = false;       ///< evaluate() is always 0: no light sampling, no call.
   std::uint32_t attributes = 0;  ///< Attribute bits read by any of the kernels.
   /// Entries read of `object_to_world`, bits 0 to 15, and of `world_to_object`, 16 to 31.
   std::uint32_t matrix_entries = 0;

@@ -1,6 +1,7 @@
 #include "examples/render/tiles.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nacre::host {
 
@@ -15,15 +16,20 @@ std::vector<Tile> make_tiles(int width, int height, int size) {
 }
 
 TileQueue::TileQueue(std::vector<int> done, int most, int at_once)
-    : done_(std::move(done)),
-      is_busy_(done_.size()),
-      is_finished_(done_.size()),
-      most_(most),
-      at_once_(at_once) {
+    : done_(std::move(done)), most_(most), at_once_(at_once) {
   for (std::size_t i = 0; i < done_.size(); ++i) {
-    is_finished_[i] = done_[i] >= most_;
-    finished_ += is_finished_[i];
+    samples_ += done_[i];
+    if (done_[i] < most_) {
+      ready_.emplace(done_[i], i);
+    } else {
+      count_finished(i);
+    }
   }
+}
+
+void TileQueue::count_finished(std::size_t tile) {
+  ++finished_;
+  samples_ += most_ - done_[tile];
 }
 
 /// Twice as many as there are, until that keeps a thread a while.
@@ -39,9 +45,7 @@ bool TileQueue::is_end(int done) const { return done > 0 && next_end(done - 1) =
 
 void TileQueue::finish(std::size_t tile) {
   const std::lock_guard lock(mutex_);
-  if (is_finished_[tile]) return;
-  is_finished_[tile] = true;
-  ++finished_;
+  if (ready_.erase({done_[tile], tile}) > 0) count_finished(tile);
 }
 
 void TileQueue::wrap_up() {
@@ -52,35 +56,27 @@ void TileQueue::wrap_up() {
 std::optional<TileWork> TileQueue::take() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return !is_paused_; });
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < done_.size() && !is_closed_; ++i) {
-    if (is_busy_[i] || is_finished_[i] || (only_new_ && done_[i] > 0)) continue;
-    if (!best || done_[i] < done_[*best]) best = i;
-  }
-  if (!best) return {};
-  is_busy_[*best] = true;
+  if (ready_.empty() || is_closed_) return {};
+  const auto [first, tile] = *ready_.begin();
+  if (only_new_ && first > 0) return {};
+  ready_.erase(ready_.begin());
   ++busy_;
-  const int first = done_[*best];
-  return TileWork{*best, first, next_end(first)};
+  return TileWork{tile, first, next_end(first)};
 }
 
 void TileQueue::give_back(const TileWork& work, int done, bool is_finished,
                           const std::function<void(double)>& then) {
   const std::lock_guard lock(mutex_);
+  samples_ += done - done_[work.tile];
   done_[work.tile] = done;
-  is_busy_[work.tile] = false;
   --busy_;
   if (is_finished || done >= most_) {
-    is_finished_[work.tile] = true;
-    ++finished_;
+    count_finished(work.tile);
+  } else {
+    ready_.emplace(done, work.tile);
   }
   changed_.notify_all();
-  if (!then) return;
-  double share = 0;
-  for (std::size_t i = 0; i < done_.size(); ++i) {
-    share += is_finished_[i] ? 1.0 : static_cast<double>(done_[i]) / most_;
-  }
-  then(share / static_cast<double>(done_.size()));
+  if (then) then(samples_ / most_ / static_cast<double>(done_.size()));
 }
 
 void TileQueue::close() {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace nacre::host {
@@ -14,6 +16,14 @@ struct Tile {
   int x0, y0, x1, y1;
   int pixels() const { return (x1 - x0) * (y1 - y0); }
 };
+
+/// f(x, y) of each, rows from the top.
+template <class F>
+void for_pixels(const Tile& tile, F&& f) {
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) f(x, y);
+  }
+}
 
 /// Of an image, rows from the top.
 std::vector<Tile> make_tiles(int width, int height, int size);
@@ -50,19 +60,23 @@ class TileQueue {
 
   /// By tile.
   const std::vector<int>& done() const { return done_; }
+  /// Whether all tiles are.
+  bool is_finished() const { return finished_ == done_.size(); }
   /// Whether work that ends with so many samples is whole: the same numbers for every tile, and
   /// wherever a render was interrupted.
   bool is_end(int done) const;
 
  private:
   int next_end(int done) const;
+  void count_finished(std::size_t tile);
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<int> done_;
-  std::vector<bool> is_busy_, is_finished_;
+  std::set<std::pair<int, std::size_t>> ready_;  ///< Samples and tile, of those nobody works on.
   int most_, at_once_;
   std::size_t busy_ = 0, finished_ = 0;
+  double samples_ = 0;  ///< Of all tiles, those that are finished counting in full.
   bool is_closed_ = false, only_new_ = false, is_paused_ = false;
 };
 

@@ -149,7 +149,7 @@ class Wavefront {
   void connect_as(const Connection& connection);
   void note_scattering(std::uint32_t path, std::size_t lane);
   void note_scattering_inside(std::uint32_t path);
-  void record_hits(const Material& material, std::span<const std::uint32_t> paths, bool has_state);
+  void record_hits(const Material& material, std::span<const std::uint32_t> paths);
   void record_hit(std::uint32_t path, std::size_t lane);
   Vec2 motion_of(SurfacePoint point) const;
 
@@ -245,13 +245,14 @@ class Wavefront {
   std::vector<SurfacePoint> points_;  ///< Of the batch at hand.
   // Of passes; empty where none needs them.
   std::vector<LightSplit> splits_;  ///< By path,
-  std::vector<Trace> traces_;       ///< likewise.
+  std::vector<Trace> traces_;       ///< likewise, of PassNeed::split.
   std::vector<Connection> connections_;
   std::optional<LaneMemory> part_memory_, point_memory_;
   PartLanes sample_parts_, value_parts_;
-  PointLanes point_;                  ///< Of the batch at hand.
-  std::vector<FirstHit> first_hits_;  ///< By path.
-  std::vector<float> values_;         ///< By path, all of one together.
+  PointLanes point_;                                ///< Of the batch at hand.
+  std::vector<FirstHit> first_hits_;                ///< By path.
+  std::vector<float> values_;                       ///< By path, all of one together.
+  bool asks_points_ = false, asks_motion_ = false;  ///< PassNeed::point and motion.
   RenderStatistics statistics_;
 };
 

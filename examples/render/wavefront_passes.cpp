@@ -36,8 +36,8 @@ void add(std::array<Vec3, scatter_classes>& to, const Shares& shares, Vec3 light
 void Wavefront::prepare_passes(std::size_t max_paths) {
   const PassRequest& request = context_.settings.passes;
   const std::uint32_t capacity = buffer_.capacity();
-  if (request.any_split()) {
-    splits_.resize(max_paths);
+  if (request.any(PassNeed::split) || request.any(PassNeed::group)) splits_.resize(max_paths);
+  if (request.any(PassNeed::split)) {
     traces_.resize(max_paths);
     part_memory_.emplace(6 * scatter_classes * LaneMemory::lane_bytes(capacity));
     for (PartLanes* parts : {&sample_parts_, &value_parts_}) {
@@ -46,8 +46,10 @@ void Wavefront::prepare_passes(std::size_t max_paths) {
     buffer_.sample.parts = &sample_parts_;
     buffer_.value.parts = &value_parts_;
   }
-  if (!request.any_hit()) return;
+  if (!request.any(PassNeed::hit)) return;
   first_hits_.resize(max_paths);
+  asks_points_ = request.any(PassNeed::point);
+  asks_motion_ = request.any(PassNeed::motion);
   const std::size_t values = request.value_floats();
   values_.resize(values * max_paths);
   point_memory_.emplace((7 + values) * LaneMemory::lane_bytes(capacity));
@@ -59,10 +61,8 @@ void Wavefront::prepare_passes(std::size_t max_paths) {
 }
 
 void Wavefront::begin_passes() {
-  if (!splits_.empty()) {
-    std::fill_n(splits_.begin(), paths_.size(), LightSplit{});
-    std::fill_n(traces_.begin(), paths_.size(), Trace{});
-  }
+  if (!splits_.empty()) std::fill_n(splits_.begin(), paths_.size(), LightSplit{});
+  if (!traces_.empty()) std::fill_n(traces_.begin(), paths_.size(), Trace{});
   if (first_hits_.empty()) return;
   std::fill_n(first_hits_.begin(), paths_.size(), FirstHit{});
   std::fill(values_.begin(), values_.end(), 0.f);
@@ -82,8 +82,9 @@ void Wavefront::add_found(std::uint32_t i, Vec3 light, std::uint8_t group, bool 
   paths_[i].radiance += light;
   if (splits_.empty()) return;
   LightSplit& to = splits_[i];
-  const Trace& trace = traces_[i];
   to.group[group] += light;
+  if (traces_.empty()) return;
+  const Trace& trace = traces_[i];
   if (trace.events == 0) {
     (is_background ? to.background : to.emission) += light;
   } else {
@@ -104,6 +105,7 @@ void Wavefront::add_connected(const ShadowRay& shadow) {
 /// Of the shadow ray that was added last, which goes from a lane of the batch.
 void Wavefront::note_connection(std::uint32_t path, std::size_t lane) {
   if (splits_.empty()) return;
+  if (traces_.empty()) return connect_as({{}, light_samples_[path].group, false});
   const Trace& trace = traces_[path];
   connect_as({trace.is_known ? trace.shares
                              : shares_of(value_parts_, lane, load(buffer_.value.value, lane)),
@@ -113,6 +115,7 @@ void Wavefront::note_connection(std::uint32_t path, std::size_t lane) {
 /// The same from within a medium, where the path has been scattered just now.
 void Wavefront::note_connection_inside(std::uint32_t path) {
   if (splits_.empty()) return;
+  if (traces_.empty()) return connect_as({{}, light_samples_[path].group, false});
   const Trace& trace = traces_[path];
   connect_as({trace.shares, light_samples_[path].group, trace.events == 1});
 }
@@ -124,7 +127,7 @@ void Wavefront::connect_as(const Connection& connection) {
 
 /// That a surface scatters a path as the sample of a lane says.
 void Wavefront::note_scattering(std::uint32_t path, std::size_t lane) {
-  if (splits_.empty()) return;
+  if (traces_.empty()) return;
   Trace& trace = traces_[path];
   const bool is_below = (buffer_.sample.flags[lane] & sample_subsurface) != 0;
   if (!trace.is_known) {
@@ -139,16 +142,15 @@ void Wavefront::note_scattering(std::uint32_t path, std::size_t lane) {
 
 /// That a medium does.
 void Wavefront::note_scattering_inside(std::uint32_t path) {
-  if (splits_.empty() || traces_[path].is_below) return;
+  if (traces_.empty() || traces_[path].is_below) return;
   Trace& trace = traces_[path];
   if (!trace.is_known) trace.shares = all_of(ScatterClass::volume);
   trace.is_known = true;
   ++trace.events;
 }
 
-/// Which of those of a batch see it first, and what. `has_state`: begin() was called.
-void Wavefront::record_hits(const Material& material, std::span<const std::uint32_t> paths,
-                            bool has_state) {
+/// Which of those of a batch see it first, and what.
+void Wavefront::record_hits(const Material& material, std::span<const std::uint32_t> paths) {
   const auto is_first = [this](std::uint32_t i) { return paths_[i].from_camera; };
   if (first_hits_.empty() || std::ranges::none_of(paths, is_first)) return;
   const std::size_t lanes = LaneMemory::lane_bytes(buffer_.capacity()) / sizeof(float);
@@ -159,7 +161,7 @@ void Wavefront::record_hits(const Material& material, std::span<const std::uint3
     const Vec3 n = load(buffer_.batch.N, lane);
     store(point_.normal, lane, dot(n, load(buffer_.batch.wo, lane)) < 0.f ? -n : n);
   }
-  if (has_state && context_.settings.passes.any_point()) {
+  if (asks_points_) {
     const Stopwatch watch(statistics_.shading_seconds);
     material.shader->point(buffer_.batch, buffer_.state, point_);
   }
@@ -179,7 +181,7 @@ void Wavefront::record_hit(std::uint32_t i, std::size_t lane) {
   hit.depth = context_.camera.depth(hit.position, point.time);
   hit.uv = {buffer_.batch.uv.x[lane], buffer_.batch.uv.y[lane]};
   hit.mesh = point.mesh;
-  if (context_.settings.passes.any_motion()) hit.motion = motion_of(point);
+  if (asks_motion_) hit.motion = motion_of(point);
   for (std::size_t k = 0; k < point_.values.size(); ++k) {
     values_[i * point_.values.size() + k] = point_.values[k][lane];
   }

@@ -26,11 +26,11 @@ void Wavefront::shade_batch(const Material& material, std::span<const std::uint3
   if (!scatters && !material.capabilities.emits && first_hits_.empty()) return;
   fill(paths, material);
   if (material.capabilities.emits) add_emission(material, paths);
-  if (scatters) {
+  if (scatters || asks_points_) {
     const Stopwatch watch(statistics_.shading_seconds);
     material.shader->begin(buffer_.batch, buffer_.state);
   }
-  record_hits(material, paths, scatters);
+  record_hits(material, paths);
   if (!scatters) return;
   if (connects() && !material.capabilities.only_delta) connect_lights(material, paths);
   extend(material, paths);

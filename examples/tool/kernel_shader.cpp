@@ -56,14 +56,14 @@ KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop&
 void KernelShader::find_columns(const std::vector<host::GraphValue>& values) {
   if (begin_.kernel == nullptr) return;
   const std::vector<Channel>& outputs = begin_.kernel->program().outputs;
-  std::map<std::string, std::size_t> of_point;
+  std::map<std::string, PointColumn> of_point;
   for (const Channel& output : outputs) {
     if (const auto number = state_number(output.name)) {
       const auto slot = std::ranges::find(kernels_->state, *number);
       columns_.push_back(static_cast<std::size_t>(slot - kernels_->state.begin()));
     } else {
       columns_.push_back(kernels_->state.size() + of_point.size());
-      of_point.emplace(output.name, columns_.back());
+      of_point.emplace(output.name, PointColumn{columns_.back(), output.type != Scalar::f32});
     }
   }
   const auto add = [&](const std::string& name, int components) {
@@ -196,8 +196,13 @@ void KernelShader::point(const ShadingBatch& batch, const void* state,
   to.insert(to.end(), out.values.begin(), out.values.end());
   for (std::size_t k = 0; k < point_columns_.size() && k < to.size(); ++k) {
     if (!point_columns_[k]) continue;
-    const float* from = static_cast<const float*>(state) + *point_columns_[k] * stride(batch.count);
-    std::copy_n(from, batch.count, to[k]);
+    const float* const from =
+        static_cast<const float*>(state) + point_columns_[k]->column * stride(batch.count);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      to[k][i] = point_columns_[k]->is_whole
+                     ? static_cast<float>(std::bit_cast<std::int32_t>(from[i]))
+                     : from[i];
+    }
   }
 }
 

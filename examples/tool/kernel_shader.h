@@ -115,8 +115,12 @@ class KernelShader final : public host::Shader {
   LobeParts sample_parts_, evaluate_parts_;
   /// By output of begin(): which column of the state it goes to, those of the state first.
   std::vector<std::size_t> columns_;
-  /// Columns of PointLanes: of albedo and normal, roughness, and values; not in the state: none.
-  std::vector<std::optional<std::size_t>> point_columns_;
+  struct PointColumn {
+    std::size_t column;
+    bool is_whole;  ///< Integers or truths.
+  };
+  /// Of PointLanes: of albedo and normal, roughness, and values; not in the state: none.
+  std::vector<std::optional<PointColumn>> point_columns_;
   Bound begin_, sample_, evaluate_, emission_, opacity_, interior_, displacement_, subsurface_,
       volume_;
 };

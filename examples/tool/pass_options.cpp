@@ -68,6 +68,7 @@ void PassOptions::add(CLI::App& command) {
                   "Images beside the picture, layers of the .exr: see below. Light adds up: "
                   "emission, background, direct and indirect are the picture")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("NAME,...");
   command
       .add_option("--light-group", groups,
@@ -75,7 +76,7 @@ void PassOptions::add(CLI::App& command) {
                   "names with * and ?, and environment; light_other is of the rest. Together they "
                   "are the picture")
       ->check(CLI::Validator(check_group, ""))
-      ->expected(1, static_cast<int>(host::LightGroups::most))
+      ->allow_extra_args(false)
       ->type_name("NAME=PATTERN,...");
 }
 
@@ -113,7 +114,7 @@ host::PassRequest pass_request(const PassOptions& options, Diagnostics& diagnost
 }
 
 void ask_for_passes(const host::PassRequest& passes, KernelRequest& request) {
-  request.by_lobe = passes.any_split();
+  request.by_lobe = passes.any(host::PassNeed::split);
   for (const char* name : {"albedo", "normal", "roughness"}) {
     const bool asked =
         std::ranges::any_of(passes.passes, [&](auto& pass) { return pass.name == name; });
@@ -122,7 +123,7 @@ void ask_for_passes(const host::PassRequest& passes, KernelRequest& request) {
   for (const host::GraphValue& value : passes.values) request.with_begin.push_back(value.name);
 }
 
-void complete_values(const MaterialKernels& kernels, host::PassRequest& passes,
+void look_for_values(const MaterialKernels& kernels, host::PassRequest& passes,
                      Diagnostics& diagnostics) {
   if (!kernels.begin) return;
   for (host::GraphValue& value : passes.values) {
@@ -134,6 +135,19 @@ void complete_values(const MaterialKernels& kernels, host::PassRequest& passes,
       diagnostics.error("wide-aov", {}, "the value has more numbers than a layer of an image",
                         "at most 4", fmt::format("{} of '{}'", value.components, value.name));
     }
+  }
+}
+
+void complete_values(host::PassRequest& passes, Diagnostics& diagnostics) {
+  std::size_t first = 0;
+  for (const host::GraphValue& value : passes.values) {
+    if (value.components == 0) {
+      diagnostics.error("unknown-aov", {}, "no material of the scene has this value",
+                        "a material on a mesh", "'" + value.name + "'");
+      return;
+    }
+    passes.passes.push_back(host::value_pass(value, first));
+    first += static_cast<std::size_t>(value.components);
   }
 }
 

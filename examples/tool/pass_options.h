@@ -31,9 +31,13 @@ host::PassRequest pass_request(const PassOptions& options, Diagnostics& diagnost
 /// Has kernels store what the passes need.
 void ask_for_passes(const host::PassRequest& passes, KernelRequest& request);
 
-/// The components of values, once a material is compiled; an error for what has more than a layer.
-void complete_values(const MaterialKernels& kernels, host::PassRequest& passes,
+/// The components of values, as the kernels of a material have them; an error for what has more
+/// than a layer.
+void look_for_values(const MaterialKernels& kernels, host::PassRequest& passes,
                      Diagnostics& diagnostics);
+
+/// Adds the values' passes, once all materials were looked at; an error for what none has.
+void complete_values(host::PassRequest& passes, Diagnostics& diagnostics);
 
 /// Which lights are in which group: by the names of meshes (object, mesh, material) and of
 /// `lights`, and "environment". A pattern that is nothing's name is an error. Adds the groups'

@@ -22,7 +22,8 @@ void ProgressOptions::add(CLI::App& command) {
   command
       .add_option("--checkpoint", checkpoint,
                   "Keeps what was done so far, for the same command to go on from, with the bits "
-                  "of a render that nothing interrupted")
+                  "of a render that nothing interrupted; of this kind of machine, and refused "
+                  "where a file has changed")
       ->type_name("FILE");
   command.add_option("--checkpoint-every", checkpoint_every, "How often")
       ->check(number_within(0, 1e9))
@@ -55,7 +56,7 @@ std::string samples_text(const host::RenderStatistics& statistics,
 
 void report_samples(const host::RenderStatistics& statistics, const host::RenderSettings& settings,
                     const Enough& enough, Diagnostics& diagnostics) {
-  if (enough.is_out_of_time() && statistics.least_samples < settings.samples) {
+  if (enough.is_out_of_time() && !statistics.is_whole) {
     diagnostics.warning("out-of-time", {}, "the time limit came before all samples",
                         fmt::format("{} a pixel", settings.samples),
                         samples_text(statistics, settings));

@@ -146,7 +146,7 @@ bool compile_shaders(RenderOptions& options, const Opened& opened, const host::S
       return false;
     }
     not_rendered.look_at_material(assignment.material, *kernels);
-    complete_values(*kernels, options.settings.passes, diagnostics);
+    look_for_values(*kernels, options.settings.passes, diagnostics);
     TwoShaders& place = shaders[assignment.key()];
     const std::string& material = assignment.material;
     if (kernels->displacement) {
@@ -355,11 +355,7 @@ void complete_passes(RenderOptions& options, const host::Scene& world,
                      const std::vector<std::unique_ptr<KernelLight>>& lights,
                      Diagnostics& diagnostics) {
   host::PassRequest& passes = options.settings.passes;
-  std::size_t first = 0;
-  for (const host::GraphValue& value : passes.values) {
-    passes.passes.push_back(host::value_pass(value, first));
-    first += static_cast<std::size_t>(value.components);
-  }
+  complete_values(passes, diagnostics);
   std::vector<std::string> names;
   for (const auto& light : lights) names.push_back(light->kernel().outputs.front().name);
   for (const host::PunctualLight& light : world.lights) names.push_back(light.name);
@@ -419,7 +415,7 @@ int run(RenderOptions& options) {
   complete_passes(options, world, lights, diagnostics);
   if (diagnostics.error_count() != errors) return report(diagnostics);
   ShaderOptions neutral_options = options.common.shader_options();
-  neutral_options.kernels.by_lobe = options.settings.passes.any_split();
+  neutral_options.kernels.by_lobe = options.settings.passes.any(host::PassNeed::split);
   auto grey = neutral_material(*opened.system, neutral_options, diagnostics);
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);
@@ -429,7 +425,12 @@ int run(RenderOptions& options) {
 
   take_time_to_stop(5.0);
   const Enough enough(options.progress.time_limit);
-  std::optional<host::Checkpoint> checkpoint = checkpoint_of(options, opened);
+  std::optional<host::Checkpoint> checkpoint;
+  if (!options.progress.checkpoint.empty()) {
+    const auto key = render_key(options, opened, world, kernels, diagnostics);
+    if (!key) return report(diagnostics);
+    checkpoint.emplace(options.progress.checkpoint, *key, options.progress.checkpoint_every);
+  }
   ProgressLine line("render", options.common.quiet);
   const auto pending = [&] {
     return static_cast<int>(
@@ -453,9 +454,9 @@ int run(RenderOptions& options) {
   }
   if (film) report_samples(statistics, options.settings, enough, diagnostics);
   if (film && host::write_image(*film, options.out, options.write, diagnostics)) {
-    const bool is_whole = !tool::stop().is_requested() || enough.is_out_of_time() ||
-                          statistics.least_samples == options.settings.samples;
-    if (!is_whole) keep_promise_partly(options.out, samples_text(statistics, options.settings));
+    if (!statistics.is_whole && !enough.is_out_of_time()) {
+      keep_promise_partly(options.out, samples_text(statistics, options.settings));
+    }
     file_is_written(options.out, options.common.quiet);
   }
   report_texels(*opened.system, diagnostics);

@@ -2,13 +2,55 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <string_view>
+#include <type_traits>
 
+#include "examples/tool/bake_inputs.h"
 #include "runtime/digest.h"
 
 namespace nacre::tool {
+
+namespace {
+
+template <class T>
+void add(Sha256& all, const std::vector<T>& numbers) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  all.add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)});
+}
+
+void add(Sha256& all, const host::Motion& motion) {
+  add(all, std::vector{motion.still()});
+  for (const host::Motion::Segment& segment : motion.segments()) {
+    add(all, std::vector{segment.begin, segment.end});
+    add(all, segment.steps);
+  }
+}
+
+/// Of all that is drawn: buffers of glTF files, say, are files of their own.
+std::string digest_of(const host::Scene& world) {
+  Sha256 all;
+  for (const host::Mesh& mesh : world.meshes) {
+    for (const std::string& name : {mesh.path, mesh.object_name, mesh.material_name}) {
+      all.add(name + '\n');
+    }
+    add(all, mesh.triangles);
+    add(all, mesh.position);
+    add(all, mesh.normal);
+    add(all, mesh.uv);
+    add(all, mesh.radius);
+    for (const host::Primvar& primvar : mesh.primvars) add(all, primvar.values);
+    for (const host::Motion& instance : mesh.instances) add(all, instance);
+  }
+  for (const host::PunctualLight& light : world.lights) {
+    add(all, std::vector{light.color, light.position, light.direction,
+                         host::Vec3{light.range, light.inner_cos, light.outer_cos}});
+  }
+  if (world.camera) add(all, std::vector{*world.camera});
+  add(all, world.camera_motion);
+  return to_hex(all.finish());
+}
+
+}  // namespace
 
 std::string asked_of(const CLI::App& command) {
   constexpr std::string_view others[] = {
@@ -28,21 +70,30 @@ std::string asked_of(const CLI::App& command) {
   return text;
 }
 
-std::optional<host::Checkpoint> checkpoint_of(const RenderOptions& options, const Opened& opened) {
-  if (options.progress.checkpoint.empty()) return {};
-  std::string key = options.asked + NACRE_TOOL_VERSION "\n";
-  const auto add = [&](const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream bytes;
-    bytes << in.rdbuf();
-    key += file + '\n' + to_hex(sha256(bytes.view())) + '\n';
-  };
-  for (const std::string& file : opened.document->files()) add(file);
-  for (const std::string& file : {options.scene, options.environment}) {
-    if (!file.empty()) add(file);
+std::optional<std::string> render_key(const RenderOptions& options, const Opened& opened,
+                                      const host::Scene& world,
+                                      const std::vector<const BoundKernel*>& kernels,
+                                      Diagnostics& diagnostics) {
+  BakeManifest inputs;
+  if (!describe_inputs(options.common, opened, inputs, diagnostics)) return {};
+  InputDigests digests;
+  Facts images;
+  for (const BoundKernel* kernel : kernels) {
+    for (const auto& [path, then] : kernel->files()) {
+      FileIdentity now;
+      images[path] = digests.of(path, &now);
+      if (now == then) continue;
+      diagnostics.error("input-changed", {path, 0, 0, {}}, "the file was written while it was used",
+                        "the same file to the end");
+      return {};
+    }
   }
-  return std::optional<host::Checkpoint>(std::in_place, options.progress.checkpoint, key,
-                                         options.progress.checkpoint_every);
+  if (!options.environment.empty()) images[options.environment] = digests.of(options.environment);
+  std::string key = options.asked + inputs.version + '\n' + digest_of(world) + '\n';
+  for (const Facts* facts : {&inputs.inputs, &inputs.options, &images}) {
+    for (const auto& [name, text] : *facts) key += name + '=' + text + '\n';
+  }
+  return key;
 }
 
 }  // namespace nacre::tool

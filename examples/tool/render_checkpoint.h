@@ -2,8 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "examples/render/checkpoint.h"
+#include "examples/render/scene.h"
 #include "examples/tool/options.h"
 #include "examples/tool/render_options.h"
 
@@ -12,8 +13,12 @@ namespace nacre::tool {
 /// What was given of a command's options, those left out that no bit of a picture hangs on.
 std::string asked_of(const CLI::App& command);
 
-/// Where the render is kept; its key is everything that a picture hangs on: what was asked for and
-/// the files, but for images.
-std::optional<host::Checkpoint> checkpoint_of(const RenderOptions& options, const Opened& opened);
+/// Everything that a picture hangs on, as text: what was asked for, the document and all that it
+/// reads, the scene as it stands, and the images of the kernels. Nothing, with an error, where a
+/// file cannot be read again or was written meanwhile.
+std::optional<std::string> render_key(const RenderOptions& options, const Opened& opened,
+                                      const host::Scene& world,
+                                      const std::vector<const BoundKernel*>& kernels,
+                                      Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

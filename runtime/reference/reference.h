@@ -12,7 +12,7 @@ namespace nacre {
 /// How often each operation was done, by Op.
 using OpCounts = std::array<std::uint64_t, op_count>;
 
-/// A kernel that runs `program` point by point in double precision, its
+/// A kernel that runs `program`, each point as if it were alone, in double precision, its
 /// transcendental functions those of the C library: the oracle for every
 /// error figure. Give it the Program before its math is expanded. Integer
 /// operations, and the bits that `bits` and `from_bits` show, are those of the

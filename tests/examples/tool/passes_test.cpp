@@ -41,6 +41,12 @@ Layers layers_of(const std::string& file) {
   return layers;
 }
 
+/// A card of a document's one material.
+constexpr std::string_view card = "o card\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+constexpr std::string_view positions = R"(<nodegraph name="NG">
+    <position name="p" type="vector3"/><output name="out" type="vector3" nodename="p"/>
+  </nodegraph>)";
+
 class PassesOfTool : public Tool {
  protected:
   std::string document(std::string_view name) const {
@@ -59,7 +65,9 @@ TEST_F(PassesOfTool, LightAddsUpToThePicture) {
   for (const std::string& what :
        {document("brass"), document("glass"), document("jade"), document("velvet"), smoke}) {
     const std::string asked = "render " + what + " --size 24 --spp 8 --out " + file("a.exr");
-    ASSERT_EQ(run(asked + " --aov " + all_light + " --light-group sky=environment key=key"), 0)
+    ASSERT_EQ(
+        run(asked + " --aov " + all_light + " --light-group sky=environment --light-group key=key"),
+        0)
         << errors_;
     const Layers layers = layers_of(file("a.exr"));
     for (const char* c : {".R", ".G", ".B"}) {
@@ -94,6 +102,7 @@ TEST_F(PassesOfTool, LightAddsUpToThePicture) {
 TEST_F(PassesOfTool, WhatAMaterialIsOfIsKnown) {
   write("a.mtlx", R"(<materialx version="1.39" colorspace="lin_rec709">
     <nodegraph name="NG"><position name="p" type="vector3"/>
+      <constant name="seven" type="integer"><input name="value" type="integer" value="7"/></constant>
       <multiply name="half" type="vector3"><input name="in1" type="vector3" nodename="p"/>
         <input name="in2" type="float" value="0.5"/></multiply>
       <output name="out" type="vector3" nodename="half"/></nodegraph>
@@ -103,10 +112,11 @@ TEST_F(PassesOfTool, WhatAMaterialIsOfIsKnown) {
     <surfacematerial name="M" type="material">
       <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
   </materialx>)");
-  write("a.obj", "o card\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+  write("a.obj", card);
   ASSERT_EQ(
       run("render " + file("a.mtlx") + " --scene " + file("a.obj") + " --size 8 --spp 4 --out " +
-          file("a.exr") + " --aov albedo,C.[LO],position,NG/half,crypto_object,crypto_material"),
+          file("a.exr") +
+          " --aov albedo,C.[LO],position --aov NG/half,NG/seven,crypto_object,crypto_material"),
       0)
       << errors_;
   const Layers layers = layers_of(file("a.exr"));
@@ -116,6 +126,7 @@ TEST_F(PassesOfTool, WhatAMaterialIsOfIsKnown) {
   EXPECT_EQ(layers["direct.G"].size(), 64u);
   EXPECT_FLOAT_EQ(layers["NG/half.R"][middle], 0.5f * layers["position.X"][middle]);
   EXPECT_GT(std::abs(layers["NG/half.R"][middle]), 0.01f);
+  EXPECT_EQ(layers["NG/seven.V"][middle], 7.0f);
   std::set<std::string> types;
   for (const auto& [name, text] : layers.texts) {
     if (name.ends_with("/name")) types.insert(text);
@@ -125,6 +136,42 @@ TEST_F(PassesOfTool, WhatAMaterialIsOfIsKnown) {
   }
   EXPECT_EQ(types, (std::set<std::string>{"CryptoMaterial", "CryptoObject"}));
   EXPECT_FLOAT_EQ(layers["CryptoObject00.G"][middle], 1.f);
+}
+
+// Options take one word each: what stands behind them is not theirs.
+TEST_F(PassesOfTool, OptionsMayStandBeforeTheDocument) {
+  EXPECT_EQ(run("render --aov depth --light-group sky=environment " + document("brass") +
+                " --size 8 --spp 1 --out " + file("a.exr")),
+            0)
+      << errors_;
+  const Layers layers = layers_of(file("a.exr"));
+  EXPECT_TRUE(layers.planes.contains("depth.Z"));
+  for (const char* c : {"R", "G", "B"}) {
+    const std::string tail = std::string(".") + c;
+    for (std::size_t i = 0; i < 64; ++i) {
+      EXPECT_NEAR(layers["light_sky" + tail][i] + layers["light_other" + tail][i], layers[c][i],
+                  1e-5f * layers[c][i]);
+    }
+  }
+}
+
+TEST_F(PassesOfTool, WhatOnlyShinesHasValuesToo) {
+  write("a.mtlx", "<materialx version=\"1.39\" colorspace=\"lin_rec709\">" +
+                      std::string(positions) +
+                      R"(<surface_unlit name="s" type="surfaceshader"/>
+    <surfacematerial name="M" type="material">
+      <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+  </materialx>)");
+  write("a.obj", card);
+  ASSERT_EQ(run("render " + file("a.mtlx") + " --scene " + file("a.obj") +
+                " --size 8 --spp 4 --aov NG/p,position,emission --out " + file("a.exr")),
+            0)
+      << errors_;
+  const Layers layers = layers_of(file("a.exr"));
+  const std::size_t middle = 8 * 4 + 4;
+  EXPECT_EQ(layers["NG/p.R"][middle], layers["position.X"][middle]);
+  EXPECT_NE(layers["NG/p.R"][middle], 0.0f);
+  EXPECT_EQ(layers["emission.R"][middle], 1.0f);
 }
 
 TEST_F(PassesOfTool, WhatThereIsNotIsAnError) {

@@ -217,6 +217,10 @@ TEST_F(Stopped, KilledRendersGoOnFromTheirCheckpoint) {
   ASSERT_EQ(Process(resumed, file("stderr")).wait(), 0) << text_of(file("stderr"));
   EXPECT_GT(killed, 0);
   EXPECT_EQ(text_of(file("a.exr")), text_of(file("whole.exr")));
+  // Of another document there is nothing to go on with.
+  std::ofstream(document_, std::ios::app) << "<!-- changed -->\n";
+  EXPECT_NE(Process(resumed, file("stderr")).wait(), 0);
+  EXPECT_NE(text_of(file("stderr")).find("[bad-checkpoint]"), std::string::npos);
 }
 
 TEST_F(Stopped, SignalsThatAreIgnoredStayIgnored) {
