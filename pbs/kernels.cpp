@@ -278,12 +278,27 @@ class SurfaceRecorder {
       }
       kernels_.sample.push_back({"kinds", kinds.ref()});
     }
+    if (request_.min_alpha) {
+      const Float alpha = select(valid, alpha_of(lobe), 0.0f);
+      kernels_.sample.push_back({"alpha", alpha.ref()});
+    }
     for (std::size_t i = 0; i < total.by_lobe.size(); ++i) {
       const Bool mine = delta & (lobe == Int(static_cast<int>(i)));
       const Color3 part =
           select(smooth, total.by_lobe[i] * Color3(inverse), select(mine, discrete, Color3(0.0f)));
       add_color(kernels_.sample, "weight.lobe" + std::to_string(i), part);
     }
+  }
+
+  /// The mean alpha of that lobe's facets; 0 where it has none.
+  Float alpha_of(Int lobe) const {
+    Float alpha = 0.0f;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (!terms_[i].lobe->is_of_facets()) continue;
+      const Float root = terms_[i].lobe->roughness(view_);
+      alpha = select(lobe == Int(static_cast<int>(i)), root * root, alpha);
+    }
+    return alpha;
   }
 
   /// transport_factor of the lobe that a delta is of. What goes below is still on its way.

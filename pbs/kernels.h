@@ -37,8 +37,9 @@ struct KernelRequest {
   std::uint32_t entries = entry_usual;
   std::int32_t lobes = lobe_all;  ///< LobeKind bits; others are left out for good.
   bool lobe_mask = false;         ///< Lobes can be switched off by the slot "lobe_mask" too.
-  bool min_alpha = false;         ///< Roughness can be raised by the slot "min_alpha" (see Facets).
-  bool reverse_pdf = false;       ///< The density of wo given wi as well.
+  /// Roughness can be raised by the slot "min_alpha" (see Facets); `sample` also stores "alpha".
+  bool min_alpha = false;
+  bool reverse_pdf = false;  ///< The density of wo given wi as well.
   /// No view gets more light than arrives, whatever the model says: what the lobes give together is
   /// divided by what of it exceeds 1, in each channel. As exact as their albedo.
   bool energy_conserving = false;
@@ -76,6 +77,8 @@ bool is_point_result(std::string_view name);
 ///             out: wi.x wi.y wi.z, weight.x .y .z (f |cos| / pdf), pdf
 ///                  [, pdf_reverse], lobe (i32: which), flags (i32: SampleFlag)
 ///   wanted    both: kinds (i32: LobeKind bits of what f is of, or of the lobe that was sampled)
+///   min_alpha sample only: alpha (the mean one of the facets that the sample is of; 0 of mirrors,
+///             and of lobes that have none), for the slot of that name where the path goes on
 ///   by lobe   both: f.lobe<k>.*, weight.lobe<k>.*: what lobe k adds to f or weight
 ///   albedo    out: albedo.x .y .z     fraction of light that scatters, at wo; at most 1, also
 ///                                     where weights above 1 let more leave than arrives

@@ -205,7 +205,9 @@ typedef struct nacre_compile_options {
   int by_lobe;     /* 1: NACRE_SAMPLE, NACRE_EVALUATE and NACRE_SHADE also store the part of each
                       lobe: "f.lobe0", "weight.lobe0", ... */
   int min_alpha;   /* 1: a slot min_alpha raises the roughness of what is smoother, so that paths
-                      behind rough bounces find no sharp lobes. */
+                      behind rough bounces find no sharp lobes. NACRE_SAMPLE also stores `alpha`,
+                      of the facets that were sampled: what is next on the path is at least as
+                      rough. The slot may be `varying`. */
   /* Bits 1 << nacre_entry of those that are compiled, for rays that ask no more: a shadow ray needs
      NACRE_OPACITY. NACRE_BEGIN comes with what reads its state. 0: all but NACRE_EVALUATE_AT,
      NACRE_SHADE, NACRE_INTERIOR, NACRE_SUBSURFACE, NACRE_SHADOW and NACRE_EMIT. */
