@@ -55,11 +55,17 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
   vacuum = memory_.floats(capacity);
   const std::size_t lanes = LaneMemory::lane_bytes(capacity) / sizeof(float);
   for (float* index : {b.exterior_index, vacuum}) std::fill_n(index, lanes, 1.f);
+  b.min_alpha = memory_.floats(capacity);
+  sample.alpha = memory_.floats(capacity);
   below.medium.anisotropy = memory_.floats(capacity);
   within.medium.anisotropy = memory_.floats(capacity);
   const std::size_t id_bytes = LaneMemory::lane_bytes(capacity);
   sample.flags = static_cast<std::uint32_t*>(memory_.take(id_bytes));
   sample.lobe = static_cast<std::int32_t*>(memory_.take(id_bytes));
+  sample.kinds = static_cast<std::int32_t*>(memory_.take(id_bytes));
+  value.kinds = static_cast<std::int32_t*>(memory_.take(id_bytes));
+  b.lobes_wanted = static_cast<std::int32_t*>(memory_.take(id_bytes));
+  std::fill_n(b.lobes_wanted, lanes, static_cast<std::int32_t>(all_lobes));
   geometry_id = static_cast<std::uint32_t*>(memory_.take(id_bytes));
   primitive_id = static_cast<std::uint32_t*>(memory_.take(id_bytes));
   primvars.resize(primvar_count);

@@ -79,6 +79,8 @@ void ExitShader::sample(const ShadingBatch& batch, const void* state, Lanes3 u,
     out.pdf[lane] = pdf;
     out.flags[lane] = pdf > 0.f ? sample_valid | sample_transmitted : 0u;
     out.lobe[lane] = 0;
+    if (out.kinds != nullptr) out.kinds[lane] = diffuse_transmission;
+    if (out.alpha != nullptr) out.alpha[lane] = 0.f;
   }
 }
 

@@ -14,6 +14,7 @@
 #include "examples/render/sampler.h"
 #include "examples/render/scene.h"
 #include "examples/render/shader.h"
+#include "examples/render/techniques.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::host {
@@ -51,6 +52,7 @@ struct RenderSettings {
   int tile_size = 32;              ///< Pixels on a side.
   std::uint32_t batch_size = 512;  ///< Points per kernel call, at most.
   PassRequest passes = {};         ///< Images beside the picture.
+  Techniques techniques = {};
   /// Not 0: a tile has enough samples once its error, as Accumulation::error estimates it, is at
   /// most that; `samples` at most, least_samples at least.
   double noise = 0.0;

@@ -88,6 +88,22 @@ struct ShadingBatch {
   float frame = 1.f;  ///< MaterialX `frame`, likewise.
   float *times = nullptr, *frames = nullptr;  ///< The same at the time of each point.
   float* exterior_index = nullptr;            ///< Of refraction, of what is around; 1 is vacuum.
+  std::int32_t* lobes_wanted = nullptr;       ///< LobeBit bits: what sample and evaluate are of.
+  float* min_alpha = nullptr;                 ///< What facets have at least, in [0, 1].
+};
+
+/// Lobes, as techniques tell them apart; glossy is what is rough.
+enum LobeBit : std::int32_t {
+  diffuse_reflection = 1 << 0,
+  glossy_reflection = 1 << 1,
+  diffuse_transmission = 1 << 2,
+  glossy_transmission = 1 << 3,
+  delta_reflection = 1 << 4,
+  delta_transmission = 1 << 5,
+  diffuse_lobes = diffuse_reflection | diffuse_transmission,
+  reflecting_lobes = diffuse_reflection | glossy_reflection | delta_reflection,
+  transmitting_lobes = diffuse_transmission | glossy_transmission | delta_transmission,
+  all_lobes = reflecting_lobes | transmitting_lobes,
 };
 
 /// What scatters light, as passes tell it apart (passes.h).
@@ -120,12 +136,15 @@ struct SampleLanes {
   float* pdf = nullptr;              ///< Forward, per solid angle, over all lobes.
   std::uint32_t* flags = nullptr;    ///< ScatterFlag bits.
   std::int32_t* lobe = nullptr;      ///< Which one; for subsurface().
+  std::int32_t* kinds = nullptr;     ///< Its LobeBit bits, where Techniques::chooses_lobes().
+  float* alpha = nullptr;            ///< Of its facets, where Techniques::clamps_roughness; or 0.
   const PartLanes* parts = nullptr;  ///< Of `weight`. Null: not wanted.
 };
 
 struct EvaluateLanes {
   Lanes3 value;                      ///< rgb: f·|cos|, Dirac lobes excluded.
   float* pdf = nullptr;              ///< Forward; 0 where sample() cannot go.
+  std::int32_t* kinds = nullptr;     ///< Of what value is, where Techniques::chooses_lobes().
   const PartLanes* parts = nullptr;  ///< Of `value`. Null: not wanted.
 };
 
@@ -167,6 +186,7 @@ struct Capabilities {
   bool volume_varies = false;    ///< volume() differs from place to place.
   bool scatters = true;          ///< False: emission only; sample, evaluate are never called.
   bool only_delta = false;       ///< evaluate() is always 0: no light sampling, no call.
+  std::int32_t lobes = 0;        ///< LobeBit bits of all that there are, delta ones as glossy.
   std::uint32_t attributes = 0;  ///< Attribute bits read by any of the kernels.
   /// Entries read of `object_to_world`, bits 0 to 15, and of `world_to_object`, 16 to 31.
   std::uint32_t matrix_entries = 0;

@@ -19,11 +19,12 @@ double now() {
 Stopwatch::Stopwatch(double& seconds) : seconds_(seconds), start_(now()) {}
 Stopwatch::~Stopwatch() { seconds_ += now() - start_; }
 
-Wavefront::Wavefront(const RenderContext& context, std::size_t max_paths)
+Wavefront::Wavefront(const RenderContext& context, std::size_t given_paths)
     : context_(context),
       buffer_(context.settings.batch_size, context.state_bytes, context.primvars) {
   buffer_.batch.time = context.settings.time;
   buffer_.batch.frame = context.settings.frame;
+  const std::size_t max_paths = given_paths << context.settings.techniques.split_events;
   for (auto* list : {&active_, &next_, &sorted_, &light_order_, &shadow_order_}) {
     list->reserve(max_paths);
   }
@@ -41,15 +42,17 @@ Wavefront::Wavefront(const RenderContext& context, std::size_t max_paths)
   light_groups_.resize(context.materials.size());
   shadow_groups_.resize(context.materials.size());
   lit_groups_.resize(context.point_lights.size());
+  weighed_.resize(context.settings.batch_size);
   prepare_passes(max_paths);
+  prepare_techniques(max_paths);
 }
 
 void Wavefront::trace(std::span<Path> paths) {
-  paths_ = paths;
+  paths_ = with_forks(paths);
   statistics_.paths += paths.size();
   begin_passes();
   active_.clear();
-  for (std::uint32_t i = 0; i < paths.size(); ++i) active_.push_back(i);
+  for (std::uint32_t i = 0; i < given_; ++i) active_.push_back(i);
   while (!active_.empty()) {
     next_.clear();
     shadows_.clear();
@@ -70,6 +73,7 @@ void Wavefront::trace(std::span<Path> paths) {
     trace_shadows();
     active_.swap(next_);
   }
+  join_forks(paths);
 }
 
 void Wavefront::intersect() {

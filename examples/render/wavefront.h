@@ -27,6 +27,9 @@ struct Path {
   Media media;          ///< What it is inside of.
   int scatterings = 0;  ///< Within media.
 
+  bool is_diffuse = false;  ///< One of diffuse_lobes has scattered it.
+  float min_alpha = 0.f;    ///< The most that facets have had that scattered it.
+
   /// How the direction of `ray` was drawn, for multiple importance sampling.
   Vec3 vertex;              ///< Where.
   Vec3 normal;              ///< There, as LitPlace has it.
@@ -142,7 +145,7 @@ class Wavefront {
   // wavefront_passes.cpp
   void prepare_passes(std::size_t max_paths);
   void begin_passes();
-  void add_found(std::uint32_t path, Vec3 light, std::uint8_t group, bool is_background = false);
+  void add_found(std::uint32_t path, Vec3 found, std::uint8_t group, bool is_background = false);
   void add_connected(const ShadowRay& shadow);
   void note_connection(std::uint32_t path, std::size_t lane);
   void note_connection_inside(std::uint32_t path);
@@ -207,12 +210,28 @@ class Wavefront {
   void light_emission(const Material& material, std::span<const std::uint32_t> points);
   void light_points(const LightShader& light, std::span<const std::uint32_t> lit);
 
+  // wavefront_techniques.cpp
+  void prepare_techniques(std::size_t max_paths);
+  std::span<Path> with_forks(std::span<Path> paths);
+  void join_forks(std::span<Path> paths);
+  bool may_fork(const Material& material, const Path& path) const;
+  void fork(const Material& material, std::span<const std::uint32_t> paths);
+  void limit_lobes(std::span<const std::uint32_t> paths);
+  void want_lobes(const Material& material, std::span<const std::uint32_t> paths,
+                  std::int32_t of_forks);
+  void note_lobe(Path& path, std::size_t lane) const;
+  Vec3 limited(Vec3 contribution, bool is_indirect) const;
+  bool survives(Path& path, Vec3 before) const;
+
   // wavefront_shade.cpp
+  void weigh_connections(const Material& material, std::span<const std::uint32_t> paths);
   void shade();
   void shade_batch(const Material& material, std::span<const std::uint32_t> paths);
   void add_emission(const Material& material, std::span<const std::uint32_t> paths);
   void connect_lights(const Material& material, std::span<const std::uint32_t> paths);
   void extend(const Material& material, std::span<const std::uint32_t> paths);
+  void sample(const Material& material, std::span<const std::uint32_t> paths);
+  void go_on(const Material& material, std::uint32_t path, std::size_t lane);
   bool scatter(Path& path, std::size_t lane, float distance);
 
   const RenderContext& context_;
@@ -243,6 +262,10 @@ class Wavefront {
   std::vector<Group> shadow_groups_;
   std::vector<std::uint8_t> blocked_;
   std::vector<SurfacePoint> points_;  ///< Of the batch at hand.
+  std::vector<Vec3> weighed_;         ///< By lane: f |cos| of a light sample, times its weight.
+  // Of Techniques; empty where none is used.
+  std::size_t given_ = 0;    ///< Paths that trace() was given; those after them are forks.
+  std::vector<Path> forks_;  ///< All of a call, with room for forks.
   // Of passes; empty where none needs them.
   std::vector<LightSplit> splits_;  ///< By path,
   std::vector<Trace> traces_;       ///< likewise, of PassNeed::split.

@@ -77,7 +77,8 @@ void Wavefront::connect_media() {
     if (!(light.pdf > 0.f)) continue;
     const float value = phase(at.anisotropy, at.along, light.wi);
     const float weight = light.unseen ? 1.f : connection_weight(light.pdf, value);
-    const Vec3 contribution = (weight * value / light.pdf) * (at.throughput * light.radiance);
+    const Vec3 contribution = limited(
+        (weight * value / light.pdf) * (at.throughput * light.radiance), paths_[at.path].depth > 1);
     if (is_zero(contribution)) continue;
     if (!is_finite(contribution)) {
       ++statistics_.invalid_results;

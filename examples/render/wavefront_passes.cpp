@@ -78,7 +78,8 @@ PathRecord Wavefront::record(std::size_t i) const {
 }
 
 /// Light that a path has found by its own direction.
-void Wavefront::add_found(std::uint32_t i, Vec3 light, std::uint8_t group, bool is_background) {
+void Wavefront::add_found(std::uint32_t i, Vec3 found, std::uint8_t group, bool is_background) {
+  const Vec3 light = limited(found, paths_[i].depth > 1);
   paths_[i].radiance += light;
   if (splits_.empty()) return;
   LightSplit& to = splits_[i];

@@ -25,6 +25,7 @@ void Wavefront::shade_batch(const Material& material, std::span<const std::uint3
   const bool scatters = material.capabilities.scatters && any_goes_on;
   if (!scatters && !material.capabilities.emits && first_hits_.empty()) return;
   fill(paths, material);
+  limit_lobes(paths);
   if (material.capabilities.emits) add_emission(material, paths);
   if (scatters || asks_points_) {
     const Stopwatch watch(statistics_.shading_seconds);
@@ -68,17 +69,13 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
     const LightSample& light = light_samples_[paths[lane]];
     store(buffer_.wi, lane, light.pdf > 0.f ? light.wi : load(buffer_.batch.N, lane));
   }
-  {
-    const Stopwatch watch(statistics_.shading_seconds);
-    material.shader->evaluate(buffer_.batch, buffer_.state, buffer_.wi, buffer_.value);
-  }
+  weigh_connections(material, paths);
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
     const LightSample& light = light_samples_[paths[lane]];
     if (!(light.pdf > 0.f) || goes_within(material, hits_[paths[lane]], lane, light.wi)) continue;
-    const Vec3 value = load(buffer_.value.value, lane);
-    const float weight = light.unseen ? 1.f : connection_weight(light.pdf, buffer_.value.pdf[lane]);
-    const Vec3 contribution =
-        (weight / light.pdf) * (paths_[paths[lane]].throughput * value * light.radiance);
+    const Path& path = paths_[paths[lane]];
+    const Vec3 contribution = limited(
+        (1.f / light.pdf) * (path.throughput * weighed_[lane] * light.radiance), path.depth > 0);
     if (is_zero(contribution)) continue;
     if (!is_finite(contribution)) {
       ++statistics_.invalid_results;
@@ -87,9 +84,37 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
     add_shadow(light, paths[lane], leave(buffer_, lane, light.wi), contribution);
     note_connection(paths[lane], lane);
     const Hit& hit = hits_[paths[lane]];
-    if (context_.any_volume && goes_out(paths_[paths[lane]].media, hit, lane, light.wi)) {
+    if (context_.any_volume && goes_out(path.media, hit, lane, light.wi)) {
       shadow_media_.back().media.leave(hit.mesh, hit.instance);
     }
+  }
+}
+
+/// What the lanes' light samples bring by these lobes, less what paths find of it themselves.
+void Wavefront::weigh_connections(const Material& material, std::span<const std::uint32_t> paths) {
+  const auto evaluate = [&] {
+    const Stopwatch watch(statistics_.shading_seconds);
+    material.shader->evaluate(buffer_.batch, buffer_.state, buffer_.wi, buffer_.value);
+  };
+  const auto weighed = [&](std::size_t lane) {
+    const LightSample& light = light_samples_[paths[lane]];
+    const float weight = light.unseen ? 1.f : connection_weight(light.pdf, buffer_.value.pdf[lane]);
+    return weight * load(buffer_.value.value, lane);
+  };
+  // What forks, finds light of each side by a density of its own.
+  const auto forks = [&](std::size_t lane) { return may_fork(material, paths_[paths[lane]]); };
+  want_lobes(material, paths, reflecting_lobes);
+  evaluate();
+  bool any_forks = false;
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    weighed_[lane] = weighed(lane);
+    any_forks = any_forks || forks(lane);
+  }
+  if (!any_forks) return;
+  want_lobes(material, paths, transmitting_lobes);
+  evaluate();
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    if (forks(lane)) weighed_[lane] += weighed(lane);
   }
 }
 
@@ -99,28 +124,35 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
     const Uniform2 direction = draw(path, Draw::direction);
     store(buffer_.u, lane, {draw(path, Draw::lobe).x, direction.x, direction.y});
   }
-  {
-    const Stopwatch watch(statistics_.shading_seconds);
-    material.shader->sample(buffer_.batch, buffer_.state, buffer_.u, buffer_.sample);
-    find_media(material, paths.size());
+  fork(material, paths);
+  want_lobes(material, paths, reflecting_lobes);
+  sample(material, paths);
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) go_on(material, paths[lane], lane);
+}
+
+void Wavefront::sample(const Material& material, std::span<const std::uint32_t> paths) {
+  const Stopwatch watch(statistics_.shading_seconds);
+  material.shader->sample(buffer_.batch, buffer_.state, buffer_.u, buffer_.sample);
+  find_media(material, paths.size());
+}
+
+/// As the sample of a lane says.
+void Wavefront::go_on(const Material& material, std::uint32_t index, std::size_t lane) {
+  Path& path = paths_[index];
+  if (path.depth >= context_.settings.max_depth) return;
+  const Hit& hit = hits_[index];
+  path.unlit = !context_.scene.meshes[hit.mesh].illuminated;
+  // See sample_lights() and connect_lights().
+  const bool unconnected = !path.media.is_open(hit.mesh, hit.instance) ||
+                           goes_within(material, hit, lane, load(buffer_.sample.wi, lane));
+  if (!scatter(path, lane, hit.distance)) return;
+  note_scattering(index, lane);
+  path.normal = lit_normal(index);
+  path.light_blind = path.light_blind || unconnected;
+  if ((buffer_.sample.flags[lane] & sample_transmitted) != 0) {
+    change_medium(material, path, hit, lane);
   }
-  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
-    Path& path = paths_[paths[lane]];
-    if (path.depth >= context_.settings.max_depth) continue;
-    const Hit& hit = hits_[paths[lane]];
-    path.unlit = !context_.scene.meshes[hit.mesh].illuminated;
-    // See sample_lights() and connect_lights().
-    const bool unconnected = !path.media.is_open(hit.mesh, hit.instance) ||
-                             goes_within(material, hit, lane, load(buffer_.sample.wi, lane));
-    if (!scatter(path, lane, hit.distance)) continue;
-    note_scattering(paths[lane], lane);
-    path.normal = lit_normal(paths[lane]);
-    path.light_blind = path.light_blind || unconnected;
-    if ((buffer_.sample.flags[lane] & sample_transmitted) != 0) {
-      change_medium(material, path, hit, lane);
-    }
-    next_.push_back(paths[lane]);
-  }
+  next_.push_back(index);
 }
 
 /// Gives a path its next ray. False when it ends here.
@@ -135,15 +167,13 @@ bool Wavefront::scatter(Path& path, std::size_t lane, float distance) {
     ++statistics_.invalid_results;
     return false;
   }
+  const Vec3 before = path.throughput;
   path.throughput *= weight;
   if (is_zero(path.throughput)) return false;
   // What goes below and comes back is scattered once: where it leaves.
   if ((flags & sample_subsurface) == 0) ++path.depth;
-  if (path.depth >= context_.settings.roulette_depth) {
-    const float survival = std::min(1.f, max_component(path.throughput));
-    if (!(draw(path, Draw::roulette).x < survival)) return false;
-    path.throughput = (1.f / survival) * path.throughput;
-  }
+  if (path.depth >= context_.settings.roulette_depth && !survives(path, before)) return false;
+  note_lobe(path, lane);
   const bool delta = (flags & sample_delta) != 0;
   if (path.from_camera) path.spread = context_.camera.sample_angle();
   path.width += path.spread * (path.distance + distance);

@@ -12,6 +12,13 @@
 
 namespace nacre::tool {
 
+static_assert(int{host::diffuse_reflection} == lobe_diffuse_reflection &&
+              int{host::glossy_reflection} == lobe_glossy_reflection &&
+              int{host::diffuse_transmission} == lobe_diffuse_transmission &&
+              int{host::glossy_transmission} == lobe_glossy_transmission &&
+              int{host::delta_reflection} == lobe_delta_reflection &&
+              int{host::delta_transmission} == lobe_delta_transmission);
+
 using host::Lanes3;
 using host::ShadingBatch;
 
@@ -47,6 +54,7 @@ KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop&
   bind(kernels_->displacement, displacement_, {});
   capabilities_.has_subsurface = kernels_->subsurface.has_value();
   bind(kernels_->subsurface, subsurface_, {"of_lobe"});
+  for (const LobeInfo& lobe : kernels_->lobes) capabilities_.lobes |= lobe.kinds;
   if (kernels_->sample) sample_parts_ = {kernels_->sample->program(), "weight", kernels_->lobes};
   if (kernels_->evaluate) evaluate_parts_ = {kernels_->evaluate->program(), "f", kernels_->lobes};
   find_columns(values);
@@ -210,8 +218,11 @@ void KernelShader::sample(const ShadingBatch& batch, const void* state, Lanes3 u
                           host::SampleLanes out) const {
   // The host's first number chooses the lobe; the kernel's third does.
   const std::array<const void*, 3> extras{u.y, u.z, u.x};
-  const std::array<void*, 9> outputs{out.wi.x,     out.wi.y, out.wi.z, out.weight.x, out.weight.y,
-                                     out.weight.z, out.pdf,  out.lobe, out.flags};
+  const std::array<void*, 11> known{out.wi.x,     out.wi.y,     out.wi.z, out.weight.x,
+                                    out.weight.y, out.weight.z, out.pdf,  out.lobe,
+                                    out.flags,    out.kinds,    out.alpha};
+  const std::span<void* const> outputs =
+      std::span(known).first(sample_.kernel->program().outputs.size() - sample_parts_.count());
   if (out.parts == nullptr) return run(sample_, batch, state, extras, outputs);
   const std::vector<float> lobes =
       run_by_lobe(sample_, sample_parts_, batch, state, extras, outputs);
@@ -221,7 +232,9 @@ void KernelShader::sample(const ShadingBatch& batch, const void* state, Lanes3 u
 void KernelShader::evaluate(const ShadingBatch& batch, const void* state, Lanes3 wi,
                             host::EvaluateLanes out) const {
   const std::array<const void*, 3> extras{wi.x, wi.y, wi.z};
-  const std::array<void*, 4> outputs{out.value.x, out.value.y, out.value.z, out.pdf};
+  const std::array<void*, 5> known{out.value.x, out.value.y, out.value.z, out.pdf, out.kinds};
+  const std::span<void* const> outputs =
+      std::span(known).first(evaluate_.kernel->program().outputs.size() - evaluate_parts_.count());
   if (out.parts == nullptr) return run(evaluate_, batch, state, extras, outputs);
   const std::vector<float> lobes =
       run_by_lobe(evaluate_, evaluate_parts_, batch, state, extras, outputs);

@@ -31,6 +31,7 @@
 #include "examples/tool/render_options.h"
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
+#include "examples/tool/technique_options.h"
 #include "examples/tool/varying_slots.h"
 #include "jit/document/inheritance.h"
 #include "jit/document/select.h"
@@ -118,6 +119,7 @@ bool compile_shaders(RenderOptions& options, const Opened& opened, const host::S
     ask_for_passes(options.settings.passes, shader.kernels);
     shader.varying = varying_slots(meshes.at(assignment.key()), host::is_open(options.settings));
     if (is_nested) shader.varying.emplace_back("exterior_index");
+    ask_for_techniques(options.settings.techniques, shader);
     const auto compile = [&](Diagnostics& to) {
       return opened.system->compile_material(*opened.document, assignment.material, shader, to);
     };
@@ -371,6 +373,7 @@ int run(RenderOptions& options) {
   options.settings.threads = options.common.threads;
   options.settings.passes = pass_request(options.passes, diagnostics);
   check_passes(options, diagnostics);
+  check_techniques(options.settings, diagnostics);
   if (diagnostics.has_errors()) {
     report(diagnostics);
     return status_usage;
@@ -416,6 +419,7 @@ int run(RenderOptions& options) {
   if (diagnostics.error_count() != errors) return report(diagnostics);
   ShaderOptions neutral_options = options.common.shader_options();
   neutral_options.kernels.by_lobe = options.settings.passes.any(host::PassNeed::split);
+  ask_for_techniques(options.settings.techniques, neutral_options);
   auto grey = neutral_material(*opened.system, neutral_options, diagnostics);
   if (grey == nullptr) return report(diagnostics);
   const KernelShader neutral(std::move(grey), stop);

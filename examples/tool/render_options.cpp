@@ -6,6 +6,7 @@
 
 #include "examples/tool/number_range.h"
 #include "examples/tool/scene_limit_options.h"
+#include "examples/tool/technique_options.h"
 
 namespace nacre::tool {
 
@@ -91,6 +92,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(0, 1e9))
       ->capture_default_str();
   command.add_flag("--half", options.write.half, "16-bit floats in .exr");
+  add_techniques(command, settings);
   options.passes.add(command);
   options.progress.add(command);
   command
