@@ -48,16 +48,30 @@ void reject_backs(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
+/// Vertices are read sixteen bytes at a time: beyond the last one has to be something, or they are
+/// copied.
+bool set_vertices(RTCGeometry geometry, unsigned step, const std::vector<Vec3>& vertices) {
+  if (vertices.capacity() > vertices.size()) {
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
+                               vertices.data(), 0, sizeof(Vec3), vertices.size());
+    return true;
+  }
+  void* copy = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT3,
+                                       sizeof(Vec3), vertices.size());
+  if (copy != nullptr) std::memcpy(copy, vertices.data(), vertices.size() * sizeof(Vec3));
+  return copy != nullptr;
+}
+
 bool add_triangles(RTCDevice device, RTCScene scene, const Mesh& mesh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                           sizeof(Vec3), mesh.position.size());
-  void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          sizeof(Triangle), mesh.triangles.size());
-  const bool ok = vertices != nullptr && indices != nullptr;
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(mesh.poses.size() + 1));
+  bool ok = set_vertices(geometry, 0, mesh.position);
+  for (unsigned i = 0; i < mesh.poses.size(); ++i) {
+    ok = ok && set_vertices(geometry, i + 1, mesh.poses[i].position);
+  }
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             mesh.triangles.data(), 0, sizeof(Triangle), mesh.triangles.size());
   if (ok) {
-    std::memcpy(vertices, mesh.position.data(), mesh.position.size() * sizeof(Vec3));
-    std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle));
     rtcSetGeometryMask(geometry, mesh.visible_to);
     if (!mesh.two_sided) rtcSetGeometryIntersectFilterFunction(geometry, reject_backs);
     rtcCommitGeometry(geometry);
@@ -99,6 +113,20 @@ bool add_fibres(RTCDevice device, RTCScene scene, const Mesh& mesh) {
   }
   rtcReleaseGeometry(geometry);
   return ok;
+}
+
+/// Watertight; what is large as small as can be, rather than as fast.
+RTCSceneFlags scene_flags(std::size_t triangles) {
+  constexpr std::size_t large = 2'000'000;
+  return triangles > large
+             ? static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT)
+             : RTC_SCENE_FLAG_ROBUST;
+}
+
+std::size_t baked_triangles(const Scene& scene) {
+  std::size_t sum = 0;
+  for (const Mesh& mesh : scene.meshes) sum += mesh.instances.empty() ? mesh.triangles.size() : 0;
+  return sum;
 }
 
 bool add_pieces(RTCDevice device, RTCScene scene, const Mesh& mesh) {
@@ -164,7 +192,7 @@ bool Bvh::Embree::add(const Mesh& mesh, std::uint32_t number) {
   }
   RTCScene own = rtcNewScene(device);
   instanced.push_back(own);
-  rtcSetSceneFlags(own, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(own, scene_flags(mesh.triangles.size()));
   if (!add_pieces(device, own, mesh)) return false;
   rtcCommitScene(own);
   show(mesh, number, own);
@@ -198,7 +226,7 @@ Bvh::Bvh(const Scene& scene, Diagnostics& diagnostics) : embree_(std::make_uniqu
   embree_->device = rtcNewDevice(nullptr);
   if (embree_->device != nullptr) {
     embree_->scene = rtcNewScene(embree_->device);
-    rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(embree_->scene, scene_flags(baked_triangles(scene)));
     const bool masks =
         rtcGetDeviceProperty(embree_->device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0;
     const bool filters =

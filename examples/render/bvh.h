@@ -39,7 +39,8 @@ bool is_traceable(const Ray& ray);
 /// and one for each segment of it.
 class Bvh {
  public:
-  /// Copies what it needs. `ok` is false, with an error, when memory ran out.
+  /// Reads the scene's triangles and vertices where they are: they stay there as long. `ok` is
+  /// false, with an error, when memory ran out.
   Bvh(const Scene& scene, Diagnostics& diagnostics);
   ~Bvh();
   Bvh(const Bvh&) = delete;

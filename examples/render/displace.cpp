@@ -187,6 +187,10 @@ DisplaceResult displace(Scene& scene, const std::vector<const Shader*>& shaders,
            !scene.meshes[i].is_fibres();
   };
   for (std::uint32_t i = 0; i < shaders.size(); ++i) {
+    if (moves(i) && !scene.meshes[i].poses.empty()) {
+      scene.meshes[i].poses.clear();
+      result.stopped.push_back(i);
+    }
     if (moves(i) && !displacer.split(i)) result.coarse.push_back(i);
   }
   const SurfaceGeometry geometry(scene, settings.clock);

@@ -20,7 +20,8 @@ struct DisplaceSettings {
 };
 
 struct DisplaceResult {
-  std::vector<std::uint32_t> coarse;  ///< Meshes that most_triangles kept from being fine enough.
+  std::vector<std::uint32_t> coarse;   ///< Meshes that most_triangles kept from being fine enough.
+  std::vector<std::uint32_t> stopped;  ///< Meshes that bend, and stand as the shutter opens.
   std::size_t invalid = 0;  ///< Vertices that were not moved: to nowhere, or out of reach.
 };
 

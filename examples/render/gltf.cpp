@@ -1,15 +1,20 @@
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
 #include <utility>
 
 #include "examples/render/camera.h"
 #include "examples/render/fibre.h"
 #include "examples/render/gltf_animation.h"
+#include "examples/render/gltf_deform.h"
 #include "examples/render/gltf_file.h"
 #include "examples/render/gltf_instancing.h"
 #include "examples/render/gltf_light.h"
+#include "examples/render/gltf_material.h"
 #include "examples/render/gltf_primitive.h"
+#include "examples/render/gltf_skin.h"
+#include "examples/render/gltf_variants.h"
 #include "examples/render/load_scene.h"
 #include "examples/render/scene_file.h"
 
@@ -20,22 +25,26 @@ namespace {
 class GltfReader {
  public:
   GltfReader(GltfFile file, const GltfReport& report, std::size_t file_bytes,
-             const SceneLimits& limits, const Shutter& shutter)
+             const SceneLimits& limits, const Shutter& shutter, const SceneLooks& looks)
       : json_(std::move(file.root)),
         root_(&json_, {}, report),
         limits_(limits),
+        looks_(looks),
         buffers_(root_, std::move(file.binary), file_bytes),
-        accessors_(root_, buffers_),
         budget_(limits, report.diagnostics),
-        primitives_(root_, accessors_, budget_, dropped_),
+        accessors_(root_, buffers_, budget_),
+        variants_(root_),
+        primitives_(root_, buffers_, accessors_, budget_, dropped_, variants_),
         animation_(root_, accessors_, budget_, dropped_, shutter),
+        deform_(accessors_, animation_, budget_),
         instancing_(accessors_, budget_, dropped_),
         nodes_(root_["nodes"]),
-        visited_(nodes_.size(), false) {}
+        worlds_(nodes_.size()) {}
 
   Scene read() {
     const GltfValue scenes = root_["scenes"], wanted = root_["scene"];
-    if (!dropped_.look_at_file(root_) || !animation_.read()) return {};
+    if (!dropped_.look_at_file(root_, looks_.materials)) return {};
+    if (!variants_.choose(looks_.variant) || !animation_.read()) return {};
     const auto chosen = wanted ? wanted.index_of(scenes) : std::optional<std::size_t>(0);
     if (!wanted && scenes.size() > 1) {
       dropped_.say("several-scenes", scenes, "the first scene is shown, for the file names none",
@@ -49,6 +58,7 @@ class GltfReader {
       dropped_.say("several-cameras", root_["cameras"], "the first camera of the scene is taken",
                    "one camera", fmt::format("{}", cameras_));
     }
+    if (looks_.materials) read_materials();
     if (has_errors()) return {};
     return std::move(scene_);
   }
@@ -62,7 +72,23 @@ class GltfReader {
     int depth;
   };
 
+  /// A node with a mesh, and where it is.
+  struct Placed {
+    std::size_t number;
+    std::shared_ptr<const Motion> world;
+    std::string path;
+  };
+
   bool has_errors() const { return root_.report().diagnostics.has_errors(); }
+
+  void read_materials() {
+    GltfTextures textures(root_, buffers_, dropped_);
+    const GltfValue materials = root_["materials"];
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      scene_.materials.all.push_back(read_material(materials[i], textures, dropped_));
+    }
+    scene_.materials.images = textures.take_images();
+  }
 
   /// Depth first, in the order of the file.
   void read_scene(const GltfValue& scene) {
@@ -74,6 +100,7 @@ class GltfReader {
       ahead.pop_back();
       read_node(visit, ahead);
     }
+    for (std::size_t i = 0; i < skinned_.size() && !stopped_; ++i) add_mesh(skinned_[i]);
   }
 
   static void push(const GltfValue& list, const std::shared_ptr<const Motion>& parent,
@@ -87,11 +114,10 @@ class GltfReader {
     if (!index) return;
     const GltfValue node = nodes_[*index];
     // glTF 2.0, 3.5.2: the nodes are a strict tree.
-    if (visited_[*index]) {
+    if (worlds_[*index] != nullptr) {
       return visit.index.error("the node hierarchy is not a tree", "one parent per node, no cycle",
                                node.path() + " met twice");
     }
-    visited_[*index] = true;
     if (visit.depth == limits_.node_depth) {
       return node.error("the nodes are nested too deeply",
                         fmt::format("at most {} levels (--max-node-depth)", limits_.node_depth),
@@ -100,12 +126,18 @@ class GltfReader {
     const auto world = world_motion(*visit.parent, *index, node);
     stopped_ = stopped_ || world == nullptr;
     if (stopped_) return;
+    worlds_[*index] = world;
     const std::string name = node.name();
     dropped_.look_at_node(node);
     const auto path =
         name.empty() ? visit.above : std::make_shared<const std::string>(*visit.above + '/' + name);
-    if (const auto mesh = node["mesh"].index_of(root_["meshes"])) {
-      add_mesh(node, name, root_["meshes"][*mesh], *mesh, *world, *path);
+    if (node["mesh"]) {
+      Placed placed{*index, world, *path};
+      if (node["skin"]) {
+        skinned_.push_back(std::move(placed));
+      } else {
+        add_mesh(placed);
+      }
     }
     if (const auto camera = node["camera"].index_of(root_["cameras"])) {
       add_camera(node, root_["cameras"][*camera], *world);
@@ -137,8 +169,30 @@ class GltfReader {
     return nullptr;
   }
 
-  void add_mesh(const GltfValue& node, const std::string& object, const GltfValue& source,
-                std::size_t number, const Motion& world, const std::string& path) {
+  /// Null after an error.
+  const GltfSkin* skin(const GltfValue& index) {
+    const GltfValue skins = root_["skins"];
+    const auto number = index.index_of(skins);
+    if (!number) return nullptr;
+    if (const auto known = skins_.find(*number); known != skins_.end()) return &known->second;
+    auto read = GltfSkin::read(root_, skins[*number], accessors_, budget_,
+                               [this](std::size_t node) { return worlds_[node].get(); });
+    if (!read) return nullptr;
+    return &skins_.emplace(*number, std::move(*read)).first->second;
+  }
+
+  void add_mesh(const Placed& placed) {
+    const GltfValue node = nodes_[placed.number];
+    const auto number = node["mesh"].index_of(root_["meshes"]);
+    if (!number) return;
+    const GltfValue source = root_["meshes"][*number];
+    const std::string object = node.name();
+    const std::string& path = placed.path;
+    const GltfSkin* const bones = node["skin"] ? skin(node["skin"]) : nullptr;
+    stopped_ = node["skin"] && bones == nullptr;
+    if (stopped_) return;
+    // glTF 2.0, 3.7.3.3: where the node itself is does not count for a skin.
+    const Motion world = bones == nullptr ? *placed.world : Motion();
     const auto places = instancing_.places(node, world);
     if (!places) {
       stopped_ = true;
@@ -150,14 +204,19 @@ class GltfReader {
     const std::string name = source.name();
     for (std::size_t i = 0; i < primitives.size() && !stopped_; ++i) {
       Mesh mesh;
-      mesh.mesh_name = name.empty() ? fmt::format("mesh{}", number) : name;
+      mesh.mesh_name = name.empty() ? fmt::format("mesh{}", *number) : name;
       mesh.object_name = object.empty() ? mesh.mesh_name : object;
       mesh.path = object.empty() ? path + '/' + mesh.object_name : path;
       if (!primitives_.read(primitives[i], mesh)) {
         stopped_ = has_errors();
         continue;
       }
-      const bool is_baked = places->size() == 1 && places->front().is_still();
+      if (!mesh.is_fibres() &&
+          !deform_.apply(node, placed.number, source, primitives[i], bones, mesh)) {
+        stopped_ = true;
+        return;
+      }
+      const bool is_baked = bones == nullptr && places->size() == 1 && places->front().is_still();
       if (is_baked) bake_transform(mesh, places->front().still());
       // glTF 2.0, 3.7.2.1: without normals faces are flat, and tangents do not count.
       if (mesh.normal.empty()) mesh.tangent.clear();
@@ -166,7 +225,8 @@ class GltfReader {
       const bool is_whole = mesh.is_fibres()
                                 ? finish_fibres(mesh, where, diagnostics)
                                 : finish_mesh(mesh, where, diagnostics, MissingNormals::flat);
-      if (is_whole && (is_baked || instancing_.place(mesh, *places, primitives[i]))) {
+      const bool stays = is_baked || bones != nullptr;
+      if (is_whole && (stays || instancing_.place(mesh, *places, primitives[i]))) {
         scene_.meshes.push_back(std::move(mesh));
       } else {
         stopped_ = true;
@@ -214,15 +274,20 @@ class GltfReader {
   nlohmann::json json_;
   GltfValue root_;
   SceneLimits limits_;
+  SceneLooks looks_;
   GltfBuffers buffers_;
-  GltfAccessors accessors_;
   SceneBudget budget_;
+  GltfAccessors accessors_;
   GltfDropped dropped_;
+  GltfVariants variants_;
   GltfPrimitives primitives_;
   GltfAnimation animation_;
+  GltfDeform deform_;
   GltfInstancing instancing_;
   GltfValue nodes_;
-  std::vector<bool> visited_;
+  std::vector<std::shared_ptr<const Motion>> worlds_;  ///< Of nodes that were met.
+  std::vector<Placed> skinned_;                        ///< For when all joints are met.
+  std::map<std::size_t, GltfSkin> skins_;
   Scene scene_;
   int cameras_ = 0;
   bool stopped_ = false;  ///< One wrong mesh is enough: many nodes may show it.
@@ -231,14 +296,14 @@ class GltfReader {
 }  // namespace
 
 Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
-                const Shutter& shutter) {
+                const Shutter& shutter, const SceneLooks& looks) {
   std::size_t file_bytes = limits.file_bytes;
   auto bytes = read_scene_file(path, {path, 0, 0, {}}, file_bytes, diagnostics);
   if (!bytes) return {};
   Diagnostics found;
   Scene scene;
   if (auto file = parse_gltf_file(path, std::move(*bytes), limits, found)) {
-    scene = GltfReader(std::move(*file), {path, found}, file_bytes, limits, shutter).read();
+    scene = GltfReader(std::move(*file), {path, found}, file_bytes, limits, shutter, looks).read();
   }
   for (const Diagnostic& d : found.all()) diagnostics.add(d);
   return scene;

@@ -66,56 +66,115 @@ float read_component(const char* p, int type, bool normalized) {
 
 }  // namespace
 
-std::optional<GltfAccessor> GltfAccessors::open(const GltfValue& index) {
-  const auto number = index.index_of(root_["accessors"]);
-  if (!number) return {};
-  const GltfValue a = root_["accessors"][*number];
-  if (a["sparse"]) {
-    a.error("sparse accessors are not supported", "a dense accessor", "sparse");
-    return {};
-  }
-  const auto view_index = a["bufferView"].need("the index of a buffer view");
-  const auto view_number = view_index.index_of(root_["bufferViews"]);
+std::size_t GltfAccessors::Form::bytes() const {
+  return component_bytes(static_cast<std::size_t>(type)) * static_cast<std::size_t>(components);
+}
+
+void GltfAccessors::give(std::size_t number, const Form& form, std::string bytes) {
+  const std::string& kept = made_.emplace_back(std::move(bytes));
+  given_[number] = {kept.data(), form.count, form.bytes(), form.type, form.components, false};
+}
+
+std::optional<GltfAccessors::Form> GltfAccessors::form(const GltfValue& a) const {
   const auto count = a["count"].need("a number of elements").count();
   const auto type = a["componentType"].need("a component type").count();
   const auto shape = a["type"].need("a type").text();
-  if (!view_number || !count || !type || !shape) return {};
-  const GltfValue view = root_["bufferViews"][*view_number];
-  const auto buffer = view["buffer"].need("the index of a buffer").index_of(root_["buffers"]);
-  const auto length = view["byteLength"].need("a length in bytes").count();
-  if (!buffer || !length) return {};
-  const std::size_t bytes = component_bytes(*type);
-  const int components = component_count(*shape);
-  if (bytes == 0 || components == 0) {
+  if (!count || !type || !shape) return {};
+  if (component_bytes(*type) == 0 || component_count(*shape) == 0) {
     a.error("the accessor has no known type", "a component type and type of glTF 2.0",
             fmt::format("componentType {}, type \"{}\"", *type, *shape));
     return {};
   }
-  // What is there but wrong has been reported and counts as nothing until the end.
-  const std::size_t view_offset = view["byteOffset"].count().value_or(0);
-  const std::size_t offset = a["byteOffset"].count().value_or(0);
-  const std::size_t element = bytes * static_cast<std::size_t>(components);
-  const std::size_t stride = view["byteStride"].count().value_or(element);
-  const auto data = buffers_.bytes(*buffer);
-  if (!data) return {};
-  if (view_offset > data->size() || *length > data->size() - view_offset) {
-    view.error("the buffer view is not within its buffer",
-               fmt::format("at most {} bytes", data->size()),
-               fmt::format("{} bytes from {}", *length, view_offset));
-    return {};
+  return Form{*count, static_cast<int>(*type), component_count(*shape)};
+}
+
+std::optional<GltfAccessor> GltfAccessors::open(const GltfValue& index) {
+  const auto number = index.index_of(root_["accessors"]);
+  if (!number) return {};
+  const GltfValue a = root_["accessors"][*number];
+  std::optional<GltfAccessor> result;
+  if (const auto given = given_.find(*number); given != given_.end()) {
+    result = given->second;
+  } else if (const auto of = form(a)) {
+    result = a["sparse"] ? sparse(a, *of) : elements(a, a["bufferView"], *of);
   }
+  if (result) result->normalized = a["normalized"].boolean().value_or(false);
+  return result;
+}
+
+/// Those of `view` that the accessor's byteOffset begins.
+std::optional<GltfAccessor> GltfAccessors::elements(const GltfValue& a, const GltfValue& view,
+                                                    const Form& form) {
+  const auto data = buffers_.view(view);
+  if (!data) return {};
+  // What is there but wrong has been reported and counts as nothing until the end.
+  const std::size_t offset = a["byteOffset"].count().value_or(0);
+  const std::size_t element = form.bytes(), length = data->size();
+  const GltfValue stride_of = root_["bufferViews"][*view.count()]["byteStride"];
+  const std::size_t stride = stride_of.count().value_or(element);
   // In this order nothing overflows: sizes are compared by what is left.
-  const bool starts = offset <= *length && element <= *length - offset && stride >= element;
-  if (*count == 0 || !starts || *count - 1 > (*length - offset - element) / stride) {
+  const bool starts = offset <= length && element <= length - offset && stride >= element;
+  if (form.count == 0 || !starts || form.count - 1 > (length - offset - element) / stride) {
     a.error("the accessor is not within its buffer view",
             fmt::format("at least one element of {} bytes every {}, from {}, in {} bytes", element,
-                        stride, offset, *length),
-            fmt::format("{} elements", *count));
+                        stride, offset, length),
+            fmt::format("{} elements", form.count));
     return {};
   }
-  return GltfAccessor{
-      data->data() + view_offset + offset,      *count, stride, static_cast<int>(*type), components,
-      a["normalized"].boolean().value_or(false)};
+  return GltfAccessor{data->data() + offset, form.count, stride, form.type, form.components, false};
+}
+
+/// glTF 2.0, 3.6.2.4: zeros, or elements of a view, some of which are others.
+std::optional<GltfAccessor> GltfAccessors::sparse(const GltfValue& a, const Form& form) {
+  const GltfValue s = a["sparse"], at = s["indices"], by = s["values"];
+  const auto count = s["count"].need("a number of elements").count();
+  const auto type = at["componentType"].need("a component type").count();
+  if (!count || !type) return {};
+  const bool is_unsigned = *type == type_u8 || *type == type_u16 || *type == type_u32;
+  if (!is_unsigned || *count > form.count || form.count == 0) {
+    s.error("the sparse accessor has another form",
+            fmt::format("unsigned integers as indices, at most {}", form.count),
+            fmt::format("{} of component type {}", *count, *type));
+    return {};
+  }
+  std::optional<GltfAccessor> base;
+  if (a["bufferView"] && !(base = elements(a, a["bufferView"], form))) return {};
+  const Form index{*count, static_cast<int>(*type), 1}, value{*count, form.type, form.components};
+  std::optional<GltfAccessor> places, values;
+  if (*count != 0) {
+    places = elements(at, at["bufferView"], index);
+    values = elements(by, by["bufferView"], value);
+    if (!places || !values) return {};
+  }
+  const std::size_t element = form.bytes();
+  // A count is any number that the file says.
+  constexpr std::size_t most = std::size_t{1} << 40;
+  const std::size_t size = form.count > most ? most : form.count * element;
+  if (!budget_.take_bytes({a.report().file, 0, 0, a.path()}, size)) return {};
+  std::string& bytes = made_.emplace_back(form.count * element, '\0');
+  for (std::size_t i = 0; base && i < form.count; ++i) {
+    std::memcpy(&bytes[i * element], base->data + i * base->stride, element);
+  }
+  const std::vector<std::uint32_t> order =
+      places ? integers(*places) : std::vector<std::uint32_t>();
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (order[i] >= form.count) {
+      at.error("an index of the sparse accessor is out of range",
+               fmt::format("less than {}", form.count), fmt::format("{}", order[i]));
+      return {};
+    }
+    std::memcpy(&bytes[order[i] * element], values->data + i * values->stride, element);
+  }
+  return GltfAccessor{bytes.data(), form.count, element, form.type, form.components, false};
+}
+
+std::optional<GltfAccessor> GltfAccessors::matrices(const GltfValue& index) {
+  const auto a = open(index);
+  if (!a) return {};
+  if (a->components == 16 && a->component_type == type_f32) return a;
+  index.error("the accessor is no list of matrices", "MAT4 of floats",
+              fmt::format("{} components of type {}", a->components, a->component_type));
+  return {};
 }
 
 std::optional<GltfAccessor> GltfAccessors::attribute(const GltfValue& index, int least) {
@@ -152,9 +211,11 @@ std::vector<float> GltfAccessors::floats(const GltfAccessor& a) {
 }
 
 std::vector<std::uint32_t> GltfAccessors::integers(const GltfAccessor& a) {
-  std::vector<std::uint32_t> values(a.count);
-  for (std::size_t i = 0; i < a.count; ++i) {
-    const char* p = a.data + i * a.stride;
+  const auto components = static_cast<std::size_t>(a.components);
+  const std::size_t bytes = component_bytes(static_cast<std::size_t>(a.component_type));
+  std::vector<std::uint32_t> values(a.count * components);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const char* p = a.data + i / components * a.stride + i % components * bytes;
     switch (a.component_type) {
       case type_u8: values[i] = read<std::uint8_t>(p); break;
       case type_u16: values[i] = read<std::uint16_t>(p); break;

@@ -45,24 +45,20 @@ bool GltfAnimation::read_channel(const GltfValue& animation, const GltfValue& ch
   const GltfValue path = target["path"];
   const auto sampler =
       channel["sampler"].need("the index of a sampler").index_of(animation["samplers"]);
-  const auto name = path.need("\"translation\", \"rotation\" or \"scale\"").text();
+  const auto name = path.need("\"translation\", \"rotation\", \"scale\" or \"weights\"").text();
   if (!sampler || !name) return false;
-  if (*name == "weights") {
-    dropped_.say("morphs-not-rendered", path,
-                 "morph targets are not rendered: the mesh stands as it is stored");
-    return true;
-  }
   // glTF 2.0, 5.3: without a node, what an extension names is animated.
   if (!target["node"]) {
     dropped_.say("animation-not-rendered", target,
                  "an animation of what is no node is not rendered", "a node");
     return true;
   }
+  if (*name == "weights") return read_weights(animation, *sampler, target);
   constexpr std::array<const char*, 3> names = {"translation", "rotation", "scale"};
   const auto property = static_cast<std::size_t>(std::ranges::find(names, *name) - names.begin());
   if (property == names.size()) {
-    path.error("nodes have no such property", "\"translation\", \"rotation\" or \"scale\"",
-               path.shown());
+    path.error("nodes have no such property",
+               "\"translation\", \"rotation\", \"scale\" or \"weights\"", path.shown());
     return false;
   }
   const auto node = target["node"].index_of(root_["nodes"]);
@@ -78,6 +74,29 @@ bool GltfAnimation::read_channel(const GltfValue& animation, const GltfValue& ch
   }
   tracks[property] = track(animation["samplers"], *sampler, property == rotation);
   return tracks[property] != nullptr;
+}
+
+bool GltfAnimation::read_weights(const GltfValue& animation, std::size_t sampler,
+                                 const GltfValue& target) {
+  const auto node = target["node"].index_of(root_["nodes"]);
+  if (!node) return false;
+  const GltfValue index = root_["nodes"][*node]["mesh"];
+  const auto mesh = index.index_of(root_["meshes"]);
+  const GltfValue targets =
+      root_["meshes"][mesh.value_or(0)]["primitives"][std::size_t{0}]["targets"];
+  if (!mesh || targets.size() == 0) {
+    target.error("the weights of a node without morph targets are animated", "a mesh with targets",
+                 index.shown());
+    return false;
+  }
+  auto& tracks = weights_[*node];
+  if (!tracks.empty()) {
+    target.error("a property is animated twice", "one channel for each", "\"weights\"");
+    return false;
+  }
+  tracks =
+      GltfTrack::read_weights(animation["samplers"][sampler], targets.size(), accessors_, budget_);
+  return !tracks.empty();
 }
 
 const GltfTrack* GltfAnimation::track(const GltfValue& samplers, std::size_t number,
@@ -137,6 +156,31 @@ Motion::Segment GltfAnimation::segment(const Tracks& tracks, NodeTransform still
     maps.push_back(affine(still));
   }
   return {static_cast<float>(from), static_cast<float>(to), std::move(maps)};
+}
+
+std::vector<double> GltfAnimation::weights(std::size_t number, std::vector<double> stored,
+                                           float time) const {
+  const auto found = weights_.find(number);
+  if (found == weights_.end()) return stored;
+  const double share = static_cast<double>(time);
+  const double seconds = (1 - share) * shutter_.open + share * shutter_.close;
+  for (std::size_t i = 0; i < std::min(stored.size(), found->second.size()); ++i) {
+    stored[i] = found->second[i]->at(seconds, seconds)[0];
+  }
+  return stored;
+}
+
+std::size_t GltfAnimation::weight_steps(std::size_t number) const {
+  const auto found = weights_.find(number);
+  if (found == weights_.end() || !(shutter_.close > shutter_.open)) return 0;
+  const GltfTrack& track = *found->second.front();
+  std::size_t within = 1;
+  for (const float t : track.times()) {
+    const double time = static_cast<double>(t);
+    if (time > shutter_.open && time < shutter_.close) ++within;
+  }
+  constexpr std::size_t of_curves = 4;
+  return track.interpolation() == GltfTrack::Interpolation::cubic ? of_curves * within : 2 * within;
 }
 
 std::optional<Motion> GltfAnimation::local_motion(std::size_t number, const GltfValue& node) const {

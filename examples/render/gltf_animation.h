@@ -29,11 +29,18 @@ class GltfAnimation {
   /// animation hides by it can be inverted. Nothing, with an error, where that takes too much.
   std::optional<Motion> local_motion(std::size_t number, const GltfValue& node) const;
 
+  /// The weights of a node's morph targets at a time from 0, where the shutter opens, to 1; those
+  /// that are stored where they are not animated.
+  std::vector<double> weights(std::size_t number, std::vector<double> stored, float time) const;
+  /// Steps of time in which they may be taken to run straight; 0: they stand still.
+  std::size_t weight_steps(std::size_t number) const;
+
  private:
   /// Of a node, those that there are: translation, rotation, scale.
   using Tracks = std::array<const GltfTrack*, 3>;
 
   bool read_channel(const GltfValue& animation, const GltfValue& channel);
+  bool read_weights(const GltfValue& animation, std::size_t sampler, const GltfValue& target);
   const GltfTrack* track(const GltfValue& samplers, std::size_t number, bool is_rotation);
   std::vector<double> boundaries(const Tracks& tracks) const;
   Motion::Segment segment(const Tracks& tracks, NodeTransform still, double from, double to) const;
@@ -46,6 +53,7 @@ class GltfAnimation {
   /// By number and whether it turns: what a wrong file uses for both is looked at for both.
   std::map<std::pair<std::size_t, bool>, std::unique_ptr<GltfTrack>> samplers_;
   std::map<std::size_t, Tracks> nodes_;
+  std::map<std::size_t, std::vector<std::unique_ptr<GltfTrack>>> weights_;
 };
 
 }  // namespace nacre::host

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "examples/render/gltf_meshopt.h"
 #include "examples/render/scene_file.h"
 
 namespace nacre::host {
@@ -91,20 +92,57 @@ std::optional<std::string> GltfBuffers::read(std::size_t index, const GltfValue&
     if (index == 0) bytes = std::exchange(binary_, std::nullopt);
     if (!bytes) buffer.error("the buffer has no bytes", "a uri, or a BIN chunk", "none");
   } else if (const auto text = uri.text()) {
-    constexpr std::string_view data = "data:", base64 = ";base64,";
-    const std::size_t start = text->find(base64);
-    if (!text->starts_with(data)) {
-      bytes = read_file(uri, *text);
-    } else if (start == text->npos) {
-      uri.error("the data of the URI are in another form", "base64", text->substr(0, 40));
-    } else {
-      bytes = decode_base64(std::string_view(*text).substr(start + base64.size()));
-      if (!bytes) uri.error("the data of the URI are not base64", "base64", text->substr(0, 40));
-    }
+    bytes = is_data(*text) ? data(uri) : read_file(uri, *text);
   }
   if (!bytes || bytes->size() >= *length) return bytes;
   buffer.error("the buffer is shorter than it says", fmt::format("{} bytes", *length),
                fmt::format("{}", bytes->size()));
+  return {};
+}
+
+bool GltfBuffers::is_data(std::string_view uri) { return uri.starts_with("data:"); }
+
+std::string GltfBuffers::file_name(std::string_view uri) { return percent_decoded(uri); }
+
+std::optional<std::string> GltfBuffers::data(const GltfValue& uri) {
+  const std::string text = uri.text().value_or("");
+  constexpr std::string_view base64 = ";base64,";
+  const std::size_t start = text.find(base64);
+  if (start == text.npos) {
+    uri.error("the data of the URI are in another form", "base64", text.substr(0, 40));
+    return {};
+  }
+  auto bytes = decode_base64(std::string_view(text).substr(start + base64.size()));
+  if (!bytes) uri.error("the data of the URI are not base64", "base64", text.substr(0, 40));
+  return bytes;
+}
+
+std::optional<std::string_view> GltfBuffers::view(const GltfValue& index) {
+  const auto number = index.need("the index of a buffer view").index_of(root_["bufferViews"]);
+  if (!number) return {};
+  const GltfValue described = root_["bufferViews"][*number];
+  const GltfValue packed = described["extensions"]["EXT_meshopt_compression"];
+  const auto known = unpacked_.find(*number);
+  if (known != unpacked_.end()) return known->second;
+  // It has a buffer, an offset and a length of its own.
+  const GltfValue& view = packed ? packed : described;
+  const auto buffer = view["buffer"].need("the index of a buffer").index_of(root_["buffers"]);
+  const auto length = view["byteLength"].need("a length in bytes").count();
+  if (!buffer || !length) return {};
+  // What is there but wrong has been reported and counts as nothing until the end.
+  const std::size_t offset = view["byteOffset"].count().value_or(0);
+  const auto data = bytes(*buffer);
+  if (!data) return {};
+  if (offset <= data->size() && *length <= data->size() - offset) {
+    if (!packed) return data->substr(offset, *length);
+    auto bytes = unpack_meshopt(packed, data->substr(offset, *length), file_bytes_);
+    if (!bytes) return {};
+    file_bytes_ -= bytes->size();
+    return unpacked_[*number] = std::move(*bytes);
+  }
+  view.error("the buffer view is not within its buffer",
+             fmt::format("at most {} bytes", data->size()),
+             fmt::format("{} bytes from {}", *length, offset));
   return {};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,15 @@ class GltfBuffers {
   /// The bytes of buffers[index], which must be there; nothing after an error, which is
   /// given once.
   std::optional<std::string_view> bytes(std::size_t index);
+  /// Those of the buffer view that `index` names; nothing after an error.
+  std::optional<std::string_view> view(const GltfValue& index);
+
+  /// Whether a URI holds its data,
+  static bool is_data(std::string_view uri);
+  /// which those are, in base64; nothing after an error.
+  static std::optional<std::string> data(const GltfValue& uri);
+  /// Of another: "%20" is a blank.
+  static std::string file_name(std::string_view uri);
 
  private:
   struct Buffer {
@@ -35,6 +45,7 @@ class GltfBuffers {
   std::size_t file_bytes_;
   std::filesystem::path folder_;
   std::vector<Buffer> buffers_;
+  std::map<std::size_t, std::string> unpacked_;  ///< Of buffer views.
 };
 
 }  // namespace nacre::host

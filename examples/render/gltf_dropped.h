@@ -12,9 +12,11 @@ class GltfDropped {
  public:
   /// What belongs to no node. False, with errors, if the file requires an extension
   /// without which it cannot be read.
-  bool look_at_file(const GltfValue& root);
+  bool look_at_file(const GltfValue& root, bool reads_materials);
   void look_at_node(const GltfValue& node);
   void look_at_primitive(const GltfValue& primitive);
+  /// Once each, that it is left out.
+  void look_at_extension(const std::string& name, const GltfValue& extension);
 
   /// A warning at the value, unless one of this code was given before.
   void say(const char* code, const GltfValue& where, std::string message, std::string expected = {},

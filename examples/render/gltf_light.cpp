@@ -9,17 +9,6 @@ namespace nacre::host {
 
 namespace {
 
-/// A number that is there within [low, high]; `otherwise` where it is not there; none after an
-/// error.
-std::optional<float> within(const GltfValue& value, double low, double high, float otherwise) {
-  if (!value) return otherwise;
-  const auto number = value.number();
-  if (!number) return {};
-  if (*number >= low && *number <= high) return static_cast<float>(*number);
-  value.error("a number is out of range", fmt::format("{:g} to {:g}", low, high), value.shown());
-  return {};
-}
-
 std::optional<PunctualLight::Kind> kind_of(const GltfValue& type) {
   using Kind = PunctualLight::Kind;
   const auto text = type.need("\"directional\", \"point\" or \"spot\"").text();
@@ -37,12 +26,12 @@ std::optional<PunctualLight> read_light(const GltfValue& light, const Affine& wo
   constexpr double largest = 1e30;
   constexpr double right = std::numbers::pi / 2;
   const auto kind = kind_of(light["type"]);
-  const auto intensity = within(light["intensity"], 0.0, largest, 1.f);
-  const auto range = within(light["range"], 0.0, largest, 0.f);
+  const auto intensity = light["intensity"].within(0.0, largest, 1.f);
+  const auto range = light["range"].within(0.0, largest, 0.f);
   const GltfValue spot = light["spot"];
-  const auto inner = within(spot["innerConeAngle"], 0.0, right, 0.f);
+  const auto inner = spot["innerConeAngle"].within(0.0, right, 0.f);
   const auto outer =
-      within(spot["outerConeAngle"], 0.0, right, static_cast<float>(std::numbers::pi / 4));
+      spot["outerConeAngle"].within(0.0, right, static_cast<float>(std::numbers::pi / 4));
   std::vector<double> color{1.0, 1.0, 1.0};
   if (light["color"]) {
     const auto given = light["color"].numbers(3);

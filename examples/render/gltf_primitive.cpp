@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "examples/render/fibre.h"
+#include "examples/render/gltf_draco.h"
 
 namespace nacre::host {
 
@@ -76,9 +77,9 @@ bool GltfPrimitives::read(const GltfValue& primitive, Mesh& mesh) {
   if (mode > mode_fan)
     primitive["mode"].error("there is no such mode", "0 to 6", std::to_string(mode));
   dropped_.look_at_primitive(primitive);
-  if (const auto material = primitive["material"].index_of(root_["materials"])) {
-    mesh.material_name = root_["materials"][*material].name();
-  }
+  mesh.material = variants_.material_of(primitive).index_of(root_["materials"]);
+  if (mesh.material) mesh.material_name = root_["materials"][*mesh.material].name();
+  if (!unpack_draco(root_, primitive, buffers_, accessors_, budget_)) return false;
   const GltfValue attributes = primitive["attributes"];
   const GltfValue position = attributes["POSITION"];
   std::optional<GltfAccessor> indices;
@@ -97,7 +98,7 @@ bool GltfPrimitives::read(const GltfValue& primitive, Mesh& mesh) {
 /// POSITION first. False after an error.
 bool GltfPrimitives::open_attributes(const GltfValue& attributes, std::vector<Attribute>& list) {
   std::vector<std::string> names = attributes.names();
-  std::erase_if(names, [](const std::string& name) {  // Of skins, which are not rendered.
+  std::erase_if(names, [](const std::string& name) {  // Of skins: see gltf_skin.h.
     return name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
   });
   const auto position = std::ranges::find(names, "POSITION");

@@ -2,6 +2,7 @@
 
 #include "examples/render/gltf_accessor.h"
 #include "examples/render/gltf_dropped.h"
+#include "examples/render/gltf_variants.h"
 #include "examples/render/mesh.h"
 #include "examples/render/scene_budget.h"
 
@@ -11,9 +12,14 @@ namespace nacre::host {
 /// vertex as fibres: attribute _RADIUS, a float, in the mesh's own space.
 class GltfPrimitives {
  public:
-  GltfPrimitives(const GltfValue& root, GltfAccessors& accessors, SceneBudget& budget,
-                 GltfDropped& dropped)
-      : root_(root), accessors_(accessors), budget_(budget), dropped_(dropped) {}
+  GltfPrimitives(const GltfValue& root, GltfBuffers& buffers, GltfAccessors& accessors,
+                 SceneBudget& budget, GltfDropped& dropped, const GltfVariants& variants)
+      : root_(root),
+        buffers_(buffers),
+        accessors_(accessors),
+        budget_(budget),
+        dropped_(dropped),
+        variants_(variants) {}
 
   /// Triangles and vertex arrays in the mesh's own space, and the material's name. False
   /// where there is nothing to draw, after an error or a warning.
@@ -34,9 +40,11 @@ class GltfPrimitives {
   void read_attribute(const Attribute& attribute, Mesh& mesh);
 
   GltfValue root_;
+  GltfBuffers& buffers_;
   GltfAccessors& accessors_;
   SceneBudget& budget_;
   GltfDropped& dropped_;
+  const GltfVariants& variants_;
 };
 
 }  // namespace nacre::host

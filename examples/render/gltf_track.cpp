@@ -93,10 +93,12 @@ bool check_values(const GltfValue& output, const std::vector<float>& values, std
 
 }  // namespace
 
-std::unique_ptr<GltfTrack> GltfTrack::read(const GltfValue& sampler, bool is_rotation,
-                                           GltfAccessors& accessors, SceneBudget& budget) {
+/// `elements`: how many the accessor has for each value.
+std::unique_ptr<GltfTrack> GltfTrack::read_all(const GltfValue& sampler, std::size_t components,
+                                               std::size_t elements, GltfAccessors& accessors,
+                                               SceneBudget& budget) {
   auto track = std::make_unique<GltfTrack>();
-  track->is_rotation_ = is_rotation;
+  track->components_ = components;
   const std::string kind =
       sampler["interpolation"] ? sampler["interpolation"].text().value_or("") : "LINEAR";
   if (kind == "STEP") {
@@ -111,9 +113,9 @@ std::unique_ptr<GltfTrack> GltfTrack::read(const GltfValue& sampler, bool is_rot
   }
   const GltfValue input = sampler["input"], output = sampler["output"];
   const auto times = open(accessors, input, 1);
-  const auto values = open(accessors, output, is_rotation ? 4 : 3);
+  const auto values = open(accessors, output, static_cast<int>(components));
   if (!times || !values) return nullptr;
-  const std::size_t parts = track->interpolation_ == Interpolation::cubic ? 3 : 1;
+  const std::size_t parts = elements * track->parts();
   if (values->count % parts != 0 || values->count / parts != times->count) {
     output.error("the sampler has another number of values than its times need",
                  fmt::format("{} for each of {} times", parts, times->count),
@@ -126,8 +128,36 @@ std::unique_ptr<GltfTrack> GltfTrack::read(const GltfValue& sampler, bool is_rot
   track->times_ = GltfAccessors::floats(*times);
   track->values_ = GltfAccessors::floats(*values);
   const bool ok = check_times(input, track->times_) &&
-                  check_values(output, track->values_, is_rotation ? parts : 0);
+                  check_values(output, track->values_, components == 4 ? parts : 0);
   return ok ? std::move(track) : nullptr;
+}
+
+std::unique_ptr<GltfTrack> GltfTrack::read(const GltfValue& sampler, bool is_rotation,
+                                           GltfAccessors& accessors, SceneBudget& budget) {
+  auto track = read_all(sampler, is_rotation ? 4 : 3, 1, accessors, budget);
+  if (track != nullptr) track->is_rotation_ = is_rotation;
+  return track;
+}
+
+std::vector<std::unique_ptr<GltfTrack>> GltfTrack::read_weights(const GltfValue& sampler,
+                                                                std::size_t count,
+                                                                GltfAccessors& accessors,
+                                                                SceneBudget& budget) {
+  std::vector<std::unique_ptr<GltfTrack>> list;
+  const auto all = read_all(sampler, 1, count, accessors, budget);
+  if (all == nullptr) return list;
+  const std::size_t bytes = 4 * (all->times_.size() * count + all->values_.size());
+  if (!budget.take_bytes({sampler.report().file, 0, 0, sampler.path()}, bytes)) return list;
+  for (std::size_t k = 0; k < count; ++k) {
+    auto& track = list.emplace_back(std::make_unique<GltfTrack>());
+    track->interpolation_ = all->interpolation_;
+    track->components_ = 1;
+    track->times_ = all->times_;
+    for (std::size_t i = k; i < all->values_.size(); i += count) {
+      track->values_.push_back(all->values_[i]);
+    }
+  }
+  return list;
 }
 
 /// The last key that is not behind the time; the first, where all are.
@@ -138,12 +168,11 @@ std::size_t GltfTrack::key_before(double time) const {
 
 /// `part` 0, 1 and 2 of a cubic: in-tangent, value, out-tangent.
 GltfTrack::Value GltfTrack::key(std::size_t i, int part) const {
-  const std::size_t components = is_rotation_ ? 4 : 3;
   const bool is_cubic = interpolation_ == Interpolation::cubic;
   const std::size_t place = is_cubic ? 3 * i + static_cast<std::size_t>(part) : i;
   Value value{};
-  for (std::size_t c = 0; c < components; ++c) {
-    value[c] = static_cast<double>(values_[place * components + c]);
+  for (std::size_t c = 0; c < components_; ++c) {
+    value[c] = static_cast<double>(values_[place * components_ + c]);
   }
   return value;
 }

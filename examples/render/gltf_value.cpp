@@ -91,6 +91,15 @@ std::optional<double> GltfValue::number() const {
   return {};
 }
 
+std::optional<float> GltfValue::within(double low, double high, float otherwise) const {
+  if (json_ == nullptr) return otherwise;
+  const auto value = number();
+  if (!value) return {};
+  if (*value >= low && *value <= high) return static_cast<float>(*value);
+  error("a number is out of range", fmt::format("{:g} to {:g}", low, high), shown());
+  return {};
+}
+
 std::optional<std::vector<double>> GltfValue::numbers(std::size_t n) const {
   if (json_ == nullptr) return {};
   if (!json_->is_array() || json_->size() != n) {

@@ -55,6 +55,8 @@ class GltfValue {
   std::optional<std::size_t> index_of(const GltfValue& list) const;
   /// A number that a float can hold.
   std::optional<double> number() const;
+  /// A number in [low, high]; `otherwise` where it is not there; none after an error.
+  std::optional<float> within(double low, double high, float otherwise) const;
   /// Exactly `n` of them.
   std::optional<std::vector<double>> numbers(std::size_t n) const;
   std::optional<std::string> text() const;

@@ -7,12 +7,17 @@
 namespace nacre::host {
 
 Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
-                 const Shutter& shutter) {
+                 const Shutter& shutter, const SceneLooks& looks) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".glb" || extension == ".gltf")
-    return load_gltf(path, limits, diagnostics, shutter);
+    return load_gltf(path, limits, diagnostics, shutter, looks);
+  if (!looks.variant.empty()) {
+    diagnostics.error("unknown-variant", {path, 0, 0, {}}, "the scene has no variants",
+                      "a glTF file with KHR_materials_variants", '"' + looks.variant + '"');
+    return {};
+  }
   if (extension == ".obj") return load_obj(path, limits, diagnostics);
   if (extension == ".hair") return load_hair(path, limits, diagnostics);
   diagnostics.error("unknown-scene-format", {path, 0, 0, {}}, "cannot tell the format of the scene",

@@ -8,13 +8,19 @@
 
 namespace nacre::host {
 
+/// What is wanted of a scene's own materials.
+struct SceneLooks {
+  bool materials = false;  ///< Scene::materials; otherwise only their names are read.
+  std::string variant = {};  ///< Of KHR_materials_variants; "": what the file shows by itself.
+};
+
 /// Reads .glb, .gltf, .hair or .obj, told by the extension. Errors leave the scene
 /// without meshes; warnings do not. Every mesh has gone through finish_mesh() or
 /// finish_fibres(). What the
 /// file has and the host does not render is a warning. What is animated stands as it does while
 /// `shutter` is open; what moves meanwhile has `instances`.
 Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
-                 const Shutter& shutter = {});
+                 const Shutter& shutter = {}, const SceneLooks& looks = {});
 
 /// glTF 2.0: the nodes of the default scene (or of the first), triangles,
 /// strips and fans, lines with an attribute _RADIUS, any component type; no sparse accessors,
@@ -22,7 +28,7 @@ Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics
 /// v becomes 1 - v. Without normals faces are flat. Buffers are only read from the folder of the
 /// file and below. Of its animations the first moves nodes.
 Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
-                const Shutter& shutter);
+                const Shutter& shutter, const SceneLooks& looks);
 
 /// Wavefront OBJ: v, vt, vn, f (any polygon, cut into a fan, negative indices),
 /// o, g, usemtl; what else would change the picture is a warning. One mesh per object,

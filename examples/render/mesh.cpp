@@ -22,6 +22,11 @@ bool is_usable(const Mesh& mesh, const Triangle& t) {
   for (const std::uint32_t v : t.v) {
     if (v >= mesh.position.size() || !is_within_reach(mesh.position[v])) return false;
   }
+  for (const MeshPose& pose : mesh.poses) {
+    for (const std::uint32_t v : t.v) {
+      if (!is_within_reach(pose.position[v])) return false;
+    }
+  }
   const Vec3 c = face_cross(mesh, t);
   return is_finite(c) && (c.x != 0.f || c.y != 0.f || c.z != 0.f);
 }
@@ -146,6 +151,41 @@ void repair_tangents(Mesh& mesh) {
   }
 }
 
+/// Calls `f` while the vertices are those of each pose.
+template <class F>
+void in_each_pose(Mesh& mesh, F f) {
+  const auto exchange = [&mesh](MeshPose& pose) {
+    std::swap(mesh.position, pose.position);
+    std::swap(mesh.normal, pose.normal);
+    std::swap(mesh.tangent, pose.tangent);
+  };
+  for (MeshPose& pose : mesh.poses) {
+    exchange(pose);
+    f();
+    exchange(pose);
+  }
+}
+
+/// Unit normals of triangles that have vertices of their own.
+void make_flat_normals(Mesh& mesh) {
+  mesh.normal.resize(mesh.position.size());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 n = normalize_or(face_cross(mesh, t), {0.f, 0.f, 1.f});
+    for (const std::uint32_t v : t.v) mesh.normal[v] = n;
+  }
+}
+
+/// What the poses lack, as the mesh itself got it.
+void finish_poses(Mesh& mesh, bool has_normals, bool has_tangents, MissingNormals missing) {
+  in_each_pose(mesh, [&] {
+    if (!has_normals && missing == MissingNormals::flat) make_flat_normals(mesh);
+    if (!has_normals && missing == MissingNormals::smooth) make_normals(mesh);
+    repair_normals(mesh);
+    if (!has_tangents) make_tangents(mesh);
+    repair_tangents(mesh);
+  });
+}
+
 }  // namespace
 
 bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnostics,
@@ -167,13 +207,15 @@ bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnosti
   }
   repair_normals(mesh);
   if (has_normals) agree_winding(mesh);
-  if (mesh.tangent.size() == mesh.position.size()) {
+  const bool has_tangents = mesh.tangent.size() == mesh.position.size();
+  if (has_tangents) {
     report_directions(mesh, "bad-tangents", "tangents", where, diagnostics,
                       [&](std::uint32_t v) { return mesh.tangent[v].direction; });
   } else {
     make_tangents(mesh);
   }
   repair_tangents(mesh);
+  finish_poses(mesh, has_normals, has_tangents, missing);
   return true;
 }
 
@@ -193,26 +235,41 @@ void take_order(Mesh& mesh, const std::vector<std::uint32_t>& order) {
   mesh.position_object = gathered(mesh.position_object, order);
   mesh.normal = gathered(mesh.normal, order);
   mesh.tangent = gathered(mesh.tangent, order);
+  for (MeshPose& pose : mesh.poses) {
+    pose.position = gathered(pose.position, order);
+    pose.normal = gathered(pose.normal, order);
+    pose.tangent = gathered(pose.tangent, order);
+  }
   mesh.uv = gathered(mesh.uv, order);
   for (Primvar& primvar : mesh.primvars) {
     primvar.values = gathered(primvar.values, order, static_cast<std::size_t>(primvar.components));
   }
 }
 
-void bake_transform(Mesh& mesh, const Affine& object_to_world) {
+namespace {
+
+/// The vertices alone.
+void transform(Mesh& mesh, const Affine& object_to_world) {
   const Affine world_to_object = inverse(object_to_world);
-  mesh.object_to_world = object_to_world;
-  mesh.position_object = mesh.position;
   for (Vec3& p : mesh.position) p = transform_point(object_to_world, p);
   for (Vec3& n : mesh.normal) n = normalize_or(transform_normal(world_to_object, n), {});
-  const float volume = determinant(object_to_world);
-  for (float& r : mesh.radius) r *= std::cbrt(std::abs(volume));
-  const bool mirrors = volume < 0.f;
+  const bool mirrors = determinant(object_to_world) < 0.f;
   for (Tangent& t : mesh.tangent) {
     t.direction = normalize_or(transform_vector(object_to_world, t.direction), {});
     if (mirrors) t.sign = -t.sign;
   }
-  if (!mirrors) return;
+}
+
+}  // namespace
+
+void bake_transform(Mesh& mesh, const Affine& object_to_world) {
+  mesh.object_to_world = object_to_world;
+  mesh.position_object = mesh.position;
+  transform(mesh, object_to_world);
+  in_each_pose(mesh, [&] { transform(mesh, object_to_world); });
+  const float volume = determinant(object_to_world);
+  for (float& r : mesh.radius) r *= std::cbrt(std::abs(volume));
+  if (!(volume < 0.f)) return;
   for (Triangle& t : mesh.triangles) std::swap(t.v[1], t.v[2]);
 }
 
@@ -262,6 +319,11 @@ bool is_closed(const Mesh& mesh) {
 
 Bounds vertex_bounds(const Mesh& mesh) {
   Bounds box;
+  for (const MeshPose& pose : mesh.poses) {
+    for (const Triangle& t : mesh.triangles) {
+      for (const std::uint32_t v : t.v) box.add(pose.position[v]);
+    }
+  }
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t.v) {
       const float r = mesh.is_fibres() ? mesh.radius[v] : 0.f;

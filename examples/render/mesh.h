@@ -64,7 +64,7 @@ void renew_frames(Mesh& mesh, const std::vector<std::uint32_t>& places);
 /// along it in opposite directions. What enters by one leaves by another.
 bool is_closed(const Mesh& mesh);
 
-/// Of the vertices that a triangle uses, in the space that they are in.
+/// Of the vertices that a triangle uses, in all poses, in the space that they are in.
 Bounds vertex_bounds(const Mesh& mesh);
 /// World bounds of a box that moves.
 Bounds instance_bounds(const Bounds& own, const Motion& motion);

@@ -8,6 +8,7 @@
 #include "examples/render/bounds.h"
 #include "examples/render/motion.h"
 #include "examples/render/punctual_light.h"
+#include "examples/render/scene_material.h"
 #include "examples/render/vec.h"
 
 namespace nacre::host {
@@ -28,6 +29,12 @@ struct Tangent {
   float sign = 1.f;  ///< Bitangent = sign · cross(N, T), along +v (glTF 2.0, 3.7.2.1).
 };
 
+/// Vertices of a mesh at one time.
+struct MeshPose {
+  std::vector<Vec3> position, normal;
+  std::vector<Tangent> tangent;
+};
+
 /// What a ray is for. Bits: a mesh may be hidden from some.
 enum RayKind : std::uint32_t {
   ray_camera = 1u << 0,
@@ -43,6 +50,8 @@ struct Mesh {
   std::string mesh_name;      ///< Data block; several objects may share it.
   std::string material_name;  ///< As the file calls it; may be empty.
   std::string path;           ///< "/parent/object"; empty: the object stands at the top.
+  /// Of the scene's materials, where those were asked for; none: the file says none.
+  std::optional<std::size_t> material;
 
   /// Part of the stage that the built-in scene and a floor are: of no material unless one
   /// is called as the mesh's is.
@@ -65,7 +74,11 @@ struct Mesh {
   std::vector<Vec3> position_object;  ///< Mesh-local; empty: as world.
   std::vector<Vec3> normal;           ///< World, unit; as position.
   std::vector<Tangent> tangent;       ///< World, unit; as position.
-  std::vector<Vec2> uv;               ///< (0,0) lower left; empty: none.
+  /// Of what bends while the shutter is open: its vertices at equal times until it closes; what is
+  /// above is as it opens. In between they run straight, as Embree has it. What bends and emits is
+  /// no light that light sampling knows.
+  std::vector<MeshPose> poses;
+  std::vector<Vec2> uv;  ///< (0,0) lower left; empty: none.
   std::vector<Primvar> primvars;
   Affine object_to_world;  ///< Of what is baked.
   /// Drawn once for each, where that takes the vertices. An instance that emits is no light that
@@ -98,6 +111,7 @@ struct Scene {
   std::optional<Camera> camera;  ///< Of the file; absent: see fit_camera().
   /// Takes the camera to where it is while the shutter is open.
   Motion camera_motion;
+  SceneMaterials materials;  ///< Where they were asked for.
 };
 
 /// World bounds of all vertices that a triangle uses, lights left out; of instances those of their

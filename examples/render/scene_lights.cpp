@@ -18,7 +18,7 @@ bool is_light(const RenderContext& context, std::uint32_t mesh) {
   // What nothing sees is no light either (Geometry Extensions, "Visibility Elements"). What moves
   // is found by paths alone: how large its triangles are is a matter of the time. And of fibres:
   // their pieces are no triangles.
-  return emits && m.visible_to != 0 && m.instances.empty() && !m.is_fibres();
+  return emits && m.visible_to != 0 && m.instances.empty() && m.poses.empty() && !m.is_fibres();
 }
 
 float area_of(const Mesh& mesh, const Triangle& t) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "examples/render/mesh.h"
@@ -10,26 +11,62 @@ namespace nacre::host {
 
 namespace {
 
+Vec3 mix(Vec3 a, Vec3 b, float f) { return (1.f - f) * a + f * b; }
+
+Tangent mix(const Tangent& a, const Tangent& b, float f) {
+  return {mix(a.direction, b.direction, f), a.sign};
+}
+
 /// A vertex array at a point of a triangle.
 template <class T>
 T interpolate(const std::vector<T>& values, const Triangle& t, float u, float v) {
   return (1.f - u - v) * values[t.v[0]] + u * values[t.v[1]] + v * values[t.v[2]];
 }
 
+/// A vertex of a mesh that may bend, at a time of the shutter: Embree's formula.
+template <class T>
+T vertex(const Mesh& mesh, std::vector<T> Mesh::* still, std::vector<T> MeshPose::* posed,
+         std::uint32_t v, float time) {
+  if (mesh.poses.empty()) return (mesh.*still)[v];
+  const auto steps = static_cast<float>(mesh.poses.size());
+  const float whole = std::clamp(std::floor(time * steps), 0.f, steps - 1.f);
+  const auto i = static_cast<std::size_t>(whole);
+  const T& a = i == 0 ? (mesh.*still)[v] : (mesh.poses[i - 1].*posed)[v];
+  const T& b = (mesh.poses[i].*posed)[v];
+  return mix(a, b, time * steps - whole);
+}
+
+Vec3 position(const Mesh& mesh, std::uint32_t v, float time) {
+  return vertex(mesh, &Mesh::position, &MeshPose::position, v, time);
+}
+
+Vec3 normal(const Mesh& mesh, std::uint32_t v, float time) {
+  return vertex(mesh, &Mesh::normal, &MeshPose::normal, v, time);
+}
+
+Tangent tangent(const Mesh& mesh, std::uint32_t v, float time) {
+  return vertex(mesh, &Mesh::tangent, &MeshPose::tangent, v, time);
+}
+
 Vec3 shading_normal(const Mesh& mesh, const Triangle& t, const SurfacePoint& p, Vec3 ng) {
   if (mesh.is_fibres()) return p.normal;
-  return normalize_or(interpolate(mesh.normal, t, p.u, p.v), ng);
+  const Vec3 n = (1.f - p.u - p.v) * normal(mesh, t.v[0], p.time) +
+                 p.u * normal(mesh, t.v[1], p.time) + p.v * normal(mesh, t.v[2], p.time);
+  return normalize_or(n, ng);
 }
 
 Vec3 own_normal(const Mesh& mesh, const Triangle& t, const SurfacePoint& p) {
   if (mesh.is_fibres()) return p.normal;
-  const Vec3 a = mesh.position[t.v[0]];
-  return normalize(cross(mesh.position[t.v[1]] - a, mesh.position[t.v[2]] - a));
+  const Vec3 a = position(mesh, t.v[0], p.time);
+  const Vec3 across = cross(position(mesh, t.v[1], p.time) - a, position(mesh, t.v[2], p.time) - a);
+  // What bends may have no area for a moment.
+  return mesh.poses.empty() ? normalize(across) : normalize_or(across, {0.f, 0.f, 1.f});
 }
 
 Vec3 own_position(const Mesh& mesh, const Triangle& t, const SurfacePoint& p) {
   if (mesh.is_fibres()) return fibre_point(mesh, t, p.u, p.normal).position();
-  return interpolate(mesh.position, t, p.u, p.v);
+  return (1.f - p.u - p.v) * position(mesh, t.v[0], p.time) + p.u * position(mesh, t.v[1], p.time) +
+         p.v * position(mesh, t.v[2], p.time);
 }
 
 Vec3 normal_to_world(const Affine& to_object, Vec3 n, Vec3 otherwise) {
@@ -193,17 +230,16 @@ void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool o
     const Triangle& t = mesh.triangles[p.triangle];
     Vec3 ng = own_normal(mesh, t, p);
     Vec3 n = shading_normal(mesh, t, p, ng);
-    const Vec3 own =
-        mesh.is_fibres() ? buffer.fibres[i].position() : interpolate(mesh.position, t, p.u, p.v);
-    Vec3 position = own;
+    const Vec3 own = mesh.is_fibres() ? buffer.fibres[i].position() : own_position(mesh, t, p);
+    Vec3 place = own;
     const Pose& pose = this->pose(p, i, buffer);
     if (!mesh.instances.empty()) {
       ng = normal_to_world(pose.to_object, ng, ng);
       n = normal_to_world(pose.to_object, n, ng);
-      position = transform_point(pose.to_world, position);
+      place = transform_point(pose.to_world, place);
     }
     if (!p.keeps_normal) n = facing(n, ng, p.wo);
-    store(b.P, i, position);
+    store(b.P, i, place);
     store(b.N, i, n);
     store(b.Ng, i, ng);
     store(b.wo, i, p.wo);
@@ -229,22 +265,23 @@ void SurfaceGeometry::fill_tangents(std::span<const SurfacePoint> points, bool o
     if (mesh.is_fibres()) {
       own = {buffer.fibres[i].axis, 1.f};
     } else {
-      own = {(1.f - p.u - p.v) * mesh.tangent[t.v[0]].direction +
-                 p.u * mesh.tangent[t.v[1]].direction + p.v * mesh.tangent[t.v[2]].direction,
-             mesh.tangent[t.v[0]].sign};
+      const Tangent a = tangent(mesh, t.v[0], p.time);
+      own = {(1.f - p.u - p.v) * a.direction + p.u * tangent(mesh, t.v[1], p.time).direction +
+                 p.v * tangent(mesh, t.v[2], p.time).direction,
+             a.sign};
     }
     Vec3 raw = own.direction;
     const Pose& pose = this->pose(p, i, buffer);
     if (!mesh.instances.empty()) raw = transform_vector(pose.to_world, raw);
     const float sign = pose.mirrors ? -own.sign : own.sign;
-    const Vec3 tangent = normalize_or(raw - dot(n, raw) * n, perpendicular(n));
-    const Vec3 bitangent = sign * cross(n, tangent);
-    store(b.T, i, tangent);
-    store(b.B, i, bitangent);
+    const Vec3 along = normalize_or(raw - dot(n, raw) * n, perpendicular(n));
+    const Vec3 across = sign * cross(n, along);
+    store(b.T, i, along);
+    store(b.B, i, across);
     if (!object_space) continue;
     const Affine& to_object = pose.to_object;
-    store(b.T_object, i, normalize_or(transform_vector(to_object, tangent), tangent));
-    store(b.B_object, i, normalize_or(transform_vector(to_object, bitangent), bitangent));
+    store(b.T_object, i, normalize_or(transform_vector(to_object, along), along));
+    store(b.B_object, i, normalize_or(transform_vector(to_object, across), across));
   }
 }
 

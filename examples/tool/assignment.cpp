@@ -38,13 +38,13 @@ class Assigner {
         scene_(scene),
         options_(options),
         diagnostics_(diagnostics),
-        rules_(document, diagnostics) {
+        rules_(document, diagnostics),
+        paths_(scene) {
     for (const FoundMaterial& material : find_materials(document)) {
       known_.insert(material.name);
       if (first_.empty()) first_ = material.name;
       if (lacks_surface(document, material)) without_surface_.insert(material.name);
     }
-    for (const Mesh& mesh : scene.meshes) ++pieces_[path_of_object(mesh)];
     read_assigns();
     read_look();
     check_priorities();
@@ -101,13 +101,7 @@ class Assigner {
   }
 
  private:
-  /// The path of an object; of a piece of one, path and material (Geometry Extensions,
-  /// "Geometry Representation": the partitions of a mesh).
-  std::string path_of(const Mesh& mesh) const {
-    const std::string path = path_of_object(mesh);
-    const bool is_piece = pieces_.at(path) > 1 && !mesh.material_name.empty();
-    return is_piece ? path + '/' + mesh.material_name : path;
-  }
+  std::string path_of(const Mesh& mesh) const { return paths_.of(mesh); }
 
   /// The path, then the names that a document may know the mesh by.
   std::vector<std::string> names_of(const Mesh& mesh) const {
@@ -300,7 +294,7 @@ class Assigner {
   const AssignmentOptions& options_;
   Diagnostics& diagnostics_;
   GeometryRules rules_;
-  std::map<std::string, int> pieces_;  ///< Meshes of an object, by its path.
+  MeshPaths paths_;
   std::set<std::string> known_;
   std::set<std::string, std::less<>> without_surface_;  ///< Such as a <volumematerial>.
   std::string first_;
@@ -317,6 +311,16 @@ void AssignmentOptions::add(CLI::App& command) {
       ->type_name("NAME");
   command.add_option("--assign", assigns, "Material for an object, mesh or material of the scene")
       ->type_name("NAME=MATERIAL");
+}
+
+MeshPaths::MeshPaths(const host::Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) ++pieces_[path_of_object(mesh)];
+}
+
+std::string MeshPaths::of(const Mesh& mesh) const {
+  const std::string path = path_of_object(mesh);
+  const bool is_piece = pieces_.at(path) > 1 && !mesh.material_name.empty();
+  return is_piece ? path + '/' + mesh.material_name : path;
 }
 
 std::string MeshAssignment::key() const {

@@ -44,6 +44,17 @@ struct MeshAssignment {
   std::string key() const;
 };
 
+/// Where meshes stand, as looks name them: the path of their object and, of a piece of one, its
+/// material (Geometry Extensions, "Geometry Representation": the partitions of a mesh).
+class MeshPaths {
+ public:
+  explicit MeshPaths(const host::Scene& scene);
+  std::string of(const host::Mesh& mesh) const;
+
+ private:
+  std::map<std::string, int> pieces_;  ///< Meshes of an object, by its path.
+};
+
 /// One for every mesh. Materials in order of strength: --assign for an object, mesh
 /// or material of that name in the scene; the look's materialassigns, by the mesh's
 /// path or by its names at the top, where an assignment that is not exclusive lets the

@@ -248,9 +248,9 @@ std::optional<Profile> read_profile(const std::string& file, Diagnostics& diagno
   return text ? Profile::parse(*text, file, diagnostics) : std::nullopt;
 }
 
-}  // namespace
-
-Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
+/// All but the document.
+Opened open_system(const CommonOptions& options, const FileResolver& resolver,
+                   Diagnostics& diagnostics) {
   Opened opened;
   if (!options.profile.empty()) {
     opened.profile = read_profile(options.profile, diagnostics);
@@ -281,9 +281,25 @@ Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   if (!options.no_cache) {
     system.cache = options.cache.empty() ? default_cache_folder() : fs::path(options.cache);
   }
+  system.resolver = resolver;
   opened.system = ShadingSystem::create(system, diagnostics);
+  return opened;
+}
+
+}  // namespace
+
+Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
+  Opened opened = open_system(options, {}, diagnostics);
   if (opened.system == nullptr) return opened;
   opened.document = read_document(options.file, options.read_options(), diagnostics);
+  return opened;
+}
+
+Opened open(const CommonOptions& options, const DocumentText& document, Diagnostics& diagnostics) {
+  Opened opened = open_system(options, document.resolver, diagnostics);
+  if (opened.system == nullptr) return opened;
+  opened.document =
+      read_document_text(document.text, document.name, options.read_options(), diagnostics);
   return opened;
 }
 

@@ -82,6 +82,14 @@ struct Opened {
 };
 Opened open(const CommonOptions& options, Diagnostics& diagnostics);
 
+/// A document in memory. `name` stands for its file, from whose folder images count; `resolver` is
+/// asked for them before.
+struct DocumentText {
+  std::string text, name;
+  FileResolver resolver;
+};
+Opened open(const CommonOptions& options, const DocumentText& document, Diagnostics& diagnostics);
+
 /// How a material, or else an output, is compiled: as the profile says, if there is one. One that
 /// says nothing of it is warned of.
 ShaderOptions with_profile(const Opened& opened, const std::string& name, bool is_material,

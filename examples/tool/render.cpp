@@ -29,6 +29,7 @@
 #include "examples/tool/process.h"
 #include "examples/tool/render_checkpoint.h"
 #include "examples/tool/render_options.h"
+#include "examples/tool/scene_materials.h"
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
 #include "examples/tool/technique_options.h"
@@ -59,7 +60,8 @@ host::Scene scene(const RenderOptions& options, Diagnostics& diagnostics) {
   const double time = static_cast<double>(s.time);
   const host::Shutter shutter{time + static_cast<double>(s.shutter_open),
                               time + static_cast<double>(s.shutter_close)};
-  host::Scene loaded = host::load_scene(options.scene, options.scene_limits, diagnostics, shutter);
+  host::Scene loaded = host::load_scene(options.scene, options.scene_limits, diagnostics, shutter,
+                                        {has_own_materials(options), options.variant});
   if (loaded.meshes.empty()) return loaded;
   if (!loaded.camera) {
     const float aspect =
@@ -306,6 +308,11 @@ void displace(const RenderOptions& options, host::Scene& world, const host::Rend
                             "' is displaced in triangles that are larger than asked for",
                         "a larger --max-scene-size, or a larger --dice");
   }
+  for (const std::uint32_t mesh : result.stopped) {
+    diagnostics.warning("displaced-stands", {},
+                        "'" + world.meshes[mesh].object_name +
+                            "' is displaced, and does not bend while the shutter is open");
+  }
   if (result.invalid == 0) return;
   diagnostics.warning("invalid-displacement", {},
                       "some vertices are displaced to where nothing can be, and stay", "numbers",
@@ -374,18 +381,24 @@ int run(RenderOptions& options) {
   options.settings.passes = pass_request(options.passes, diagnostics);
   check_passes(options, diagnostics);
   check_techniques(options.settings, diagnostics);
-  if (diagnostics.has_errors()) {
+  if (diagnostics.has_errors() || !check_request(options, diagnostics)) {
     report(diagnostics);
     return status_usage;
   }
-  promise_files({options.out});
-  const Opened opened = open(options.common, diagnostics);
-  if (!opened) return report(diagnostics);
-  if (!host::is_image_name(options.out, diagnostics) ||
-      !host::prepare_image(options.out, diagnostics)) {
+  const bool has_own = has_own_materials(options);
+  promise_files({options.out, options.document});
+  Opened opened;
+  if (!has_own) opened = open(options.common, diagnostics);
+  if (!has_own && !opened) return report(diagnostics);
+  if (!options.out.empty() && (!host::is_image_name(options.out, diagnostics) ||
+                               !host::prepare_image(options.out, diagnostics))) {
     return report(diagnostics);
   }
   host::Scene world = scene(options, diagnostics);
+  if (has_own && !diagnostics.has_errors()) {
+    opened = open_scene_materials(options, world, diagnostics);
+    if (!opened || options.out.empty()) return report(diagnostics);
+  }
   const auto sky = environment(options, diagnostics);
   if (diagnostics.has_errors() || !sky) return report(diagnostics);
   host::RenderInput input;
@@ -395,8 +408,9 @@ int run(RenderOptions& options) {
   input.camera_motion = world.camera_motion;
   if (!host::check_camera(input.camera, diagnostics)) return report(diagnostics);
 
-  const std::vector<MeshAssignment> assignments =
+  std::vector<MeshAssignment> assignments =
       assign_materials(*opened.document, world, options.assignment, diagnostics);
+  if (has_own) take_sides(world, assignments);
   if (!options.assignment.material.empty() && diagnostics.has_errors()) {
     explain_missing_material(opened, options.assignment.material, options.common.shader_options(),
                              diagnostics);
@@ -477,7 +491,8 @@ void add_render(CLI::App& app, int& status) {
   add_render_options(command, *options);
   command.callback([options, &status, &command] {
     options->asked = asked_of(command);
-    status = guarded(options->common.file, [&] { return run(*options); });
+    const std::string& named = options->common.file;
+    status = guarded(named.empty() ? options->scene : named, [&] { return run(*options); });
   });
 }
 

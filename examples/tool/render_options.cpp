@@ -12,6 +12,8 @@ namespace nacre::tool {
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
   options.common.add_document(command);
+  command.get_option("FILE")->required(false)->description(
+      "MaterialX document (default: the materials of a glTF scene)");
   options.assignment.add(command);
   host::RenderSettings& settings = options.settings;
   command.add_option("--scene", options.scene, "glTF 2.0, HAIR or OBJ (default: a built-in one)")
@@ -38,9 +40,16 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(1, 1e9))
       ->capture_default_str();
   command.add_option("--size", options.size, "Pixels: N or WxH")->capture_default_str();
-  command.add_option("--out", options.out, "Image to write: .exr or .png")
-      ->required()
-      ->type_name("FILE");
+  command.add_option("--out", options.out, "Image to write: .exr or .png")->type_name("FILE");
+  command
+      .add_option("--write-document", options.document,
+                  "Without FILE: the document of the scene's own materials to write, with the "
+                  "images that are within the scene file beside it; then --out may be missing")
+      ->type_name("FILE.mtlx");
+  command
+      .add_option("--variant", options.variant,
+                  "Which of the scene's variants of materials (KHR_materials_variants)")
+      ->type_name("NAME");
   command.add_option("--max-depth", settings.max_depth, "Scattering events on a path")
       ->check(number_within(0, 1e9))
       ->capture_default_str();

@@ -18,6 +18,8 @@ struct RenderOptions {
   CommonOptions common;
   AssignmentOptions assignment;
   std::string scene;
+  std::string variant;   ///< SceneLooks::variant
+  std::string document;  ///< To write: that of the scene's own materials.
   std::string out;
   std::string size = "512";
   std::string environment;
