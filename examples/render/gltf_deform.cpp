@@ -14,9 +14,7 @@ namespace {
 /// Between these, vertices run straight.
 constexpr std::size_t most_steps = 16;
 
-SourceLocation place(const GltfValue& value) {
-  return {value.report().file, 0, 0, value.path()};
-}
+SourceLocation place(const GltfValue& value) { return {value.report().file, 0, 0, value.path()}; }
 
 Vec3 at(const std::vector<float>& values, std::size_t i) {
   return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
@@ -84,7 +82,8 @@ bool GltfDeform::apply(const GltfValue& node, std::size_t node_number, const Glt
   }
   std::optional<SkinWeights> follows;
   if (skin != nullptr) {
-    follows = read_skin_weights(primitive["attributes"], vertices, skin->size(), accessors_, budget_);
+    follows =
+        read_skin_weights(primitive["attributes"], vertices, skin->size(), accessors_, budget_);
     if (!follows) return false;
     if (follows->count == 0) {
       primitive["attributes"].error("the mesh of a node with a skin has no joints",
@@ -93,7 +92,8 @@ bool GltfDeform::apply(const GltfValue& node, std::size_t node_number, const Glt
     }
   }
   std::size_t steps = animation_.weight_steps(node_number);
-  if (skin != nullptr && !skin->is_still()) steps = std::max({steps, skin->steps(), std::size_t{1}});
+  if (skin != nullptr && !skin->is_still())
+    steps = std::max({steps, skin->steps(), std::size_t{1}});
   steps = steps == 0 ? 0 : std::min(std::bit_ceil(steps), most_steps);
   if (!budget_.take_bytes(place(primitive), steps * vertices * sizeof(float) * 10)) return false;
 

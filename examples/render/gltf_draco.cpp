@@ -17,7 +17,8 @@ bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute
   std::vector<T> value(static_cast<std::size_t>(components));
   for (std::uint32_t i = 0; i < mesh.num_points(); ++i) {
     const auto from = attribute.mapped_index(draco::PointIndex(i));
-    if (!attribute.ConvertValue(from, static_cast<std::int8_t>(components), value.data())) return false;
+    if (!attribute.ConvertValue(from, static_cast<std::int8_t>(components), value.data()))
+      return false;
     std::memcpy(&bytes[i * value.size() * sizeof(T)], value.data(), value.size() * sizeof(T));
   }
   return true;

@@ -57,8 +57,6 @@ void read_core(const GltfValue& m, Reader& reader, SceneMaterial& to) {
   to.roughness = reader.number(pbr["roughnessFactor"], 1.f);
   to.metallic_roughness = reader.texture(pbr["metallicRoughnessTexture"]);
   to.normal = reader.normal(m["normalTexture"]);
-  const GltfValue occlusion = m["occlusionTexture"];
-  to.occlusion = {reader.number(occlusion["strength"], 1.f), reader.texture(occlusion)};
   to.emissive = reader.textured<3>(m, "emissiveFactor", "emissiveTexture", {0.f, 0.f, 0.f});
   to.two_sided = m["doubleSided"].boolean().value_or(false);
   to.alpha_cutoff = reader.number(m["alphaCutoff"], 0.5f, largest);
@@ -116,8 +114,7 @@ bool read_extension(std::string_view name, const GltfValue& e, Reader& reader, S
   } else if (name == "KHR_materials_dispersion") {
     to.dispersion = reader.number(e["dispersion"], 0.f, largest);
   } else if (name == "KHR_materials_pbrSpecularGlossiness") {
-    to.base_color =
-        reader.textured<4>(e, "diffuseFactor", "diffuseTexture", {1.f, 1.f, 1.f, 1.f});
+    to.base_color = reader.textured<4>(e, "diffuseFactor", "diffuseTexture", {1.f, 1.f, 1.f, 1.f});
     auto& glossy = to.glossy.emplace();
     glossy.specular = reader.color<3>(e["specularFactor"], {1.f, 1.f, 1.f});
     glossy.glossiness = reader.number(e["glossinessFactor"], 1.f);

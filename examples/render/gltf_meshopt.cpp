@@ -43,7 +43,8 @@ std::optional<std::string> unpack_meshopt(const GltfValue& extension, std::strin
   const bool is_known = filter == "NONE" || filter == "OCTAHEDRAL" || filter == "QUATERNION" ||
                         filter == "EXPONENTIAL";
   if (!is_known || !is_form(mode, filter, *count, *stride)) {
-    extension.error("the compressed buffer view has another form", "as EXT_meshopt_compression has it",
+    extension.error("the compressed buffer view has another form",
+                    "as EXT_meshopt_compression has it",
                     fmt::format("{} elements of {} bytes, mode \"{}\", filter \"{}\"", *count,
                                 *stride, mode, filter));
     return {};

@@ -10,9 +10,7 @@ namespace nacre::host {
 
 namespace {
 
-SourceLocation place(const GltfValue& value) {
-  return {value.report().file, 0, 0, value.path()};
-}
+SourceLocation place(const GltfValue& value) { return {value.report().file, 0, 0, value.path()}; }
 
 Affine affine(const float* column) {
   const auto vec3 = [](const float* v) { return Vec3{v[0], v[1], v[2]}; };

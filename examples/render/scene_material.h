@@ -61,8 +61,7 @@ struct SceneMaterial {
   };
   std::optional<Glossy> glossy;
 
-  Textured<float> normal{1.f, {}};     ///< The value is the scale.
-  Textured<float> occlusion{1.f, {}};  ///< The value is the strength.
+  Textured<float> normal{1.f, {}};  ///< The value is the scale.
   Textured<Color> emissive{{0.f, 0.f, 0.f}, {}};
   float emissive_strength = 1.f;
 
@@ -83,7 +82,7 @@ struct SceneMaterial {
   Textured<float> sheen_roughness{0.f, {}};
   Textured<float> iridescence{0.f, {}};
   float iridescence_ior = 1.3f;
-  float iridescence_least = 100.f;                ///< Nanometres, where the texture has 0.
+  float iridescence_least = 100.f;                   ///< Nanometres, where the texture has 0.
   Textured<float> iridescence_thickness{400.f, {}};  ///< Where it has 1.
   Textured<float> anisotropy{0.f, {}};
   float anisotropy_rotation = 0.f;  ///< Radians.

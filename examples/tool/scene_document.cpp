@@ -31,7 +31,8 @@ Use use_of(const Mesh& mesh) { return {mesh.material, has_colors(mesh)}; }
 std::string plain_name(std::string_view name) {
   std::string result;
   for (const char c : name) {
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    const bool is_plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
     result += is_plain ? c : '_';
   }
   if (result.empty()) return "material";

@@ -16,6 +16,8 @@ struct SceneDocument {
   std::string text_with_look;
 };
 
+/// Textures of occlusion are left out: light that is traced is occluded by what is there, and
+/// gltf_pbr makes nothing of its input of that name.
 /// What those nodes cannot express is a warning at `scene_file`, once each.
 ///
 /// Mesh::material_name becomes the name in the document: MaterialX has fewer letters than glTF. A

@@ -28,8 +28,8 @@ bool write(const RenderOptions& options, const host::Scene& scene,
       !host::write_text_atomically(out, text, diagnostics)) {
     return false;
   }
-  const bool is_outside = std::ranges::any_of(
-      files, [](const std::string& file) { return file.starts_with(".."); });
+  const bool is_outside =
+      std::ranges::any_of(files, [](const std::string& file) { return file.starts_with(".."); });
   if (is_outside) {
     diagnostics.warning("other-folder", {out, 0, 0, {}},
                         "images of the scene are outside the folder of the document",

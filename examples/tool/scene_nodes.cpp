@@ -30,8 +30,12 @@ bool is_one(const Port& p) {
 }  // namespace
 
 Port port(float value) { return {"float", "", fmt::format("{}", value)}; }
-Port port(const std::array<float, 3>& c) { return {"color3", "", fmt::format("{}", fmt::join(c, ", "))}; }
-Port port(const std::array<float, 4>& c) { return {"color4", "", fmt::format("{}", fmt::join(c, ", "))}; }
+Port port(const std::array<float, 3>& c) {
+  return {"color3", "", fmt::format("{}", fmt::join(c, ", "))};
+}
+Port port(const std::array<float, 4>& c) {
+  return {"color4", "", fmt::format("{}", fmt::join(c, ", "))};
+}
 
 SceneNodes::SceneNodes(NewDocument& document, const std::vector<std::string>& files,
                        const std::string& name)
@@ -60,9 +64,9 @@ Port SceneNodes::add(std::string_view category, const std::string& type,
 
 Port SceneNodes::image(const SceneTexture& t, const std::string& type, bool is_srgb) {
   const std::string key =
-      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", type, is_srgb, t.image, t.set,
-                  t.offset.x, t.offset.y, t.scale.x, t.scale.y, t.rotation,
-                  static_cast<int>(t.wrap_u), static_cast<int>(t.wrap_v), t.is_closest);
+      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", type, is_srgb, t.image, t.set, t.offset.x,
+                  t.offset.y, t.scale.x, t.scale.y, t.rotation, static_cast<int>(t.wrap_u),
+                  static_cast<int>(t.wrap_v), t.is_closest);
   if (const auto found = images_.find(key); found != images_.end()) return found->second;
   std::vector<std::pair<std::string_view, Port>> inputs;
   inputs.emplace_back("file", Port{"filename", "", files_.at(t.image)});

@@ -29,8 +29,7 @@ Port port(const std::array<float, 4>& color);
 class SceneNodes {
  public:
   /// `files`: what each image of the scene is called in the document.
-  SceneNodes(NewDocument& document, const std::vector<std::string>& files,
-             const std::string& name);
+  SceneNodes(NewDocument& document, const std::vector<std::string>& files, const std::string& name);
 
   Port add(std::string_view category, const std::string& type,
            const std::vector<std::pair<std::string_view, Port>>& inputs);

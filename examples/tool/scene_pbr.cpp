@@ -74,8 +74,9 @@ void feed_base(SceneNodes& nodes, Element& shader, const SceneMaterial& m) {
   if (of.texture) smooth = nodes.alpha(*of.texture, true, m.glossy->glossiness);
   nodes.feed(shader, "metallic", port(0.f));
   nodes.feed(shader, "roughness",
-             smooth.is_value() ? port(1.f - m.glossy->glossiness)
-                               : nodes.add("subtract", "float", {{"in1", port(1.f)}, {"in2", smooth}}));
+             smooth.is_value()
+                 ? port(1.f - m.glossy->glossiness)
+                 : nodes.add("subtract", "float", {{"in1", port(1.f)}, {"in2", smooth}}));
   nodes.feed(shader, "specular_color", color(nodes, of));
 }
 
@@ -144,19 +145,6 @@ void feed_anisotropy(SceneNodes& nodes, Element& shader, const SceneMaterial& m)
   nodes.feed(shader, "anisotropy_rotation", rotation);
 }
 
-/// glTF 2.0, 3.9.3: 1 + strength (texture - 1). gltf_pbr does nothing with it, for light that is
-/// traced is occluded by what is there; whoever edits the document finds it.
-void feed_occlusion(SceneNodes& nodes, Element& shader, const SceneMaterial& m) {
-  if (!m.occlusion.texture) return;
-  Port light = nodes.channel(*m.occlusion.texture, 0, 1.f);
-  if (m.occlusion.value != 1.f) {
-    light = nodes.add(
-        "mix", "float",
-        {{"bg", port(1.f)}, {"fg", light}, {"mix", port(m.occlusion.value)}});
-  }
-  nodes.feed(shader, "occlusion", light);
-}
-
 void feed_emission(SceneNodes& nodes, Element& shader, const SceneMaterial& m) {
   if (is_black(m.emissive.value)) return;
   nodes.feed(shader, "emissive", color(nodes, m.emissive));
@@ -191,7 +179,8 @@ void feed_unlit(SceneNodes& nodes, Element& shader, const SceneMaterial& m, cons
 void ScenePbr::add(const SceneMaterial& m, const std::string& name, bool has_colors) {
   SceneNodes nodes(document_, image_files_, document_.free_name("NG_" + name));
   const std::string shader_name = document_.free_name("SR_" + name);
-  Element& shader = document_.make(m.is_unlit ? "surface_unlit" : "gltf_pbr", shader_name, "surfaceshader");
+  Element& shader =
+      document_.make(m.is_unlit ? "surface_unlit" : "gltf_pbr", shader_name, "surfaceshader");
   const BaseColor base = base_color(nodes, m, has_colors);
   if (m.is_unlit) {
     feed_unlit(nodes, shader, m, base);
@@ -200,7 +189,6 @@ void ScenePbr::add(const SceneMaterial& m, const std::string& name, bool has_col
     feed_base(nodes, shader, m);
     feed_alpha(nodes, shader, m, base.alpha);
     if (m.normal.texture) nodes.feed(shader, "normal", normal(nodes, m.normal));
-    feed_occlusion(nodes, shader, m);
     feed_specular(nodes, shader, m);
     feed_coats(nodes, shader, m);
     feed_iridescence(nodes, shader, m);
@@ -226,7 +214,8 @@ void ScenePbr::warn(const SceneMaterial& material, const char* what, const char*
 void ScenePbr::warn_of_lacks(const SceneMaterial& m) {
   const bool is_clear = m.transmission.value > 0.f;
   if (is_clear && !m.volume) {
-    warn(m, "transmission through a thin wall", "rendered as the surface of a solid, which bends light");
+    warn(m, "transmission through a thin wall",
+         "rendered as the surface of a solid, which bends light");
   }
   const bool absorbs = m.volume && m.volume->attenuation_distance &&
                        m.volume->attenuation_color != SceneMaterial::Color{1.f, 1.f, 1.f};
