@@ -75,6 +75,7 @@ class GltfReader {
   /// A node with a mesh, and where it is.
   struct Placed {
     std::size_t number;
+    std::string name;
     std::shared_ptr<const Motion> world;
     std::string path;
   };
@@ -132,7 +133,7 @@ class GltfReader {
     const auto path =
         name.empty() ? visit.above : std::make_shared<const std::string>(*visit.above + '/' + name);
     if (node["mesh"]) {
-      Placed placed{*index, world, *path};
+      Placed placed{*index, name, world, *path};
       if (node["skin"]) {
         skinned_.push_back(std::move(placed));
       } else {
@@ -186,7 +187,7 @@ class GltfReader {
     const auto number = node["mesh"].index_of(root_["meshes"]);
     if (!number) return;
     const GltfValue source = root_["meshes"][*number];
-    const std::string object = node.name();
+    const std::string& object = placed.name;
     const std::string& path = placed.path;
     const GltfSkin* const bones = node["skin"] ? skin(node["skin"]) : nullptr;
     stopped_ = node["skin"] && bones == nullptr;

@@ -6,13 +6,26 @@
 
 namespace nacre::host {
 
-Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
-                 const Shutter& shutter, const SceneLooks& looks) {
+namespace {
+
+std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".glb" || extension == ".gltf")
-    return load_gltf(path, limits, diagnostics, shutter, looks);
+  return extension;
+}
+
+}  // namespace
+
+bool has_materials(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".glb" || extension == ".gltf";
+}
+
+Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
+                 const Shutter& shutter, const SceneLooks& looks) {
+  const std::string extension = lower_extension(path);
+  if (has_materials(path)) return load_gltf(path, limits, diagnostics, shutter, looks);
   if (!looks.variant.empty()) {
     diagnostics.error("unknown-variant", {path, 0, 0, {}}, "the scene has no variants",
                       "a glTF file with KHR_materials_variants", '"' + looks.variant + '"');

@@ -14,6 +14,9 @@ struct SceneLooks {
   std::string variant = {};  ///< Of KHR_materials_variants; "": what the file shows by itself.
 };
 
+/// Whether a file is of a format whose materials are read: .glb or .gltf.
+bool has_materials(const std::string& path);
+
 /// Reads .glb, .gltf, .hair or .obj, told by the extension. Errors leave the scene
 /// without meshes; warnings do not. Every mesh has gone through finish_mesh() or
 /// finish_fibres(). What the
@@ -23,8 +26,8 @@ Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics
                  const Shutter& shutter = {}, const SceneLooks& looks = {});
 
 /// glTF 2.0: the nodes of the default scene (or of the first), triangles,
-/// strips and fans, lines with an attribute _RADIUS, any component type; no sparse accessors,
-/// skins, morphs or materials but for their names. glTF puts uv (0,0) at the upper left, so
+/// strips and fans, lines with an attribute _RADIUS, any component type, meshes that Draco or
+/// meshopt packed. Morph targets and skins bend vertices. glTF puts uv (0,0) at the upper left, so
 /// v becomes 1 - v. Without normals faces are flat. Buffers are only read from the folder of the
 /// file and below. Of its animations the first moves nodes.
 Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "examples/common/atomic_file.h"
+#include "examples/render/load_scene.h"
 #include "examples/tool/process.h"
 #include "examples/tool/scene_document.h"
 #include "examples/tool/scene_images.h"
@@ -51,6 +52,9 @@ bool check_request(const RenderOptions& options, Diagnostics& diagnostics) {
   };
   if (has_own && options.scene.empty()) {
     return fail("there is nothing to render", "FILE.mtlx, or --scene FILE.glb with materials");
+  }
+  if (has_own && !host::has_materials(options.scene)) {
+    return fail("the materials of this scene are not read", "FILE.mtlx, or a .glb or .gltf");
   }
   if (!has_own && !options.document.empty()) {
     return fail("--write-document writes the scene's own materials", "no FILE.mtlx beside it");

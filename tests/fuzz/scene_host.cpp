@@ -36,7 +36,7 @@ void render_from(const host::Scene& scene, const host::Camera& camera) {
 
 void render_scene(const std::string& path) {
   Diagnostics diagnostics;
-  const host::Scene scene = host::load_scene(path, {}, diagnostics, {0, 1});
+  const host::Scene scene = host::load_scene(path, {}, diagnostics, {0, 1}, {.materials = true});
   if (scene.meshes.empty() != diagnostics.has_errors()) {
     fail("a scene is refused without a reason, or read with an error");
   }

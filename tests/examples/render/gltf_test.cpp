@@ -141,8 +141,8 @@ TEST(Gltf, WrongFilesGiveDiagnosticsAndNoScene) {
            R"({"bufferView":2,"componentType":5123,"count":4611686018427387904,"type":"SCALAR"})")},
       {"float indices", "a.glb",
        index(R"({"bufferView":2,"componentType":5126,"count":3,"type":"SCALAR"})")},
-      {"sparse", "a.glb",
-       index(R"({"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR","sparse":{"count":1,
+      {"sparse beyond its accessor", "a.glb",
+       index(R"({"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR","sparse":{"count":7,
          "indices":{"bufferView":2,"componentType":5123},"values":{"bufferView":2}}})")},
       {"unknown format", "a.stl", "solid"},
   };
