@@ -32,7 +32,7 @@ bool is_read_material(std::string_view name) {
                                         "variants",
                                         "volume"};
   constexpr std::string_view materials = "KHR_materials_";
-  if (name == "KHR_texture_transform" || name == "EXT_texture_webp") return true;
+  if (name == "KHR_texture_transform") return true;
   return name.starts_with(materials) &&
          std::ranges::find(known, name.substr(materials.size())) != std::end(known);
 }

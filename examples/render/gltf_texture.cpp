@@ -38,7 +38,6 @@ Vec2 vec2(const GltfValue& value, Vec2 otherwise) {
 std::string extension_of(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return ".png";
   if (bytes.starts_with("\xff\xd8")) return ".jpg";
-  if (bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return ".webp";
   return {};
 }
 
@@ -73,12 +72,11 @@ std::optional<SceneTexture> GltfTextures::read(const GltfValue& info) {
 /// Where the image of a texture is in `images_`.
 std::optional<std::size_t> GltfTextures::source(const GltfValue& texture) {
   const GltfValue images = root_["images"];
-  const GltfValue webp = texture["extensions"]["EXT_texture_webp"]["source"];
-  const GltfValue wanted = webp ? webp : texture["source"];
+  const GltfValue wanted = texture["source"];
   if (!wanted) {
     const auto names = texture["extensions"].names();
     dropped_.say("texture-not-rendered", texture, "a texture has no image that can be read",
-                 "PNG, JPEG or WebP", names.empty() ? "none" : names.front());
+                 "PNG or JPEG", names.empty() ? "none" : names.front());
     return {};
   }
   const auto number = wanted.index_of(images);
@@ -116,7 +114,7 @@ std::optional<SceneImage> GltfTextures::read_image(const GltfValue& image) {
   result.bytes = std::make_shared<const std::string>(std::move(*bytes));
   if (!result.extension.empty()) return result;
   dropped_.say("texture-not-rendered", image, "a texture has no image that can be read",
-               "PNG, JPEG or WebP", image["mimeType"].shown());
+               "PNG or JPEG", image["mimeType"].shown());
   return {};
 }
 

@@ -15,7 +15,7 @@ namespace nacre::host {
 struct SceneImage {
   std::string file;                          ///< Relative to the scene's folder; of bytes "".
   std::shared_ptr<const std::string> bytes;  ///< As a file of that format has them.
-  std::string extension;                     ///< Of bytes: ".png", ".jpg", ".webp".
+  std::string extension;                     ///< Of bytes: ".png" or ".jpg".
 };
 
 /// How an image is laid on a surface: KHR_texture_transform takes uv to T R S uv.

@@ -249,6 +249,8 @@ std::optional<Profile> read_profile(const std::string& file, Diagnostics& diagno
 }
 
 /// All but the document.
+}  // namespace
+
 Opened open_system(const CommonOptions& options, const FileResolver& resolver,
                    Diagnostics& diagnostics) {
   Opened opened;
@@ -286,20 +288,10 @@ Opened open_system(const CommonOptions& options, const FileResolver& resolver,
   return opened;
 }
 
-}  // namespace
-
 Opened open(const CommonOptions& options, Diagnostics& diagnostics) {
   Opened opened = open_system(options, {}, diagnostics);
   if (opened.system == nullptr) return opened;
   opened.document = read_document(options.file, options.read_options(), diagnostics);
-  return opened;
-}
-
-Opened open(const CommonOptions& options, const DocumentText& document, Diagnostics& diagnostics) {
-  Opened opened = open_system(options, document.resolver, diagnostics);
-  if (opened.system == nullptr) return opened;
-  opened.document =
-      read_document_text(document.text, document.name, options.read_options(), diagnostics);
   return opened;
 }
 

@@ -82,13 +82,10 @@ struct Opened {
 };
 Opened open(const CommonOptions& options, Diagnostics& diagnostics);
 
-/// A document in memory. `name` stands for its file, from whose folder images count; `resolver` is
-/// asked for them before.
-struct DocumentText {
-  std::string text, name;
-  FileResolver resolver;
-};
-Opened open(const CommonOptions& options, const DocumentText& document, Diagnostics& diagnostics);
+/// The system alone, for who has a document in memory; null after an error. `resolver` is asked for
+/// images before their folders are looked in.
+Opened open_system(const CommonOptions& options, const FileResolver& resolver,
+                   Diagnostics& diagnostics);
 
 /// How a material, or else an output, is compiled: as the profile says, if there is one. One that
 /// says nothing of it is warned of.

@@ -51,8 +51,8 @@ std::string geometry(std::string path) {
 class Writer {
  public:
   Writer(host::Scene& scene, const std::string& scene_file, const std::vector<std::string>& files,
-         Diagnostics& diagnostics)
-      : scene_(scene), pbr_(document_, files, scene_file, diagnostics) {
+         const Document& library, Diagnostics& diagnostics)
+      : scene_(scene), pbr_(document_, library, files, scene_file, diagnostics) {
     default_.name = "default";
   }
 
@@ -125,8 +125,8 @@ class Writer {
 
 SceneDocument make_scene_document(host::Scene& scene, const std::string& scene_file,
                                   const std::vector<std::string>& image_files,
-                                  Diagnostics& diagnostics) {
-  return Writer(scene, scene_file, image_files, diagnostics).write();
+                                  const Document& library, Diagnostics& diagnostics) {
+  return Writer(scene, scene_file, image_files, library, diagnostics).write();
 }
 
 }  // namespace nacre::tool

@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "examples/render/scene.h"
+#include "jit/document/document.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::tool {
 
-/// The materials of a scene as a MaterialX document: for each a gltf_pbr, or a surface_unlit.
+/// The materials of a scene as a MaterialX document: for each a gltf_pbr, one of GltfPbrNodes, or a
+/// surface_unlit.
 struct SceneDocument {
   std::string text;
   /// The same with a look, for those who read it beside the scene: it assigns the materials by
@@ -22,9 +24,10 @@ struct SceneDocument {
 ///
 /// Mesh::material_name becomes the name in the document: MaterialX has fewer letters than glTF. A
 /// material that is on meshes with and without vertex colours is there twice.
-/// `image_files`: what each of the scene's images is called in the document.
+/// `image_files`: what each of the scene's images is called in the document. `library`: the data
+/// library.
 SceneDocument make_scene_document(host::Scene& scene, const std::string& scene_file,
                                   const std::vector<std::string>& image_files,
-                                  Diagnostics& diagnostics);
+                                  const Document& library, Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

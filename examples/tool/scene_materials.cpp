@@ -72,14 +72,17 @@ Opened open_scene_materials(const RenderOptions& options, host::Scene& scene,
   const std::vector<std::string> files =
       scene_image_files(scene.materials.images, options.scene, named.stem().string(),
                         is_written ? folder_of(options.document) : "");
-  const SceneDocument made = make_scene_document(scene, options.scene, files, diagnostics);
-  if (is_written && !write(options, scene, files, made.text_with_look, diagnostics)) return {};
-  const std::string name = is_written ? options.document : options.scene;
   CommonOptions common = options.common;
   common.search_paths.push_back(folder_of(options.scene));
-  return open(common,
-              DocumentText{made.text, name, scene_image_resolver(scene.materials.images, files)},
-              diagnostics);
+  Opened opened =
+      open_system(common, scene_image_resolver(scene.materials.images, files), diagnostics);
+  if (opened.system == nullptr) return {};
+  const SceneDocument made = make_scene_document(
+      scene, options.scene, files, opened.system->library().document(), diagnostics);
+  if (is_written && !write(options, scene, files, made.text_with_look, diagnostics)) return {};
+  const std::string& name = is_written ? options.document : options.scene;
+  opened.document = read_document_text(made.text, name, common.read_options(), diagnostics);
+  return opened;
 }
 
 void take_sides(const host::Scene& scene, std::vector<MeshAssignment>& assignments) {

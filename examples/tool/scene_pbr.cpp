@@ -159,6 +159,28 @@ void feed_alpha(SceneNodes& nodes, Element& shader, const SceneMaterial& m, cons
   if (is_mask) nodes.feed(shader, "alpha_cutoff", port(m.alpha_cutoff));
 }
 
+/// KHR_materials_volume: what has no thickness is a thin wall, as without that extension.
+bool is_thin(const SceneMaterial& m) { return !m.volume || !(m.volume->thickness.value > 0.f); }
+
+bool absorbs(const SceneMaterial& m) {
+  return m.volume && m.volume->attenuation_distance &&
+         m.volume->attenuation_color != SceneMaterial::Color{1.f, 1.f, 1.f};
+}
+
+GltfPbrNodes::Kind kind_of(const SceneMaterial& m) {
+  if (!(m.transmission.value > 0.f)) return GltfPbrNodes::Kind::plain;
+  if (is_thin(m)) return GltfPbrNodes::Kind::wall;
+  return absorbs(m) ? GltfPbrNodes::Kind::volume : GltfPbrNodes::Kind::plain;
+}
+
+/// The distance is what light goes, so that the thickness, which is there for renderers that do not
+/// know how far that is, does not count.
+void feed_volume(SceneNodes& nodes, Element& shader, const SceneMaterial& m) {
+  if (!absorbs(m)) return;
+  nodes.feed(shader, "attenuation_distance", port(*m.volume->attenuation_distance));
+  nodes.feed(shader, "attenuation_color", port(m.volume->attenuation_color));
+}
+
 /// KHR_materials_unlit: the base colour as it is, whatever light falls on it.
 void feed_unlit(SceneNodes& nodes, Element& shader, const SceneMaterial& m, const BaseColor& base) {
   nodes.feed(shader, "emission_color", base.color);
@@ -179,8 +201,9 @@ void feed_unlit(SceneNodes& nodes, Element& shader, const SceneMaterial& m, cons
 void ScenePbr::add(const SceneMaterial& m, const std::string& name, bool has_colors) {
   SceneNodes nodes(document_, image_files_, document_.free_name("NG_" + name));
   const std::string shader_name = document_.free_name("SR_" + name);
-  Element& shader =
-      document_.make(m.is_unlit ? "surface_unlit" : "gltf_pbr", shader_name, "surfaceshader");
+  const GltfPbrNodes::Kind kind = kind_of(m);
+  const std::string category = m.is_unlit ? "surface_unlit" : nodes_.category(kind);
+  Element& shader = document_.make(category, shader_name, "surfaceshader");
   const BaseColor base = base_color(nodes, m, has_colors);
   if (m.is_unlit) {
     feed_unlit(nodes, shader, m, base);
@@ -194,7 +217,8 @@ void ScenePbr::add(const SceneMaterial& m, const std::string& name, bool has_col
     feed_iridescence(nodes, shader, m);
     feed_anisotropy(nodes, shader, m);
     feed_emission(nodes, shader, m);
-    warn_of_lacks(m);
+    feed_volume(nodes, shader, m);
+    warn_of_lacks(m, kind, category != "gltf_pbr");
   }
   nodes.finish();
   document_.append(document_.root(), shader);
@@ -211,16 +235,16 @@ void ScenePbr::warn(const SceneMaterial& material, const char* what, const char*
                        "material '" + material.name + '\'');
 }
 
-void ScenePbr::warn_of_lacks(const SceneMaterial& m) {
-  const bool is_clear = m.transmission.value > 0.f;
-  if (is_clear && !m.volume) {
+void ScenePbr::warn_of_lacks(const SceneMaterial& m, GltfPbrNodes::Kind kind, bool is_that) {
+  using Kind = GltfPbrNodes::Kind;
+  if (kind == Kind::wall && !is_that) {
     warn(m, "transmission through a thin wall",
          "rendered as the surface of a solid, which bends light");
   }
-  const bool absorbs = m.volume && m.volume->attenuation_distance &&
-                       m.volume->attenuation_color != SceneMaterial::Color{1.f, 1.f, 1.f};
-  if (is_clear && absorbs) warn(m, "attenuation in volumes", "rendered as clear");
-  if (is_clear && m.dispersion > 0.f) warn(m, "dispersion", "rendered without");
+  if (kind == Kind::volume && !is_that) warn(m, "attenuation in volumes", "rendered as clear");
+  if (m.transmission.value > 0.f && !is_thin(m) && m.dispersion > 0.f) {
+    warn(m, "dispersion", "rendered without");
+  }
   const auto& set = m.normal.texture;
   if (set && set->set != 0) {
     warn(m, "a normal map along another uv set", "tangents of the first set");

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "examples/render/scene_material.h"
+#include "examples/tool/gltf_pbr_nodes.h"
 #include "examples/tool/new_document.h"
 #include "runtime/diagnostic.h"
 
@@ -12,9 +13,12 @@ namespace nacre::tool {
 /// Puts materials of a scene into a document.
 class ScenePbr {
  public:
-  ScenePbr(NewDocument& document, const std::vector<std::string>& image_files,
-           std::string scene_file, Diagnostics& diagnostics)
+  /// `library`: the data library.
+  ScenePbr(NewDocument& document, const Document& library,
+           const std::vector<std::string>& image_files, std::string scene_file,
+           Diagnostics& diagnostics)
       : document_(document),
+        nodes_(document, library),
         image_files_(image_files),
         scene_file_(std::move(scene_file)),
         diagnostics_(diagnostics) {}
@@ -25,9 +29,11 @@ class ScenePbr {
  private:
   /// Once for each `what`.
   void warn(const host::SceneMaterial& material, const char* what, const char* instead);
-  void warn_of_lacks(const host::SceneMaterial& material);
+  void warn_of_lacks(const host::SceneMaterial& material, GltfPbrNodes::Kind kind,
+                     bool is_that);
 
   NewDocument& document_;
+  GltfPbrNodes nodes_;
   const std::vector<std::string>& image_files_;
   std::string scene_file_;
   Diagnostics& diagnostics_;
