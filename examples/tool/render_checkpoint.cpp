@@ -6,6 +6,8 @@
 #include <type_traits>
 
 #include "examples/tool/bake_inputs.h"
+#include "examples/tool/scene_materials.h"
+#include "jit/document/write.h"
 #include "runtime/digest.h"
 
 namespace nacre::tool {
@@ -33,9 +35,16 @@ std::string digest_of(const host::Scene& world) {
     for (const std::string& name : {mesh.path, mesh.object_name, mesh.material_name}) {
       all.add(name + '\n');
     }
+    add(all, std::vector{mesh.two_sided ? 2 : 1});
     add(all, mesh.triangles);
     add(all, mesh.position);
     add(all, mesh.normal);
+    add(all, mesh.tangent);
+    for (const host::MeshPose& pose : mesh.poses) {
+      add(all, pose.position);
+      add(all, pose.normal);
+      add(all, pose.tangent);
+    }
     add(all, mesh.uv);
     add(all, mesh.radius);
     for (const host::Primvar& primvar : mesh.primvars) add(all, primvar.values);
@@ -44,6 +53,10 @@ std::string digest_of(const host::Scene& world) {
   for (const host::PunctualLight& light : world.lights) {
     add(all, std::vector{light.color, light.position, light.direction,
                          host::Vec3{light.range, light.inner_cos, light.outer_cos}});
+  }
+  for (const host::SceneImage& image : world.materials.images) {
+    all.add(image.file + '\n');
+    if (image.bytes != nullptr) all.add(*image.bytes);
   }
   if (world.camera) add(all, std::vector{*world.camera});
   add(all, world.camera_motion);
@@ -90,6 +103,8 @@ std::optional<std::string> render_key(const RenderOptions& options, const Opened
   }
   if (!options.environment.empty()) images[options.environment] = digests.of(options.environment);
   std::string key = options.asked + inputs.version + '\n' + digest_of(world) + '\n';
+  // What was made of the scene is in no file.
+  if (has_own_materials(options)) key += write_document(*opened.document);
   for (const Facts* facts : {&inputs.inputs, &inputs.options, &images}) {
     for (const auto& [name, text] : *facts) key += name + '=' + text + '\n';
   }
