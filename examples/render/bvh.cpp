@@ -115,10 +115,9 @@ bool add_fibres(RTCDevice device, RTCScene scene, const Mesh& mesh) {
   return ok;
 }
 
-/// Watertight; what is large as small as can be, rather than as fast.
+/// Watertight.
 RTCSceneFlags scene_flags(std::size_t triangles) {
-  constexpr std::size_t large = 2'000'000;
-  return triangles > large
+  return triangles > compact_triangles
              ? static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT)
              : RTC_SCENE_FLAG_ROBUST;
 }

@@ -192,6 +192,10 @@ class GltfReader {
     const GltfSkin* const bones = node["skin"] ? skin(node["skin"]) : nullptr;
     stopped_ = node["skin"] && bones == nullptr;
     if (stopped_) return;
+    if (bones != nullptr && node["extensions"]["EXT_mesh_gpu_instancing"]) {
+      dropped_.say("skinned-instances", node, "a mesh with a skin is shown once, not as instances",
+                   "instances of a mesh without a skin");
+    }
     // glTF 2.0, 3.7.3.3: where the node itself is does not count for a skin.
     const Motion world = bones == nullptr ? *placed.world : Motion();
     const auto places = instancing_.places(node, world);

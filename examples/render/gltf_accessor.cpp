@@ -197,6 +197,16 @@ std::optional<GltfAccessor> GltfAccessors::indices(const GltfValue& index) {
   return {};
 }
 
+std::optional<GltfAccessor> GltfAccessors::joints(const GltfValue& index) {
+  const auto a = open(index);
+  if (!a) return {};
+  const bool is_unsigned = a->component_type == type_u8 || a->component_type == type_u16;
+  if (is_unsigned && a->components == 4) return a;
+  index.error("the accessor cannot be joints", "four unsigned 8 or 16 bit integers",
+              fmt::format("{} components of type {}", a->components, a->component_type));
+  return {};
+}
+
 std::vector<float> GltfAccessors::floats(const GltfAccessor& a) {
   const auto components = static_cast<std::size_t>(a.components);
   const std::size_t bytes = component_bytes(static_cast<std::size_t>(a.component_type));

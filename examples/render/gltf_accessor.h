@@ -36,6 +36,8 @@ class GltfAccessors {
   std::optional<GltfAccessor> matrices(const GltfValue& index);
   /// Likewise, unsigned numbers of 8, 16 or 32 bits.
   std::optional<GltfAccessor> indices(const GltfValue& index);
+  /// Likewise, four of 8 or 16 bits.
+  std::optional<GltfAccessor> joints(const GltfValue& index);
 
   /// Of elements in a buffer.
   struct Form {

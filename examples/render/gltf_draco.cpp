@@ -3,8 +3,12 @@
 #include <draco/compression/decode.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 namespace nacre::host {
 
@@ -49,6 +53,35 @@ std::string corners(const draco::Mesh& mesh) {
   return bytes;
 }
 
+/// A number of 7 bits a byte, the low ones first; the bytes that it took are removed.
+std::optional<std::uint64_t> varint(std::string_view& bytes) {
+  std::uint64_t value = 0;
+  for (unsigned shift = 0; shift < 35 && !bytes.empty(); shift += 7) {
+    const auto byte = static_cast<unsigned char>(bytes.front());
+    bytes.remove_prefix(1);
+    value |= std::uint64_t{byte & 0x7fu} << shift;
+    if (byte < 0x80) return value;
+  }
+  return {};
+}
+
+/// Faces and points that a stream says it has, whichever are more: the decoder takes memory for
+/// them before it has looked for them. Nothing if it is of no version that says so.
+/// Draco 3D Graphics Compression bitstream 2.2, "Header" and "Connectivity Decoder".
+std::optional<std::uint64_t> declared_elements(std::string_view bytes) {
+  constexpr std::size_t header = 11;
+  constexpr char mesh = 1, edgebreaker = 1;
+  if (bytes.size() <= header || !bytes.starts_with("DRACO") || bytes[7] != mesh) return {};
+  const int version = 256 * bytes[5] + bytes[6];
+  const bool is_edgebreaker = bytes[8] == edgebreaker;
+  // A flag says that metadata comes first, which glTF has no use for.
+  if (version < 0x202 || (static_cast<unsigned char>(bytes[10]) & 0x80u) != 0) return {};
+  bytes.remove_prefix(is_edgebreaker ? header + 1 : header);
+  const auto first = varint(bytes), second = varint(bytes);
+  if (!first || !second) return {};
+  return std::max(*first, *second);
+}
+
 }  // namespace
 
 bool unpack_draco(const GltfValue& root, const GltfValue& primitive, GltfBuffers& buffers,
@@ -57,6 +90,17 @@ bool unpack_draco(const GltfValue& root, const GltfValue& primitive, GltfBuffers
   if (!extension) return true;
   const auto packed = buffers.view(extension["bufferView"]);
   if (!packed) return false;
+  const SourceLocation where{extension.report().file, 0, 0, extension.path()};
+  const auto declared = declared_elements(*packed);
+  if (!declared) {
+    extension.error("the compressed mesh cannot be unpacked",
+                    "a mesh of Draco's bitstream 2.2 without metadata",
+                    fmt::format("{} bytes", packed->size()));
+    return false;
+  }
+  // Of connectivity, in the decoder: three corners of a face with what is opposite.
+  constexpr std::size_t bytes_of_face = 40;
+  if (!budget.take_bytes(where, bytes_of_face * *declared)) return false;
   draco::DecoderBuffer buffer;
   buffer.Init(packed->data(), packed->size());
   draco::Decoder decoder;
@@ -67,7 +111,6 @@ bool unpack_draco(const GltfValue& root, const GltfValue& primitive, GltfBuffers
     return false;
   }
   const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
-  const SourceLocation where{extension.report().file, 0, 0, extension.path()};
   const GltfValue names = extension["attributes"];
   for (const std::string& name : names.names()) {
     const auto id = names[name.c_str()].count();

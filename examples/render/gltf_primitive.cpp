@@ -133,8 +133,12 @@ bool GltfPrimitives::read_triangles(const GltfValue& primitive, std::size_t mode
   const std::size_t kept = attributes["NORMAL"] ? vertices : vertices + 3 * triangles;
   std::size_t other = mesh.path.size() + mesh.object_name.size() + mesh.mesh_name.size() +
                       mesh.material_name.size();
-  // A primitive variable has up to four floats a vertex.
-  for (const std::string& name : attributes.names()) other += name.size() + 16 * kept;
+  // A primitive variable has up to four floats a vertex; the others are counted with the mesh.
+  for (const std::string& name : attributes.names()) {
+    const bool is_own =
+        name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name == "TEXCOORD_0";
+    other += name.size() + (is_own ? 0 : 16 * kept);
+  }
   if (!budget_.take({primitive.report().file, 0, 0, primitive.path()}, kept, triangles, other)) {
     return false;
   }
@@ -221,7 +225,7 @@ void GltfPrimitives::read_attribute(const Attribute& attribute, Mesh& mesh) {
     f[i * static_cast<std::size_t>(n) + 1] = 1.f - at(i, 1);  // upper left to lower left
   }
   if (semantic == "POSITION") {
-    mesh.position.reserve(count);
+    mesh.position.reserve(count + 1);  // Embree reads it where it is: see bvh.cpp.
     for (std::size_t i = 0; i < count; ++i) mesh.position.push_back({at(i, 0), at(i, 1), at(i, 2)});
   } else if (semantic == "NORMAL") {
     mesh.normal.reserve(count);

@@ -100,7 +100,7 @@ std::optional<SkinWeights> read_skin_weights(const GltfValue& attributes, std::s
     const GltfValue of = attributes[fmt::format("JOINTS_{}", set).c_str()];
     const GltfValue by = attributes[fmt::format("WEIGHTS_{}", set).c_str()];
     if (!of && !by) break;
-    const auto joint = accessors.attribute(of.need("JOINTS as many as WEIGHTS"), 4);
+    const auto joint = accessors.joints(of.need("JOINTS as many as WEIGHTS"));
     const auto weight = accessors.attribute(by.need("WEIGHTS as many as JOINTS"), 4);
     if (!joint || !weight) return {};
     for (const auto& [accessor, value] : {std::pair{&*joint, &of}, std::pair{&*weight, &by}}) {

@@ -10,7 +10,7 @@ namespace nacre::host {
 
 /// What is wanted of a scene's own materials.
 struct SceneLooks {
-  bool materials = false;  ///< Scene::materials; otherwise only their names are read.
+  bool materials = false;    ///< Scene::materials; otherwise only their names are read.
   std::string variant = {};  ///< Of KHR_materials_variants; "": what the file shows by itself.
 };
 

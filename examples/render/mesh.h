@@ -45,7 +45,7 @@ std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uin
                         std::size_t components = 1) {
   std::vector<T> result;
   if (values.empty()) return result;
-  result.reserve(order.size() * components);
+  result.reserve(order.size() * components + 1);  // Embree reads it where it is: see bvh.cpp.
   for (const std::uint32_t v : order) {
     for (std::size_t c = 0; c < components; ++c) result.push_back(values[v * components + c]);
   }

@@ -2,17 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "examples/render/bvh.h"
 #include "examples/render/scene.h"
 
 namespace nacre::host {
 
 namespace {
 
-// Positions in both spaces, normal, tangent, uv, the copy that rays are traced against, and
-// what making normals and tangents takes meanwhile.
-constexpr std::size_t vertex_bytes = 112;
-// Indices, their copy, and the hierarchy over them while it is built.
-constexpr std::size_t triangle_bytes = 200;
+// Positions in both spaces, normal, tangent, uv, and what making normals and tangents takes
+// meanwhile.
+constexpr std::size_t vertex_bytes = 100;
+// Indices, and the hierarchy over them while it is built.
+constexpr std::size_t triangle_bytes = 200, compact_triangle_bytes = 80;
 // The mesh itself and its part of the hierarchy.
 constexpr std::size_t mesh_bytes = sizeof(Mesh) + 2048;
 
@@ -22,7 +23,9 @@ constexpr std::size_t step_bytes = 160;
 
 std::size_t bytes_of(std::size_t vertices, std::size_t triangles, std::size_t other) {
   // Counts are of things in files of limited size, so that no sum overflows.
-  return vertices * vertex_bytes + triangles * triangle_bytes + mesh_bytes + other;
+  const bool is_compact = triangles > compact_triangles;
+  return vertices * vertex_bytes + mesh_bytes + other +
+         triangles * (is_compact ? compact_triangle_bytes : triangle_bytes);
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ Opened open_scene_materials(const RenderOptions& options, host::Scene& scene,
   Opened opened =
       open_system(common, scene_image_resolver(scene.materials.images, files), diagnostics);
   if (opened.system == nullptr) return {};
-  const SceneDocument made = make_scene_document(
-      scene, options.scene, files, opened.system->library().document(), diagnostics);
+  const SceneDocument made = make_scene_document(scene, options.scene, files,
+                                                 opened.system->library().document(), diagnostics);
   if (is_written && !write(options, scene, files, made.text_with_look, diagnostics)) return {};
   const std::string& name = is_written ? options.document : options.scene;
   opened.document = read_document_text(made.text, name, common.read_options(), diagnostics);

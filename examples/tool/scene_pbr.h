@@ -29,8 +29,7 @@ class ScenePbr {
  private:
   /// Once for each `what`.
   void warn(const host::SceneMaterial& material, const char* what, const char* instead);
-  void warn_of_lacks(const host::SceneMaterial& material, GltfPbrNodes::Kind kind,
-                     bool is_that);
+  void warn_of_lacks(const host::SceneMaterial& material, GltfPbrNodes::Kind kind, bool is_that);
 
   NewDocument& document_;
   GltfPbrNodes nodes_;

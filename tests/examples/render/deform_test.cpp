@@ -59,11 +59,10 @@ std::string bending_card(std::string_view primitive, std::string_view node,
   };
   const std::string sparse = R"(, {"componentType": 5126, "count": 4, "type": "VEC3", "sparse":
       {"count": 1, "indices": {"bufferView": 9, "componentType": 5123}, "values": {"bufferView": 8}}})";
-  text.insert(text.rfind("]\n}"), accessor(5, 5121, 4, "VEC4") + accessor(6, 5126, 4, "VEC4") +
-                                      accessor(7, 5126, 2, "MAT4") + sparse +
-                                      accessor(10, 5126, 3, "SCALAR") +
-                                      accessor(11, 5126, 3, "SCALAR") +
-                                      accessor(12, 5126, 4, "VEC3"));
+  text.insert(text.rfind("]\n}"),
+              accessor(5, 5121, 4, "VEC4") + accessor(6, 5126, 4, "VEC4") +
+                  accessor(7, 5126, 2, "MAT4") + sparse + accessor(10, 5126, 3, "SCALAR") +
+                  accessor(11, 5126, 3, "SCALAR") + accessor(12, 5126, 4, "VEC3"));
   const std::size_t attributes = text.find("\"NORMAL\": 3");
   if (primitive.empty()) text.insert(attributes, R"("JOINTS_0": 5, "WEIGHTS_0": 6, )");
   return text;
@@ -141,11 +140,8 @@ TEST_F(Deform, WeightsAreAnimated) {
     ASSERT_FALSE(hit.missed());
     // (0,0,t) (1,0,2t) (1,1,3t): z = t + x t + y t.
     EXPECT_NEAR(10.f - hit.distance, time * (1.f + 0.75f + 0.25f), 1e-4f);
-    const SurfacePoint p{.mesh = hit.mesh,
-                         .triangle = hit.triangle,
-                         .u = hit.u,
-                         .v = hit.v,
-                         .time = time};
+    const SurfacePoint p{
+        .mesh = hit.mesh, .triangle = hit.triangle, .u = hit.u, .v = hit.v, .time = time};
     EXPECT_NEAR(surface_position(scene, p).z, 2 * time, 1e-4f);
     // The plane's normal is (-t, -t, 1), normalised.
     const Vec3 n = surface_normal(scene, p);
@@ -162,6 +158,13 @@ TEST_F(Deform, WrongOnesAreRefused) {
   };
   EXPECT_EQ(says(bending_card("", node, R"("skins": [{"joints": [2]}], )")),
             "bad-gltf meshes[0].primitives[0].attributes.JOINTS_0");
+  // Of signed numbers there are no joints: glTF 2.0, 3.7.3.3.
+  std::string is_signed = bending_card("", node, skin);
+  const std::string_view joints = R"("bufferView": 5, "componentType": 5121)";
+  ASSERT_NE(is_signed.find(joints), std::string::npos);
+  is_signed.replace(is_signed.find(joints), joints.size(),
+                    R"("bufferView": 5, "componentType": 5122)");
+  EXPECT_EQ(says(is_signed), "bad-gltf meshes[0].primitives[0].attributes.JOINTS_0");
   EXPECT_EQ(says(bending_card("", node, R"("skins": [{"joints": [2, 9]}], )")),
             "bad-gltf skins[0].joints[1]");
   EXPECT_EQ(says(bending_card("", node, R"("skins": [{"joints": [2, 3, 2],

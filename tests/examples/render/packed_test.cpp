@@ -60,9 +60,8 @@ TEST_F(Packed, ByMeshopt) {
   const Scene scene = load(packed_positions(packed.size(), form), spoiled + packed);
   ASSERT_EQ(scene.meshes.size(), 1u) << diagnostics_.to_string();
   EXPECT_TRUE(std::ranges::equal(scene.meshes[0].position, plain.meshes[0].position, same));
-  EXPECT_TRUE(
-      load(packed_positions(packed.size(), form), spoiled + std::string(packed.size(), 'x'))
-          .meshes.empty());
+  EXPECT_TRUE(load(packed_positions(packed.size(), form), spoiled + std::string(packed.size(), 'x'))
+                  .meshes.empty());
   EXPECT_EQ(first(), "bad-gltf bufferViews[0].extensions.EXT_meshopt_compression");
   for (const char* wrong : {R"("byteStride": 6, "count": 4, "mode": "ATTRIBUTES")",
                             R"("byteStride": 12, "count": 4, "mode": "TRIANGLES")",
@@ -88,7 +87,8 @@ TEST_F(Packed, ByDraco) {
   draco::Encoder encoder;  // Without quantization.
   ASSERT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
   const std::string packed(buffer.data(), buffer.size());
-  std::string text = spoiled_card(R"("POSITION": 0, "TEXCOORD_0": 1, "NORMAL": 3)", "\"POSITION\": 0");
+  std::string text =
+      spoiled_card(R"("POSITION": 0, "TEXCOORD_0": 1, "NORMAL": 3)", "\"POSITION\": 0");
   text = extended(text, "\"indices\": 2",
                   R"("indices": 2, "extensions": {"KHR_draco_mesh_compression":
                      {"bufferView": 5, "attributes": {"POSITION": 0}}})");
@@ -104,12 +104,20 @@ TEST_F(Packed, ByDraco) {
   // Faces without normals are flat and have corners of their own; Draco chooses the order.
   const std::vector<Vec3>& found = scene.meshes[0].position;
   ASSERT_EQ(found.size(), 6u);
-  for (const auto& [x, times] : {std::pair{a, 2}, std::pair{b, 1}, std::pair{c, 2}, std::pair{d, 1}}) {
+  for (const auto& [x, times] :
+       {std::pair{a, 2}, std::pair{b, 1}, std::pair{c, 2}, std::pair{d, 1}}) {
     const Vec3 corner = {x[0], x[1], x[2]};
     EXPECT_EQ(std::ranges::count_if(found, [&](Vec3 v) { return same(v, corner); }), times);
   }
   EXPECT_TRUE(load(text, card_data() + std::string(packed.size(), 'x')).meshes.empty());
   EXPECT_EQ(first(), "bad-gltf meshes[0].primitives[0].extensions.KHR_draco_mesh_compression");
+  // Sequential, of 2^34 faces: refused before there is memory for them.
+  std::string huge = "DRACO" + std::string("\2\2\1\0\0\0\x80\x80\x80\x80\x40\4", 12);
+  ASSERT_LE(huge.size(), packed.size());
+  huge.resize(packed.size());
+  EXPECT_TRUE(load(text, card_data() + huge).meshes.empty());
+  EXPECT_EQ(first(),
+            "scene-too-large meshes[0].primitives[0].extensions.KHR_draco_mesh_compression");
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace {
 
 /// Red and green above blue and white.
 constexpr std::string_view four_texels =
-    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEklEQVR4nGP4z8DAAMIM/4EAA"
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEklEQVR4nGP4z8DAAMIM/"
+    "4EAA"
     "B/uBfsL2WiLAAAAAElFTkSuQmCC";
 
 class SceneMaterials : public Tool {
@@ -80,7 +81,8 @@ TEST_F(SceneMaterials, LayTexturesAsTheirTransformsSay) {
               "extensions": {"KHR_texture_transform": {"rotation": 1.57079633, "offset": [0, 1]}}}},
               "extensions": {"KHR_materials_unlit": {}}})",
           R"("textures": [{"source": 0, "sampler": 0}], "samplers": [{"magFilter": 9728}],
-             "images": [{"uri": ")" + file_of_image + R"("}], )");
+             "images": [{"uri": ")" +
+              file_of_image + R"("}], )");
   };
   turned(std::string(four_texels));
   ASSERT_EQ(render("--scene " + file("a.gltf") + " --out " + file("a.exr") + " --write-document " +
@@ -91,7 +93,8 @@ TEST_F(SceneMaterials, LayTexturesAsTheirTransformsSay) {
   // The card is from pixel 5.6 to 26.4.
   const auto expect = [&](int x, int y, std::array<float, 3> color) {
     for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_NEAR(seen[static_cast<std::size_t>(32 * y + x) * 3 + c], color[c], 1e-5f) << x << ' ' << y;
+      EXPECT_NEAR(seen[static_cast<std::size_t>(32 * y + x) * 3 + c], color[c], 1e-5f)
+          << x << ' ' << y;
     }
   };
   expect(10, 10, {0, 0, 1});
@@ -114,7 +117,8 @@ TEST_F(SceneMaterials, HaveSides) {
     std::string text = host::spoiled_card(
         R"({"name": "paint"})",
         R"({"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"baseColorFactor":
-           [1, 0, 0, 1]}, "doubleSided": )" + std::string(both ? "true}" : "false}"));
+           [1, 0, 0, 1]}, "doubleSided": )" +
+            std::string(both ? "true}" : "false}"));
     const std::string_view from = R"("translation": [0.5, 0.5, 3])";
     text.replace(text.find(from), from.size(),
                  R"("translation": [0.5, 0.5, -3], "rotation": [0, 1, 0, 0])");
@@ -156,7 +160,8 @@ class SceneCube : public SceneMaterials {
       "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 4]}],
       "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}],
       "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-      "materials": [)" + material + R"(], "buffers": [{"byteLength": 168}],
+      "materials": [)" + material +
+                                 R"(], "buffers": [{"byteLength": 168}],
       "bufferViews": [{"buffer": 0, "byteLength": 96},
                       {"buffer": 0, "byteOffset": 96, "byteLength": 72}],
       "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
@@ -174,7 +179,8 @@ class SceneCube : public SceneMaterials {
 // KHR_materials_volume: over a length d, c^(d / attenuationDistance) of light is left; where the
 // index is 1 nothing is bent or reflected. The middle pixel is 1/64 of the view beside the axis.
 TEST_F(SceneCube, OfAVolumeAttenuatesByItsLength) {
-  const auto seen = middle_of(R"({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
+  const auto seen =
+      middle_of(R"({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0},
     "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
       "KHR_materials_ior": {"ior": 1}, "KHR_materials_specular": {"specularFactor": 0},
       "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0.5,
@@ -192,7 +198,8 @@ TEST_F(SceneCube, WithoutThicknessIsOfThinWalls) {
     const auto seen = middle_of(R"({"pbrMetallicRoughness": {"metallicFactor": 0,
       "roughnessFactor": 0, "baseColorFactor": [0.25, 0.5, 1, 1]}, "extensions": {
         "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 2},
-        "KHR_materials_specular": {"specularFactor": 0})" + std::string(volume) + "}}");
+        "KHR_materials_specular": {"specularFactor": 0})" +
+                                std::string(volume) + "}}");
     EXPECT_NEAR(seen[0] / behind_[0], 0.0625, 1e-5);
     EXPECT_NEAR(seen[1] / behind_[1], 0.25, 1e-5);
     EXPECT_NEAR(seen[2] / behind_[2], 1.0, 1e-5);
@@ -224,7 +231,8 @@ TEST_F(SceneMaterials, SayWhatGltfPbrLacks) {
 // without.
 TEST_F(SceneMaterials, NameTexturesThatAreNotRead) {
   const std::string material = R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})";
-  const std::string texture = R"("textures": [{"extensions": {"KHR_texture_basisu": {"source": 0}}}],
+  const std::string texture =
+      R"("textures": [{"extensions": {"KHR_texture_basisu": {"source": 0}}}],
                                  "images": [{"uri": "a.ktx2"}], )";
   scene(material, texture);
   EXPECT_EQ(render("--scene " + file("a.gltf") + " --out " + file("a.exr")), 0) << errors_;
@@ -235,7 +243,8 @@ TEST_F(SceneMaterials, NameTexturesThatAreNotRead) {
   EXPECT_TRUE(says("KHR_texture_basisu")) << errors_;
 }
 
-// Passes name a scene's own materials; and what a checkpoint was begun with is not only where it is.
+// Passes name a scene's own materials; and what a checkpoint was begun with is not only where it
+// is.
 TEST_F(SceneMaterials, AreThoseOfPassesAndCheckpoints) {
   const auto draw = [&](const char* color, const std::string& more) {
     scene(R"({"name": "red paint", "pbrMetallicRoughness": {"baseColorFactor": )" +
