@@ -163,7 +163,7 @@ TEST_F(Deform, WrongOnesAreRefused) {
   const std::string_view joints = R"("bufferView": 5, "componentType": 5121)";
   ASSERT_NE(is_signed.find(joints), std::string::npos);
   is_signed.replace(is_signed.find(joints), joints.size(),
-                    R"("bufferView": 5, "componentType": 5122)");
+                    R"("bufferView": 5, "componentType": 5120)");
   EXPECT_EQ(says(is_signed), "bad-gltf meshes[0].primitives[0].attributes.JOINTS_0");
   EXPECT_EQ(says(bending_card("", node, R"("skins": [{"joints": [2, 9]}], )")),
             "bad-gltf skins[0].joints[1]");
