@@ -6,9 +6,7 @@
 
 namespace nacre {
 
-namespace {
-
-const char* name(Severity severity) {
+const char* severity_name(Severity severity) {
   switch (severity) {
     case Severity::note: return "note";
     case Severity::warning: return "warning";
@@ -16,8 +14,6 @@ const char* name(Severity severity) {
   }
   return "";
 }
-
-}  // namespace
 
 std::string Diagnostic::to_string() const {
   std::string text;
@@ -27,11 +23,12 @@ std::string Diagnostic::to_string() const {
     if (where.line > 0 && where.column > 0) text += fmt::format(":{}", where.column);
     text += ": ";
   }
-  text += fmt::format("{}: {}", name(severity), printable(message));
+  text += fmt::format("{}: {}", severity_name(severity), printable(message));
   if (!expected.empty()) text += fmt::format("; expected {}", printable(expected));
   if (!found.empty()) {
     text += fmt::format("{} found {}", expected.empty() ? ";" : ",", printable(found));
   }
+  if (!hint.empty()) text += fmt::format("; {}", printable(hint));
   text += fmt::format(" [{}]", code);
   if (!where.path.empty()) text += fmt::format(" ({})", printable(where.path));
   return text;
@@ -69,15 +66,15 @@ void Diagnostics::add(Diagnostic diagnostic) {
 }
 
 void Diagnostics::error(std::string code, SourceLocation where, std::string message,
-                        std::string expected, std::string found) {
+                        std::string expected, std::string found, std::string hint) {
   add({Severity::error, std::move(code), std::move(where), std::move(message), std::move(expected),
-       std::move(found)});
+       std::move(found), std::move(hint)});
 }
 
 void Diagnostics::warning(std::string code, SourceLocation where, std::string message,
-                          std::string expected, std::string found) {
+                          std::string expected, std::string found, std::string hint) {
   add({Severity::warning, std::move(code), std::move(where), std::move(message),
-       std::move(expected), std::move(found)});
+       std::move(expected), std::move(found), std::move(hint)});
 }
 
 std::string Diagnostics::to_string() const {

@@ -18,6 +18,9 @@ struct SourceLocation {
 /// An error leaves something undone or wrong; a warning says what was taken for granted.
 enum class Severity { note, warning, error };
 
+/// "note", "warning" or "error".
+const char* severity_name(Severity severity);
+
 /// One complaint about something the user gave us: a document, an image, a
 /// flag. Our own faults are asserts, never diagnostics.
 struct Diagnostic {
@@ -28,8 +31,9 @@ struct Diagnostic {
   std::string message;   ///< One sentence, no trailing stop.
   std::string expected;  ///< What would have been right; may be empty.
   std::string found;     ///< What was there; may be empty.
+  std::string hint = {}; ///< What will have been meant (runtime/near_names.h); may be empty.
 
-  /// "file:line:column: error: message; expected X, found Y [code] (path)", on one line
+  /// "file:line:column: error: message; expected X, found Y; hint [code] (path)", on one line
   /// and printable whatever the document holds: see `printable`.
   std::string to_string() const;
 };
@@ -47,10 +51,10 @@ class Diagnostics {
   void add(Diagnostic diagnostic);
   /// Adds an error.
   void error(std::string code, SourceLocation where, std::string message, std::string expected = {},
-             std::string found = {});
+             std::string found = {}, std::string hint = {});
   /// Adds a warning.
   void warning(std::string code, SourceLocation where, std::string message,
-               std::string expected = {}, std::string found = {});
+               std::string expected = {}, std::string found = {}, std::string hint = {});
 
   /// In the order they were found; no more than `most_kept` errors and as many others, so
   /// that a file of nothing but faults does not fill the memory. The counts go on.

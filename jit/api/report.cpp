@@ -26,7 +26,8 @@ nacre_diagnostic diagnostic_of(const Diagnostic& one, const std::string& line) {
           .message = one.message.c_str(),
           .expected = one.expected.c_str(),
           .found = one.found.c_str(),
-          .text = line.c_str()};
+          .text = line.c_str(),
+          .hint = one.hint.c_str()};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "jit/document/inheritance.h"
 #include "jit/document/same_content.h"
 #include "jit/document/value_text.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -177,7 +178,9 @@ void Definitions::apply_inheritance(Diagnostics& diagnostics) {
       if (base != nullptr) return base->element;
       diagnostics.error("unknown-nodedef", location(heir),
                         "the nodedef to inherit from does not exist", "the name of a nodedef",
-                        fmt::format("'{}'", name));
+                        fmt::format("'{}'", name),
+                        near_hint(diagnostics, name, all(),
+                                  [](const NodeDef* each) { return each->name; }));
       return nullptr;
     };
     const auto chain = inheritance_chain(*def.element, "nodedef", base_of, diagnostics);
@@ -316,6 +319,18 @@ std::optional<Definitions::Unit> Definitions::unit(std::string_view name) const 
   const auto found = units_.find(name);
   if (found != units_.end()) return found->second;
   return base_ == nullptr ? std::nullopt : base_->unit(name);
+}
+
+std::vector<std::string_view> Definitions::unit_names() const {
+  auto names = base_ == nullptr ? std::vector<std::string_view>() : base_->unit_names();
+  for (const auto& [name, unit] : units_) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string_view> Definitions::geompropdef_names() const {
+  auto names = base_ == nullptr ? std::vector<std::string_view>() : base_->geompropdef_names();
+  for (const auto& [name, element] : geompropdefs_) names.push_back(name);
+  return names;
 }
 
 const Element* Definitions::resolve(std::string_view name, const Element& user) const {

@@ -67,6 +67,12 @@ class Definitions {
   /// By its name in a document; nothing for one that no unit definition has.
   std::optional<Unit> unit(std::string_view name) const;
 
+  /// Names of all that there are of these, the library's too, in no order.
+  /// @{
+  std::vector<std::string_view> unit_names() const;
+  std::vector<std::string_view> geompropdef_names() const;
+  /// @}
+
   /// Element at the root by a reference made in `user`: in its namespace first,
   /// then as it is, in the library and then in the document.
   const Element* resolve(std::string_view name, const Element& user) const;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "runtime/near_names.h"
+
 namespace nacre {
 
 namespace {
@@ -50,7 +52,11 @@ std::vector<const Element*> node_inheritance(const Element& node, Diagnostics& d
     if (base != nullptr && base->category() == node.category()) return base;
     diagnostics.error("unknown-nodename", location(heir), "there is no such node to inherit from",
                       fmt::format("the name of a <{}>", node.category()),
-                      fmt::format("'{}'", name));
+                      fmt::format("'{}'", name),
+                      near_hint(diagnostics, name, node.parent()->children(), [&](auto& each) {
+                        return each.category() == node.category() ? each.name()
+                                                                  : std::string_view();
+                      }));
     return nullptr;
   };
   return inheritance_chain(node, "node", base_of, diagnostics);

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/near_names.h"
+
 namespace nacre {
 
 namespace {
@@ -132,13 +134,14 @@ void report_misfit(const Element& input, const std::vector<const NodeDef*>& cand
   }
   if (types.empty()) {
     std::string found = fmt::format("'{}'", input.name());
+    std::string hint = near_hint(diagnostics, input.name(), names);
     if (is_tolerated) {
       diagnostics.warning("unknown-input", location(input),
                           "the node has no input of this name, so it is not used", list_of(names),
-                          std::move(found));
+                          std::move(found), std::move(hint));
     } else {
       diagnostics.error("unknown-input", location(input), "the node has no input of this name",
-                        list_of(names), std::move(found));
+                        list_of(names), std::move(found), std::move(hint));
     }
     return;
   }
@@ -218,7 +221,9 @@ const NodeDef* find_explicit(const Element& instance, const Definitions& definit
   if (def == nullptr) def = definitions.nodedef(name);
   if (def == nullptr) {
     diagnostics.error("unknown-nodedef", location(instance), "there is no nodedef of this name",
-                      "the name of a nodedef", fmt::format("'{}'", name));
+                      "the name of a nodedef", fmt::format("'{}'", name),
+                      near_hint(diagnostics, name, definitions.all(),
+                                [](const NodeDef* each) { return each->name; }));
     return nullptr;
   }
   if (def->instance_type() != instance.attribute("type")) {
@@ -256,7 +261,9 @@ const NodeDef* find_nodedef(const Element& instance, const Definitions& definiti
   if (candidates.empty()) {
     diagnostics.error("unknown-node", location(instance), "there is no node of this category",
                       meant_by(instance.category(), definitions),
-                      fmt::format("<{}>", instance.category().substr(0, 100)));
+                      fmt::format("<{}>", instance.category().substr(0, 100)),
+                      near_hint(diagnostics, instance.category(), definitions.all(),
+                                [](const NodeDef* each) { return std::string_view(each->category); }));
     return nullptr;
   }
   const std::string_view version = instance.attribute("version");

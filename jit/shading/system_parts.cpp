@@ -5,6 +5,7 @@
 
 #include "jit/ocio/ocio_config.h"
 #include "pbs/library.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -42,7 +43,9 @@ std::unique_ptr<SystemParts> SystemParts::create(const SystemOptions& options,
     if (parts->bodies->add(body.nodedef, body.record, definitions)) continue;
     diagnostics.error("unknown-nodedef", {},
                       "the host has a body for a nodedef that no library declares",
-                      "the name of a nodedef", body.nodedef);
+                      "the name of a nodedef", body.nodedef,
+                      near_hint(diagnostics, body.nodedef, definitions.all(),
+                                [](const NodeDef* each) { return each->name; }));
     return nullptr;
   }
   parts->texts = std::make_unique<TextBodies>(text_roots(options.libraries));

@@ -11,6 +11,7 @@
 #include "jit/graph/prune.h"
 #include "jit/graph/resolve/resolver.h"
 #include "runtime/float_environment.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -38,7 +39,7 @@ class GraphBuild {
     if (element == nullptr || element == &document_.root()) {
       diagnostics_.error("unknown-request", at_root(document_, name),
                          "the document has no such output", "GRAPH/NAME or NAME",
-                         fmt::format("'{}'", name));
+                         fmt::format("'{}'", name), near_output(name));
       return;
     }
     if (element->category() == "nodegraph") {
@@ -81,7 +82,8 @@ class GraphBuild {
     }
     diagnostics_.error("unknown-request", at_root(document_, name),
                        "the document has no such node, output or input",
-                       "NODE, NODE/PORT or GRAPH/...", fmt::format("'{}'", name));
+                       "NODE, NODE/PORT or GRAPH/...", fmt::format("'{}'", name),
+                       near_value(name));
   }
 
   void add_material(const std::string& name) {
@@ -89,7 +91,9 @@ class GraphBuild {
     if (element == nullptr || !(is_node(*element) || element->category() == "output")) {
       diagnostics_.error("unknown-request", at_root(document_, name),
                          "the document has no such material", "the name of a material node",
-                         fmt::format("'{}'", name));
+                         fmt::format("'{}'", name),
+                         near_hint(diagnostics_, name, find_materials(document_),
+                                   [](auto& each) { return std::string_view(each.name); }));
       return;
     }
     const Resolved result = element->category() == "output"
@@ -142,6 +146,29 @@ class GraphBuild {
     return context;
   }
 
+  /// What an output that there is not will have meant: one there is, or a node at the root.
+  std::string near_output(const std::string& name) const {
+    std::vector<std::string> known;
+    for (const FoundOutput& each : find_outputs(document_)) known.push_back(each.name);
+    for (const Element& each : document_.root().children()) {
+      if (is_node(each) || each.category() == "nodegraph") known.emplace_back(each.name());
+    }
+    return near_hint(diagnostics_, name, known);
+  }
+
+  /// The same of a value: an output, a node, or a port that is written down.
+  std::string near_value(const std::string& name) const {
+    const std::size_t slash = name.rfind('/');
+    const Element* scope = slash == std::string::npos
+                               ? &document_.root()
+                               : find_element(document_, name.substr(0, slash));
+    if (scope == nullptr) return near_output(name);
+    const std::string before = slash == std::string::npos ? "" : name.substr(0, slash + 1);
+    return near_hint(diagnostics_, name, scope->children(), [&](const Element& each) {
+      return before + std::string(each.name());
+    });
+  }
+
   void check_variant(const VariantChoice& choice) {
     const Element* set = document_.root().child(choice.variantset);
     const bool is_set = set != nullptr && set->category() == "variantset";
@@ -151,7 +178,13 @@ class GraphBuild {
         "unknown-variant", at_root(document_, choice.variantset),
         is_set ? "the variantset has no such variant" : "the document has no such variantset",
         is_set ? "the name of a <variant>" : "the name of a <variantset>",
-        fmt::format("'{}'", is_set ? choice.variant : choice.variantset));
+        fmt::format("'{}'", is_set ? choice.variant : choice.variantset),
+        near_hint(diagnostics_, is_set ? choice.variant : choice.variantset,
+                  (is_set ? *set : document_.root()).children(), [&](const Element& each) {
+                    return each.category() == (is_set ? "variant" : "variantset")
+                               ? each.name()
+                               : std::string_view();
+                  }));
   }
 
   void report_several(const Element& element) {

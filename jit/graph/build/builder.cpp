@@ -6,6 +6,7 @@
 
 #include "jit/document/value_text.h"
 #include "runtime/float_environment.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -42,9 +43,9 @@ GraphBuilder::GraphBuilder(const Library& library)
 GraphBuilder::~GraphBuilder() = default;
 
 void GraphBuilder::fail(std::string code, std::string path, std::string message,
-                        std::string expected, std::string found) {
+                        std::string expected, std::string found, std::string hint) {
   faults_.error(std::move(code), {"", 0, 0, std::move(path)}, std::move(message),
-                std::move(expected), std::move(found));
+                std::move(expected), std::move(found), std::move(hint));
 }
 
 void GraphBuilder::set_attribute(Element& element, std::string_view name, std::string_view value) {
@@ -66,7 +67,9 @@ GraphBuilder::Node GraphBuilder::add_node(std::string_view nodedef, std::string 
   const NodeDef* def = library_.definitions().nodedef(nodedef);
   if (def == nullptr) {
     fail("unknown-nodedef", path, "there is no nodedef of this name", "the name of a nodedef",
-         fmt::format("'{}'", nodedef));
+         fmt::format("'{}'", nodedef),
+         near_hint(faults_, nodedef, library_.definitions().all(),
+                   [](const NodeDef* each) { return each->name; }));
     nodes_.push_back({nullptr, std::move(path), nullptr});
     return node;
   }
@@ -87,7 +90,9 @@ Element* GraphBuilder::input_element(Node node, std::string_view input, Type typ
     return &add_element(*row.element, "input", std::string(input), type_name(type));
   }
   if (port == nullptr) {
-    fail("unknown-input", path, fmt::format("'{}' has no such input", row.def->name));
+    fail("unknown-input", path, fmt::format("'{}' has no such input", row.def->name), {}, {},
+         near_hint(faults_, input, row.def->inputs,
+                   [](const NodeDefInput& each) { return each.name; }));
     return nullptr;
   }
   const bool fits = port->type == type || (port->type == Type::filename && type == Type::string);
@@ -133,7 +138,9 @@ const NodeDefOutput* GraphBuilder::find_output(Node source, std::string_view out
   if (found == nullptr) {
     fail(output.empty() ? "output-required" : "unknown-output", user,
          fmt::format("'{}' has no such output", row.path), "the name of an output",
-         fmt::format("'{}'", output));
+         fmt::format("'{}'", output),
+         near_hint(faults_, output, row.def->outputs,
+                   [](const NodeDefOutput& each) { return each.name; }));
   }
   return found;
 }

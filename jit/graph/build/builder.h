@@ -82,7 +82,7 @@ class GraphBuilder {
   Element* input_element(Node node, std::string_view input, Type type);
   const NodeDefOutput* find_output(Node source, std::string_view output, const std::string& user);
   void fail(std::string code, std::string path, std::string message, std::string expected = {},
-            std::string found = {});
+            std::string found = {}, std::string hint = {});
   std::string public_path(std::string_view path) const;
 
   const Library& library_;

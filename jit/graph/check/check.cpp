@@ -17,6 +17,7 @@
 #include "jit/graph/resolve/connection.h"
 #include "jit/graph/resolve/lenient.h"
 #include "runtime/float_environment.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -135,7 +136,9 @@ class Checker : ElementCheck {
       check_extra_outputs(graph, *def);
     } else if (!name.empty()) {
       tolerable("unknown-nodedef", graph, "the nodedef to implement does not exist",
-                "nothing can use it", "the name of a nodedef", in_quotes(name));
+                "nothing can use it", "the name of a nodedef", in_quotes(name),
+                near_hint(diagnostics_, name, definitions_.all(),
+                          [](const NodeDef* each) { return each->name; }));
     }
   }
 
@@ -146,7 +149,9 @@ class Checker : ElementCheck {
       if (def.output(child.name()) != nullptr) continue;
       diagnostics_.warning("extra-output", location(child),
                            fmt::format("'{}' has no such output, so nothing can read it", def.name),
-                           "the name of an output of the nodedef", in_quotes(child.name()));
+                           "the name of an output of the nodedef", in_quotes(child.name()),
+                           near_hint(diagnostics_, child.name(), def.outputs,
+                                     [](const NodeDefOutput& each) { return each.name; }));
     }
   }
 

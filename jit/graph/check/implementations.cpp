@@ -3,6 +3,7 @@
 
 #include "jit/document/read.h"
 #include "jit/graph/check/parts.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -33,7 +34,9 @@ class ImplementationCheck : ElementCheck {
     const NodeDef* def = named_nodedef(element);
     if (!name.empty() && def == nullptr) {
       tolerable("unknown-nodedef", element, "the nodedef to implement does not exist",
-                "nothing can use it", "the name of a nodedef", in_quotes(name));
+                "nothing can use it", "the name of a nodedef", in_quotes(name),
+                near_hint(diagnostics_, name, definitions_.all(),
+                          [](const NodeDef* each) { return each->name; }));
     }
     if (def != nullptr) check_renamed_ports(element, *def);
     const std::string_view graph = element.attribute("nodegraph");
@@ -41,7 +44,11 @@ class ImplementationCheck : ElementCheck {
     const Element* found = definitions_.resolve(graph, element);
     if (found == nullptr || found->category() != "nodegraph") {
       error("unknown-nodegraph", element, "there is no node graph of this name",
-            "the name of a node graph", in_quotes(graph));
+            "the name of a node graph", in_quotes(graph),
+            near_hint(diagnostics_, graph, element.document().root().children(),
+                      [](const Element& each) {
+                        return each.category() == "nodegraph" ? each.name() : std::string_view();
+                      }));
       return;
     }
     check_only_one(element);
@@ -51,7 +58,9 @@ class ImplementationCheck : ElementCheck {
     for (const Element& child : element.children()) {
       if (child.category() != "input" || !def.input_type(child.name()).empty()) continue;
       error("unknown-input", child, fmt::format("'{}' has no input of this name", def.name),
-            "the name of an input", in_quotes(child.name()));
+            "the name of an input", in_quotes(child.name()),
+            near_hint(diagnostics_, child.name(), def.inputs,
+                      [](const NodeDefInput& input) { return input.name; }));
     }
   }
 

@@ -10,6 +10,7 @@
 #include "jit/document/select.h"
 #include "jit/document/value_text.h"
 #include "jit/graph/check/parts.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -58,7 +59,10 @@ class LookCheck : ElementCheck {
     const Element* found = definitions_.resolve(name, element);
     if (found == nullptr) {
       error("unknown-material", element, "there is no material of this name",
-            "the name of a material", in_quotes(name));
+            "the name of a material", in_quotes(name),
+            near_hint(diagnostics_, name, document_.root().children(), [](const Element& each) {
+              return each.attribute("type") == "material" ? each.name() : std::string_view();
+            }));
       return;
     }
     const bool is_material = found->attribute("type") == "material" &&
@@ -115,8 +119,16 @@ class LookCheck : ElementCheck {
     if (found != nullptr && found->category() == category) return found;
     error(fmt::format("unknown-{}", category), element,
           fmt::format("there is no {} of this name", category),
-          fmt::format("the name of a <{}>", category), in_quotes(name));
+          fmt::format("the name of a <{}>", category), in_quotes(name),
+          near_named(name, document_.root(), category));
     return nullptr;
+  }
+
+  std::string near_named(std::string_view name, const Element& scope,
+                         std::string_view category) const {
+    return near_hint(diagnostics_, name, scope.children(), [&](const Element& each) {
+      return each.category() == category ? each.name() : std::string_view();
+    });
   }
 
   void check_propertyassign(const Element& element) {
@@ -158,7 +170,7 @@ class LookCheck : ElementCheck {
     const Element* found = set->child(name);
     if (found != nullptr && found->category() == "variant") return;
     error("unknown-variant", element, fmt::format("'{}' has no such variant", set->name()),
-          "the name of a <variant>", in_quotes(name));
+          "the name of a <variant>", in_quotes(name), near_named(name, *set, "variant"));
   }
 
   void check_visibility(const Element& element) {
@@ -168,7 +180,8 @@ class LookCheck : ElementCheck {
     const std::string_view kind = element.attribute("vistype");
     if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
       warning("unknown-vistype", element, "the kind of visibility is none of the standard's",
-              fmt::format("{}", fmt::join(kinds, ", ")), in_quotes(kind));
+              fmt::format("{}", fmt::join(kinds, ", ")), in_quotes(kind),
+              near_hint(diagnostics_, kind, kinds));
     }
     if (!element.attribute("viewercollection").empty()) {
       check_reference(element, "viewercollection", "collection");
@@ -184,7 +197,8 @@ class LookCheck : ElementCheck {
     const std::string_view chosen = group.attribute("default");
     if (chosen.empty() || std::find(names.begin(), names.end(), chosen) != names.end()) return;
     error("unknown-look", group, "the default is none of the looks of the group",
-          fmt::format("{}", fmt::join(names, ", ")), in_quotes(chosen));
+          fmt::format("{}", fmt::join(names, ", ")), in_quotes(chosen),
+          near_hint(diagnostics_, chosen, names));
   }
 
   void check_collection(const Element& collection) {

@@ -8,6 +8,7 @@
 
 #include "jit/document/names.h"
 #include "jit/graph/check/parts.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -87,7 +88,8 @@ class NodeDefCheck : ElementCheck {
     const Element* geomprop = definitions_.geompropdef(input.defaultgeomprop);
     if (geomprop == nullptr) {
       error("unknown-geomprop", *input.element, "there is no geometric property of this name",
-            "the name of a <geompropdef>", in_quotes(input.defaultgeomprop));
+            "the name of a <geompropdef>", in_quotes(input.defaultgeomprop),
+            near_hint(diagnostics_, input.defaultgeomprop, definitions_.geompropdef_names()));
     } else if (geomprop->attribute("type") != input.type_text) {
       error("type-mismatch", *input.element, "the geometric property has another type",
             std::string(input.type_text), std::string(geomprop->attribute("type")));
@@ -119,7 +121,7 @@ class NodeDefCheck : ElementCheck {
     const auto unit = definitions_.unit(input.unit);
     if (!unit) {
       error("unknown-unit", *input.element, "there is no unit of this name", "the name of a <unit>",
-            in_quotes(input.unit));
+            in_quotes(input.unit), near_hint(diagnostics_, input.unit, definitions_.unit_names()));
     } else if (!input.unit_type.empty() && unit->type != input.unit_type) {
       error("unit-type", *input.element, "the unit is not of the type that unittype says",
             fmt::format("a unit of type {}", input.unit_type),
@@ -138,7 +140,9 @@ class NodeDefCheck : ElementCheck {
     const NodeDefInput* input = def.input(output.defaultinput);
     if (input == nullptr) {
       error("unknown-input", element, "the nodedef has no input of this name to pass through",
-            "the name of an input", in_quotes(output.defaultinput));
+            "the name of an input", in_quotes(output.defaultinput),
+            near_hint(diagnostics_, output.defaultinput, def.inputs,
+                      [](const NodeDefInput& each) { return each.name; }));
     } else if (input->type_text != output.type_text) {
       error("type-mismatch", element, "the input to pass through has another type",
             std::string(output.type_text), std::string(input->type_text));

@@ -20,26 +20,26 @@ class ElementCheck {
       : diagnostics_(diagnostics), lenient_(lenient) {}
 
   void error(std::string code, const Element& element, std::string message,
-             std::string expected = {}, std::string found = {}) {
+             std::string expected = {}, std::string found = {}, std::string hint = {}) {
     diagnostics_.error(std::move(code), location(element), std::move(message), std::move(expected),
-                       std::move(found));
+                       std::move(found), std::move(hint));
   }
   void warning(std::string code, const Element& element, std::string message,
-               std::string expected = {}, std::string found = {}) {
+               std::string expected = {}, std::string found = {}, std::string hint = {}) {
     diagnostics_.warning(std::move(code), location(element), std::move(message),
-                         std::move(expected), std::move(found));
+                         std::move(expected), std::move(found), std::move(hint));
   }
 
   /// An error, or with GraphOptions::lenient a warning that ends in `so`, in the same words
   /// as building the graph says it.
   void tolerable(std::string code, const Element& element, std::string message, std::string_view so,
-                 std::string expected = {}, std::string found = {}) {
+                 std::string expected = {}, std::string found = {}, std::string hint = {}) {
     if (!lenient_) {
-      error(std::move(code), element, std::move(message), std::move(expected), std::move(found));
+      error(std::move(code), element, std::move(message), std::move(expected), std::move(found), std::move(hint));
       return;
     }
     message.append(", so ").append(so);
-    warning(std::move(code), element, std::move(message), std::move(expected), std::move(found));
+    warning(std::move(code), element, std::move(message), std::move(expected), std::move(found), std::move(hint));
   }
 
   Diagnostics& diagnostics_;

@@ -7,6 +7,7 @@
 #include "jit/graph/check/parts.h"
 #include "jit/graph/resolve/feed.h"
 #include "jit/graph/resolve/lenient.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -77,7 +78,7 @@ class PortCheck : ElementCheck {
     const std::string_view wanted = port.attribute("unittype");
     if (!unit) {
       error("unknown-unit", port, "there is no unit of this name", "the name of a <unit>",
-            in_quotes(name));
+            in_quotes(name), near_hint(diagnostics_, name, definitions_.unit_names()));
     } else if (!wanted.empty() && unit->type != wanted) {
       error("unit-type", port, "the unit is not of the type that unittype says",
             fmt::format("a unit of type {}", wanted),
@@ -154,11 +155,13 @@ class PortCheck : ElementCheck {
     }
     const std::string message = fmt::format("'{}' has no such output", def->category);
     const std::string found = fmt::format("'{}'", connection.output);
+    const std::string hint = near_hint(diagnostics_, connection.output, def->outputs,
+                                       [](const NodeDefOutput& known) { return known.name; });
     if (def->outputs.size() == 1) {
-      tolerable("unknown-output", port, message, "its only one is taken", names, found);
+      tolerable("unknown-output", port, message, "its only one is taken", names, found, hint);
       if (lenient_) check_type(port, type, def->outputs[0].type);
     } else {
-      error("unknown-output", port, message, names, found);
+      error("unknown-output", port, message, names, found, hint);
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include "jit/document/read.h"
 #include "jit/graph/color/colorspace.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -45,7 +46,7 @@ ColorTransforms::Conversion ColorTransforms::find(Type type, std::string_view fr
             "unknown-colorspace", user, "there is no transform from this colour space",
             "its numbers are taken as they are",
             fmt::format("a space with a transform to {}", canonical_colorspace(to)),
-            fmt::format("'{}'", from));
+            fmt::format("'{}'", from), near_space(from));
         return {};
       }
       report_none(from, to, user);
@@ -65,7 +66,7 @@ void ColorTransforms::report_none(std::string_view from, std::string_view to, co
         fmt::format("there is no transform {} this colour space", is_output ? "to" : "from"),
         is_output ? fmt::format("a space with a transform from {}", canonical_colorspace(from))
                   : fmt::format("a space with a transform to {}", canonical_colorspace(to)),
-        fmt::format("'{}'", is_output ? to : from));
+        fmt::format("'{}'", is_output ? to : from), near_space(is_output ? to : from));
     return;
   }
   complaints_.error(
@@ -73,6 +74,10 @@ void ColorTransforms::report_none(std::string_view from, std::string_view to, co
       fmt::format("two of {}, two built in, or one of each and its role aces_interchange",
                   config_->name()),
       fmt::format("'{}' to '{}'", from, to));
+}
+
+std::string ColorTransforms::near_space(std::string_view name) const {
+  return near_hint(complaints_.diagnostics(), name, colorspace_names());
 }
 
 const Definitions* ColorTransforms::definitions_of(const Element& element) const {

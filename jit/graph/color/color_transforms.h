@@ -66,6 +66,8 @@ class ColorTransforms {
   const NodeDef* find_in_config(const ConfigSpaces& spaces, Type type, const Element& user);
   const Transform* transform_of(const NodeDef& def) const;
   void report_none(std::string_view from, std::string_view to, const Element& user);
+  /// What will have been meant by a space that is not known.
+  std::string near_space(std::string_view name) const;
 
   const Definitions& definitions_;
   const std::shared_ptr<const ColorConfig> config_;

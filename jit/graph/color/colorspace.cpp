@@ -1,5 +1,6 @@
 #include "jit/graph/color/colorspace.h"
 
+#include <algorithm>
 #include <array>
 
 namespace nacre {
@@ -69,6 +70,16 @@ std::string_view canonical_colorspace(std::string_view name) {
     if (alias.name == name) return alias.canonical;
   }
   return name;
+}
+
+std::vector<std::string_view> colorspace_names() {
+  std::vector<std::string_view> names;
+  for (const Alias& alias : aliases) {
+    for (const std::string_view name : {alias.name, alias.canonical}) {
+      if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
 }
 
 }  // namespace nacre

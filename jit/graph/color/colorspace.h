@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace nacre {
 
@@ -11,6 +12,9 @@ namespace nacre {
 /// a colour space: "acescg" for "lin_ap1_scene". "" for those that are not
 /// converted (none, raw, data). A name that is not known comes back as it is.
 std::string_view canonical_colorspace(std::string_view name);
+
+/// All names that are known, of spaces without a conversion too.
+std::vector<std::string_view> colorspace_names();
 
 /// Row-major, for row vectors: rgb' = rgb M.
 using ColorMatrix = std::array<std::array<double, 3>, 3>;

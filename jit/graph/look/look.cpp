@@ -11,6 +11,7 @@
 #include "jit/document/value_text.h"
 #include "jit/graph/look/geometry_names.h"
 #include "runtime/float_environment.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -95,7 +96,10 @@ std::vector<const Element*> inheritance(const Element& look, Diagnostics& diagno
     if (base == nullptr) base = root.child(name);
     if (base != nullptr && base->category() == "look") return base;
     diagnostics.error("unknown-look", location(heir), "the look to inherit from does not exist",
-                      "the name of another look", fmt::format("'{}'", name));
+                      "the name of another look", fmt::format("'{}'", name),
+                      near_hint(diagnostics, name, root.children(), [](const Element& each) {
+                        return each.category() == "look" ? each.name() : std::string_view();
+                      }));
     return nullptr;
   };
   return inheritance_chain(look, "look", base_of, diagnostics);

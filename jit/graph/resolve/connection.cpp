@@ -6,10 +6,17 @@
 
 #include "jit/document/document.h"
 #include "jit/document/select.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
 namespace {
+
+std::string near_output(const Diagnostics& said, std::string_view wanted, const Element& scope) {
+  return near_hint(said, wanted, scope.children(), [](const Element& child) {
+    return child.category() == "output" ? child.name() : std::string_view();
+  });
+}
 
 const Element* find_in(const Element& scope, std::string_view name, const Element& user) {
   const std::string qualified = qualified_name(user, name);
@@ -52,7 +59,8 @@ Connection connect_to_graph(const Element& port, const Element& graph, Diagnosti
   } else {
     diagnostics.error("unknown-output", location(port),
                       fmt::format("the node graph '{}' has no such output", graph.name()),
-                      "the name of an output", fmt::format("'{}'", wanted));
+                      "the name of an output", fmt::format("'{}'", wanted),
+                      near_output(diagnostics, wanted, graph));
   }
   return invalid();
 }
@@ -67,7 +75,10 @@ Connection connect_to_node(const Element& port, Diagnostics& diagnostics, bool l
     std::string found = fmt::format("'{}'", name);
     if (target != nullptr) found += fmt::format(", which is <{}>", target->category());
     diagnostics.error("unknown-nodename", location(port), "there is no node of this name here",
-                      "the name of a node beside this one", std::move(found));
+                      "the name of a node beside this one", std::move(found),
+                      near_hint(diagnostics, name, scope_of(port).children(), [](auto& child) {
+                        return is_node(child) ? child.name() : std::string_view();
+                      }));
     return invalid();
   }
   return {Connection::Kind::node, target, port.attribute("output")};
@@ -79,7 +90,12 @@ Connection connect_to_nodegraph(const Element& port, Diagnostics& diagnostics, b
   if (target == nullptr) target = find_in(port.document().root(), name, port);
   if (target == nullptr || target->category() != "nodegraph") {
     diagnostics.error("unknown-nodegraph", location(port), "there is no node graph of this name",
-                      "the name of a node graph", fmt::format("'{}'", name));
+                      "the name of a node graph", fmt::format("'{}'", name),
+                      near_hint(diagnostics, name, port.document().root().children(),
+                                [](const Element& child) {
+                                  return child.category() == "nodegraph" ? child.name()
+                                                                         : std::string_view();
+                                }));
     return invalid();
   }
   return connect_to_graph(port, *target, diagnostics, lenient);
@@ -90,7 +106,8 @@ Connection connect_to_document_output(const Element& port, Diagnostics& diagnost
   const Element* target = find_in(port.document().root(), name, port);
   if (target == nullptr || target->category() != "output") {
     diagnostics.error("unknown-output", location(port), "the document has no such output",
-                      "the name of an output", fmt::format("'{}'", name));
+                      "the name of an output", fmt::format("'{}'", name),
+                      near_output(diagnostics, name, port.document().root()));
     return invalid();
   }
   return {Connection::Kind::output, target, {}};

@@ -5,6 +5,7 @@
 #include "jit/graph/color/colorspace.h"
 #include "jit/graph/resolve/lenient.h"
 #include "jit/graph/resolve/resolver.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -74,7 +75,8 @@ std::optional<double> Resolver::unit_factor(std::string_view from, const NodeDef
   const auto source = definitions_.unit(from);
   if (!source) {
     complaints_.error("unknown-unit", user, "there is no unit of this name", "the name of a <unit>",
-                      fmt::format("'{}'", from));
+                      fmt::format("'{}'", from),
+                      near_hint(complaints_.diagnostics(), from, definitions_.unit_names()));
     return std::nullopt;
   }
   std::string_view wanted = from;

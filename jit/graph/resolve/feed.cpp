@@ -6,6 +6,7 @@
 
 #include "jit/document/document.h"
 #include "jit/document/select.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -73,14 +74,19 @@ Connection without_interface(const Element& port, bool takes_value, Complaints& 
   const std::string message = "the graph around it has no such input";
   const std::string expected = "the name of an input of the graph";
   const std::string found = fmt::format("'{}'", port.attribute("interfacename"));
+  const std::string hint =
+      near_hint(complaints.diagnostics(), port.attribute("interfacename"),
+                enclosing_graph(port).children(), [](const Element& child) {
+                  return child.category() == "input" ? child.name() : std::string_view();
+                });
   if (!has_default) {
-    complaints.error("unknown-interface", port, message, expected, found);
+    complaints.error("unknown-interface", port, message, expected, found, hint);
     return {Kind::invalid, nullptr, {}};
   }
   const bool has_value = takes_value && port.has_attribute("value");
   if (!complaints.tolerates("unknown-interface", port, message,
                             has_value ? "its value is used" : "the default is used", expected,
-                            found)) {
+                            found, hint)) {
     return {Kind::invalid, nullptr, {}};
   }
   return {has_value ? Kind::value : Kind::none, nullptr, {}};

@@ -6,6 +6,7 @@
 
 #include "jit/document/inheritance.h"
 #include "jit/document/value_text.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -159,12 +160,15 @@ std::optional<std::uint32_t> Instances::output_index(const NodeDef& def, std::st
     names += (names.empty() ? "" : ", ") + std::string(output.name);
   }
   const std::string message = fmt::format("'{}' has no such output", def.category);
+  const std::string found = fmt::format("'{}'", name);
+  const std::string hint = near_hint(complaints_.diagnostics(), name, def.outputs,
+                                     [](const NodeDefOutput& output) { return output.name; });
   if (def.outputs.size() == 1 && leaf == 0) {
     const bool takes_only = complaints_.tolerates(
-        "unknown-output", user, message, "its only one is taken", names, fmt::format("'{}'", name));
+        "unknown-output", user, message, "its only one is taken", names, found, hint);
     return takes_only ? std::optional<std::uint32_t>(0) : std::nullopt;
   }
-  complaints_.error("unknown-output", user, message, names, fmt::format("'{}'", name));
+  complaints_.error("unknown-output", user, message, names, found, hint);
   return std::nullopt;
 }
 
@@ -174,7 +178,8 @@ const Instance* Instances::of_geomprop(std::string_view name, const Element& use
   const Element* geomprop = definitions_.geompropdef(name);
   if (geomprop == nullptr) {
     complaints_.error("unknown-geomprop", user, "there is no geometric property of this name",
-                      "the name of a <geompropdef>", fmt::format("'{}'", name));
+                      "the name of a <geompropdef>", fmt::format("'{}'", name),
+                      near_hint(complaints_.diagnostics(), name, definitions_.geompropdef_names()));
     return nullptr;
   }
   const std::string_view type = geomprop->attribute("type");

@@ -28,6 +28,7 @@ struct Diagnostic {
   std::string expected;
   std::string found;
   std::string text;  ///< All of it in one line.
+  std::string hint;  ///< Which names will have been meant by one that there is not.
 };
 
 /// What was asked for is not there: carries everything that was said.
@@ -102,7 +103,7 @@ class Said {
       one.size = sizeof one;
       check(nacre_report_get(get(), i, &one));
       list.push_back({one.severity, one.code, one.file, one.line, one.column, one.path, one.message,
-                      one.expected, one.found, one.text});
+                      one.expected, one.found, one.text, one.hint});
     }
     return list;
   }

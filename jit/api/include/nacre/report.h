@@ -58,6 +58,7 @@ typedef struct nacre_diagnostic {
   const char* expected; /* What would have been right; may be "". */
   const char* found;    /* What was there; may be "". */
   const char* text;     /* All of it in one printable line. */
+  const char* hint;     /* Which names will have been meant by one that there is not; may be "". */
 } nacre_diagnostic;
 
 NACRE_API nacre_status nacre_report_create(nacre_report** report);

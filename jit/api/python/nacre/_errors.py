@@ -28,6 +28,7 @@ class Diagnostic:
     expected: str = ""  # What would have been right.
     found: str = ""  # What was there.
     text: str = ""
+    hint: str = ""  # Which names will have been meant by one that there is not.
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "severity", Severity(self.severity))

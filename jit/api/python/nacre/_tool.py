@@ -22,6 +22,7 @@ Path = str | os.PathLike[str]
 _LINE = re.compile(r"(?:(?P<file>.*?)(?::(?P<line>\d+))?(?::(?P<column>\d+))?: )?"
                    r"(?P<severity>error|warning|note): (?P<message>.*?)"
                    r"(?:; expected (?P<expected>.*?))?(?:[;,] found (?P<found>.*?))?"
+                   r"(?:; (?P<hint>did you mean .*?\?|it differs only in case from .*?))?"
                    r" \[(?P<code>[a-z0-9-]+)\](?: \((?P<path>.*)\))?")
 
 
@@ -128,9 +129,9 @@ def _run(command: str, file: Path, **options: Any) -> str:
                           errors="replace", check=False)
     said = [_diagnostic(line) for line in done.stderr.splitlines() if line.strip()]
     if done.returncode == 2:  # Of its usage: an option that there is not.
-        raise TypeError(done.stderr.strip())
+        raise TypeError("\n".join(map(str, said)))
     if done.returncode != 0:
-        raise Error(said, text=done.stderr.strip() or
+        raise Error(said, text="\n".join(map(str, said)) or
                     f"nacre {command} ended with status {done.returncode}")
     for each in said:
         say(each)
@@ -138,13 +139,17 @@ def _run(command: str, file: Path, **options: Any) -> str:
 
 
 def _diagnostic(line: str) -> Diagnostic:
+    if line.startswith("{"):  # With --json.
+        one = json.loads(line)
+        return Diagnostic(Severity[one.pop("severity").upper()], **one)
     found = _LINE.fullmatch(line)
     if found is None:
         return Diagnostic(Severity.WARNING, "unknown", message=line, text=line)
     group = {name: text or "" for name, text in found.groupdict().items()}
     return Diagnostic(Severity[group["severity"].upper()], group["code"], group["file"],
                       int(group["line"] or 0), int(group["column"] or 0), group["path"],
-                      group["message"], group["expected"], group["found"], line)
+                      group["message"], group["expected"], group["found"], line,
+                      group["hint"])
 
 
 def _size(size: Any) -> str | None:
