@@ -28,10 +28,10 @@ struct Diagnostic {
   std::string code;                     ///< Stable identifier, kebab-case: "unknown-node".
   /// Of what was wrong; empty where no place is known.
   SourceLocation where;
-  std::string message;   ///< One sentence, no trailing stop.
-  std::string expected;  ///< What would have been right; may be empty.
-  std::string found;     ///< What was there; may be empty.
-  std::string hint = {}; ///< What will have been meant (runtime/near_names.h); may be empty.
+  std::string message;    ///< One sentence, no trailing stop.
+  std::string expected;   ///< What would have been right; may be empty.
+  std::string found;      ///< What was there; may be empty.
+  std::string hint = {};  ///< What will have been meant (runtime/near_names.h); may be empty.
 
   /// "file:line:column: error: message; expected X, found Y; hint [code] (path)", on one line
   /// and printable whatever the document holds: see `printable`.

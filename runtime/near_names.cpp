@@ -65,9 +65,8 @@ void NearNames::offer(std::string_view known) {
 
 std::vector<std::string> NearNames::names() const {
   std::vector<std::string> names;
-  const bool in_other_case = !near_.empty() && near_.front().slips == 0;
   for (const Near& each : near_) {
-    if (!in_other_case || each.slips == 0) names.push_back(each.name);
+    if (each.slips == near_.front().slips) names.push_back(each.name);
   }
   return names;
 }

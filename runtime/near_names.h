@@ -28,7 +28,7 @@ class NearNames {
   /// One of the names that there are. What is offered twice counts once.
   void offer(std::string_view known);
 
-  /// The nearest ones, at most `most_given`, nearest first and then by name.
+  /// The nearest ones, those that as few slips lead to, at most `most_given`, by name.
   std::vector<std::string> names() const;
 
   /// For Diagnostic::hint: "it differs only in case from 'Mix'", "did you mean 'mix' or 'min'?";

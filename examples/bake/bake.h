@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -20,10 +21,18 @@ struct Sampling {
   float error = 1.0f / 510.0f;
 };
 
+/// What of uv an image of the plane shows: from the lower left corner, so far to the right and up.
+struct UvArea {
+  float u = 0.0f, v = 0.0f;
+  float width = 1.0f, height = 1.0f;
+};
+
 struct BakeSettings {
   int width = 1024, height = 1024;
   int corner_u = 0, corner_v = 0;  ///< uv of the image's lower left: the tile of a set.
-  int threads = 0;                 ///< 0: as many as the machine has.
+  /// Of the plane, in place of the tile.
+  std::optional<UvArea> window = {};
+  int threads = 0;  ///< 0: as many as the machine has.
   float frame = 1.0f;
   float time = 0.0f;
   Sampling sampling = {};                ///< Of outputs of floats; others have one sample a texel.
@@ -56,6 +65,9 @@ struct BakeControl {
   /// The finished share, 0 to 1; called by any thread, one at a time.
   std::function<void(double)> progress;
 };
+
+/// What an image of the plane shows: the window, or else the tile.
+UvArea area_of(const BakeSettings& settings);
 
 /// How a bake ended.
 enum class BakeResult {

@@ -40,8 +40,8 @@ Linear meaning(std::string_view channel, float du, float dv) {
 
 void Plane::fill(std::string_view channel, const TexelPoints& points,
                  std::vector<float>& values) const {
-  const float du = 1.0f / static_cast<float>(width_);
-  const float dv = 1.0f / static_cast<float>(height_);
+  const float du = area_.width / static_cast<float>(width_);
+  const float dv = area_.height / static_cast<float>(height_);
   const Linear line = meaning(channel, du * points.footprint, dv * points.footprint);
   const std::size_t count = points.x.size();
   if (line.u == 0.0f && line.v == 0.0f) {
@@ -49,11 +49,9 @@ void Plane::fill(std::string_view channel, const TexelPoints& points,
     return;
   }
   values.resize(count);
-  const auto corner_u = static_cast<float>(corner_u_);
-  const auto corner_v = static_cast<float>(corner_v_);
   for (std::size_t i = 0; i < count; ++i) {
-    const float u = corner_u + points.x[i] * du;
-    const float v = corner_v + (1.0f - points.y[i] * dv);
+    const float u = area_.u + points.x[i] * du;
+    const float v = area_.v + (area_.height - points.y[i] * dv);
     values[i] = line.constant + line.u * u + line.v * v;
   }
 }
@@ -61,6 +59,11 @@ void Plane::fill(std::string_view channel, const TexelPoints& points,
 bool Plane::is_constant(std::string_view channel) const {
   const Linear line = meaning(channel, 1.0f, 1.0f);
   return line.u == 0.0f && line.v == 0.0f;
+}
+
+UvArea area_of(const BakeSettings& settings) {
+  if (settings.window) return *settings.window;
+  return {.u = static_cast<float>(settings.corner_u), .v = static_cast<float>(settings.corner_v)};
 }
 
 }  // namespace nacre::host

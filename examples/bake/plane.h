@@ -3,17 +3,17 @@
 #include <string_view>
 #include <vector>
 
+#include "examples/bake/bake.h"
 #include "examples/bake/surface.h"
 
 namespace nacre::host {
 
 /// The plane that `bake` shades where it is given no other surface. A point (x, y) of a width x
-/// height image has uv = corner + (x/width, 1-y/height), P = (u, v, 0) in every space, N = (0,0,1),
-/// T = (1,0,0), B = (0,1,0), and a viewer straight above.
+/// height image has uv = corner + area * (x/width, 1-y/height), P = (u, v, 0) in every space, N =
+/// (0,0,1), T = (1,0,0), B = (0,1,0), and a viewer straight above.
 class Plane : public SurfacePoints {
  public:
-  Plane(int width, int height, int corner_u = 0, int corner_v = 0)
-      : width_(width), height_(height), corner_u_(corner_u), corner_v_(corner_v) {}
+  Plane(int width, int height, UvArea area = {}) : width_(width), height_(height), area_(area) {}
 
   void fill(std::string_view channel, const TexelPoints& points,
             std::vector<float>& values) const override;
@@ -21,7 +21,7 @@ class Plane : public SurfacePoints {
 
  private:
   int width_, height_;
-  int corner_u_, corner_v_;
+  UvArea area_;
 };
 
 }  // namespace nacre::host

@@ -38,7 +38,7 @@ OutputKernel with_tiles(const OutputKernel& kernel, std::size_t output,
   if (!kernel.kernel.has_deferred_tiles()) return loaded;
   if (textures.statistics().resident_bytes > most_unused) textures.drop_unused();
   const int samples = most_samples(kernel, output, settings.sampling);
-  const Plane plane(settings.width, settings.height, settings.corner_u, settings.corner_v);
+  const Plane plane(settings.width, settings.height, area_of(settings));
   TexelPoints points = corners(settings, samples);
   std::vector<Range> ranges;
   for (const Channel& channel : kernel.kernel.program().inputs) {

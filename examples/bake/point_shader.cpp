@@ -11,8 +11,7 @@ namespace {
 
 std::unique_ptr<SurfacePoints> surface_of(const BakeSettings& settings, const Program& program) {
   if (settings.surface != nullptr) return settings.surface->points(settings, program);
-  return std::make_unique<Plane>(settings.width, settings.height, settings.corner_u,
-                                 settings.corner_v);
+  return std::make_unique<Plane>(settings.width, settings.height, area_of(settings));
 }
 
 }  // namespace

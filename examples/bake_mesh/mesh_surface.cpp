@@ -10,6 +10,7 @@
 #include "examples/bake_mesh/mesh_points.h"
 #include "examples/render/batch_channels.h"
 #include "runtime/channel/channel_name.h"
+#include "runtime/near_names.h"
 
 namespace nacre::host {
 
@@ -71,7 +72,7 @@ bool MeshSurface::choose(Diagnostics& diagnostics) {
       if (known.size() < 200) known += (known.empty() ? "" : ", ") + each;
     }
     diagnostics.error("unknown-mesh", where, "the scene has no such mesh", known,
-                      fmt::format("'{}'", name));
+                      fmt::format("'{}'", name), near_hint(diagnostics, name, names));
   }
   for (std::uint32_t i = 0; i < scene_.meshes.size(); ++i) {
     const Mesh& mesh = scene_.meshes[i];

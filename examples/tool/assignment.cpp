@@ -9,6 +9,7 @@
 #include "jit/document/select.h"
 #include "jit/graph/find.h"
 #include "jit/graph/look/geometry_names.h"
+#include "runtime/near_names.h"
 
 namespace nacre::tool {
 
@@ -57,7 +58,7 @@ class Assigner {
       if (std::none_of(scene_.meshes.begin(), scene_.meshes.end(),
                        [&](const Mesh& mesh) { return is_called(mesh, name); })) {
         diagnostics_.error("unmatched-assign", {}, "--assign names nothing of the scene",
-                           "one of " + names_of_scene(), '"' + name + '"');
+                           "one of " + names_of_scene(), '"' + name + '"', near_mesh(name));
       }
     }
     if (look_) report_look();
@@ -114,6 +115,14 @@ class Assigner {
 
   static bool is_called(const Mesh& mesh, const std::string& name) {
     return mesh.object_name == name || mesh.mesh_name == name || mesh.material_name == name;
+  }
+
+  std::string near_mesh(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const Mesh& mesh : scene_.meshes) {
+      names.insert(names.end(), {mesh.object_name, mesh.mesh_name, mesh.material_name});
+    }
+    return near_hint(diagnostics_, name, names);
   }
 
   /// Objects and their materials.
@@ -247,7 +256,8 @@ class Assigner {
     for (const std::string& name : known_) names += (names.empty() ? "" : ", ") + name;
     diagnostics_.error("unknown-material", {document_.files().front(), 0, 0, {}},
                        "there is no material '" + material + "'",
-                       names.empty() ? "a document with a material" : "one of " + names);
+                       names.empty() ? "a document with a material" : "one of " + names, {},
+                       near_hint(diagnostics_, material, known_));
   }
 
   void read_assigns() {
@@ -286,7 +296,9 @@ class Assigner {
       return;
     }
     diagnostics_.error("unknown-look", {document_.files().front(), 0, 0, {}},
-                       "there is no look '" + wanted + "'");
+                       "there is no look '" + wanted + "'", {}, {},
+                       near_hint(diagnostics_, wanted, looks,
+                                 [](auto& each) { return std::string_view(each.name); }));
   }
 
   const Document& document_;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "examples/bake/plane_tiles.h"
 #include "examples/bake/write_texture.h"
@@ -24,6 +25,7 @@
 #include "examples/tool/udim.h"
 #include "jit/graph/build/build.h"
 #include "jit/graph/find.h"
+#include "runtime/near_names.h"
 
 namespace nacre::tool {
 
@@ -48,6 +50,7 @@ struct BakeOptions {
   bool json = false;
   std::string out;   ///< "": beside the document that is written, or here.
   std::string udim;  ///< --udim: numbers, or "auto".
+  std::optional<host::UvArea> window;
   float frame = 1.0f;
   float time = 0.0f;
 };
@@ -221,10 +224,13 @@ std::vector<std::string> wanted_materials(const BakeOptions& options, const Docu
     if (options.material.empty() || options.material == found.name) names.push_back(found.name);
   }
   if (names.empty()) {
-    diagnostics.error("unknown-material", {options.common.file, 0, 0, {}},
-                      options.material.empty()
-                          ? "the document has no material"
-                          : fmt::format("there is no material '{}'", options.material));
+    diagnostics.error(
+        "unknown-material", {options.common.file, 0, 0, {}},
+        options.material.empty() ? "the document has no material"
+                                 : fmt::format("there is no material '{}'", options.material),
+        {}, {}, near_hint(diagnostics, options.material, find_materials(document), [](auto& each) {
+          return std::string_view(each.name);
+        }));
   }
   return names;
 }
@@ -236,28 +242,13 @@ std::string texture_folder(const BakeOptions& options) {
   return beside.empty() ? "." : beside.string();
 }
 
-int run(BakeOptions& options) {
-  Diagnostics diagnostics;
-  host::BakeSettings settings;
-  if (!options.mesh.scene.empty() && options.manifest.is_asked()) {
-    diagnostics.error("no-manifest-of-meshes", {},
-                      "nothing is recorded or shared of what is baked on meshes",
-                      "--scene, or --manifest, --shard or --merge");
-    report(diagnostics);
-    return status_usage;
-  }
-  if (!options.textures.check(diagnostics) || !options.manifest.check(diagnostics) ||
-      !options.mesh.read(settings.dilation, diagnostics) ||
-      !options.sampling.read(settings.sampling, diagnostics)) {
-    report(diagnostics);
-    return status_usage;
-  }
-  BakeReport told(options.json     ? BakeReport::Form::json
-                  : options.report ? BakeReport::Form::text
-                                   : BakeReport::Form::none);
+/// All that was asked for; the status.
+int bake_all(BakeOptions& options, host::BakeSettings& settings, BakeReport& told,
+             Diagnostics& diagnostics) {
   keep_freed_memory();
   options.out = texture_folder(options);
   settings.threads = options.common.threads;
+  settings.window = options.window;
   settings.frame = options.frame;
   settings.time = options.time;
   const Opened opened = open(options.common, diagnostics);
@@ -292,7 +283,6 @@ int run(BakeOptions& options) {
   if (options.document.empty()) {
     bake_outputs(options, opened, settings, tiles, shader, ledger, target, told, diagnostics);
     ledger.finish(diagnostics);
-    told.print();
     report_texels(*opened.system, diagnostics);
     return report(diagnostics);
   }
@@ -310,9 +300,33 @@ int run(BakeOptions& options) {
                           options.average};
   if (!bake.materials.empty()) bake_document(bake, opened, ledger, target, told, diagnostics);
   ledger.finish(diagnostics);
-  told.print();
   report_texels(*opened.system, diagnostics);
   return report(diagnostics);
+}
+
+int run(BakeOptions& options) {
+  Diagnostics diagnostics;
+  host::BakeSettings settings;
+  if (!options.mesh.scene.empty() && options.manifest.is_asked()) {
+    diagnostics.error("no-manifest-of-meshes", {},
+                      "nothing is recorded or shared of what is baked on meshes",
+                      "--scene, or --manifest, --shard or --merge");
+    report(diagnostics);
+    return status_usage;
+  }
+  if (!options.textures.check(diagnostics) || !options.manifest.check(diagnostics) ||
+      !options.mesh.read(settings.dilation, diagnostics) ||
+      !options.sampling.read(settings.sampling, diagnostics)) {
+    report(diagnostics);
+    return status_usage;
+  }
+  BakeReport told(options.json     ? BakeReport::Form::json
+                  : options.report ? BakeReport::Form::text
+                                   : BakeReport::Form::none);
+  // Also of what failed: who reads it finds a document.
+  const int status = bake_all(options, settings, told, diagnostics);
+  told.print();
+  return status;
 }
 
 }  // namespace
@@ -351,14 +365,36 @@ void add_bake(CLI::App& app, int& status) {
                        "each channel; what is the same everywhere is said to be uniform");
   command
       .add_flag("--json", options->json,
-                "The same for programs, with histograms, in place of the names of files: one JSON "
-                "document")
+                "For programs to read: an object with what --report says and histograms, in place "
+                "of the names of files")
       ->excludes(text);
+  CLI::Option* tiles =
+      command
+          .add_option("--udim", options->udim,
+                      "Tiles, an image each: numbers as 1001,1002, or auto for those of the "
+                      "document's udimset or images (default: one image of uv from 0 to 1)")
+          ->type_name("N,N...|auto");
   command
-      .add_option("--udim", options->udim,
-                  "Tiles, an image each: numbers as 1001,1002, or auto for those of the "
-                  "document's udimset or images (default: one image of uv from 0 to 1)")
-      ->type_name("N,N...|auto");
+      .add_option_function<std::vector<float>>(
+          "--window",
+          [options](const std::vector<float>& corners) {
+            const host::UvArea area{.u = corners[0],
+                                    .v = corners[1],
+                                    .width = corners[2] - corners[0],
+                                    .height = corners[3] - corners[1]};
+            if (!(area.width > 0.0f && area.height > 0.0f)) {
+              throw CLI::ValidationError("--window", "it is empty: X1 above X0 and Y1 above Y0");
+            }
+            options->window = area;
+          },
+          "The part of uv that an image shows, from its lower left to its upper right corner "
+          "(default: 0 0 1 1)")
+      ->expected(4)
+      ->check(number_within(-largest_whole, largest_whole))
+      ->type_name("X0 Y0 X1 Y1")
+      ->excludes(tiles)
+      ->excludes(document)
+      ->excludes(command.get_option("--scene"));
   command
       .add_option("--out", options->out,
                   "Folder for the images, made where there is none (default: that of --document, "

@@ -19,6 +19,10 @@ Facts settings_of(const std::string& output, const TextureSettings& texture,
   if (encoding.channels > 0) {
     facts["channels"] = fmt::format("{} from {}", encoding.channels, encoding.first_channel);
   }
+  if (const auto& window = settings.window) {
+    facts["window"] =
+        fmt::format("{} {}, {} x {}", window->u, window->v, window->width, window->height);
+  }
   facts["udim"] = encoding.is_tile ? tile.number() : "none";
   facts["samples"] = settings.sampling.count == 0
                          ? fmt::format("auto, error {}", settings.sampling.error)

@@ -8,6 +8,7 @@
 
 #include "examples/bake/texture_encoding.h"
 #include "examples/bake/texture_format.h"
+#include "examples/tool/report.h"
 
 namespace nacre::tool {
 
@@ -185,8 +186,7 @@ void BakeReport::print_json() const {
         std::ranges::count_if(maps_, [&](const BakedMap& map) { return map.state == state; });
   }
   all["seconds"] = watch_.seconds();
-  // Names come from documents, which may hold bytes that are no UTF-8.
-  fmt::print("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace));
+  tool::print_json(all);
 }
 
 }  // namespace nacre::tool

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "examples/tool/check_lobes.h"
 #include "examples/tool/number_range.h"
@@ -13,18 +14,33 @@ namespace nacre::tool {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+/// What there is to say of a document, for programs.
+Json answer(const CommonOptions& options, const Diagnostics& diagnostics) {
+  Json said = Json::array();
+  for (const Diagnostic& each : diagnostics.all()) said.push_back(json_of(each));
+  return {{"document", options.file},
+          {"ok", diagnostics.all().empty()},
+          {"errors", diagnostics.error_count()},
+          {"warnings", diagnostics.warning_count()},
+          {"diagnostics", std::move(said)}};
+}
+
 /// Builds every graph of the document; kernels are compiled for their lobes alone.
 int run(const CommonOptions& options, const LobeCheck& lobes) {
   Diagnostics diagnostics;
+  Json found = Json::array();
   const Opened opened = open(options, diagnostics);
   if (opened) {
     opened.system->check(*opened.document, options.shader_options(), diagnostics);
     if (lobes.is_wanted() && !diagnostics.has_errors()) {
-      check_lobes(options, lobes, opened, diagnostics);
+      check_lobes(options, lobes, opened, found, diagnostics);
     }
   }
   report(diagnostics);
   const int status = diagnostics.all().empty() ? status_ok : status_problems;
+  if (lobes.json) print_json(lobes.is_wanted() ? found : answer(options, diagnostics));
   if (!options.quiet && !lobes.json && status == status_ok) fmt::print("{}: ok\n", options.file);
   return status;
 }
@@ -56,9 +72,11 @@ void add_check(CLI::App& app, int& status) {
           ->capture_default_str(),
       command.add_option("--most-energy", lobes->effort.most_energy, "Light that may leave of 1")
           ->check(number_within(0))
-          ->capture_default_str(),
-      command.add_flag("--json", lobes->json, "What is found of lobes, for programs to read")};
-  command.footer("Exit status: 0 clean, 1 problems, 2 usage.");
+          ->capture_default_str()};
+  command.add_flag("--json", lobes->json,
+                   "For programs to read: an object with what is wrong; with --lobes or --lobe a "
+                   "list of what was found of each");
+  command.footer("A warning is a problem too.");
   command.callback([=, &status] {
     for (const CLI::Option* detail : details) {
       if (detail->count() == 0 || lobes->is_wanted()) continue;

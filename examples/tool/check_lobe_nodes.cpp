@@ -13,6 +13,7 @@
 #include "examples/tool/lobe_report.h"
 #include "jit/document/definitions.h"
 #include "jit/document/document.h"
+#include "runtime/near_names.h"
 
 namespace nacre::tool {
 
@@ -138,6 +139,16 @@ bool makes_lobe(const NodeDef& def) {
   return def.outputs.size() == 1 && def.outputs.front().type == Type::bsdf;
 }
 
+/// Nodes that are lobes, and their nodedefs.
+std::vector<std::string_view> known_lobes(const Definitions& definitions) {
+  std::vector<std::string_view> names;
+  for (const NodeDef* def : definitions.all()) {
+    if (!makes_lobe(*def)) continue;
+    names.insert(names.end(), {def->category, def->name});
+  }
+  return names;
+}
+
 }  // namespace
 
 void check_lobe_nodes(const CommonOptions& options, const LobeCheck& check, const Opened& opened,
@@ -154,7 +165,8 @@ void check_lobe_nodes(const CommonOptions& options, const LobeCheck& check, cons
     }
     if (is_known) continue;
     diagnostics.error("no-such-lobe", {}, "there is no lobe of this name",
-                      "a node, or its nodedef, whose output is a BSDF", "'" + name + "'");
+                      "a node, or its nodedef, whose output is a BSDF", "'" + name + "'",
+                      near_hint(diagnostics, name, known_lobes(definitions)));
   }
 }
 

@@ -48,11 +48,9 @@ void check_materials(const CommonOptions& options, const LobeCheck& check, const
 }  // namespace
 
 void check_lobes(const CommonOptions& options, const LobeCheck& check, const Opened& opened,
-                 Diagnostics& diagnostics) {
-  Json all = Json::array();
-  if (!check.nodes.empty()) check_lobe_nodes(options, check, opened, all, diagnostics);
-  if (check.materials) check_materials(options, check, opened, all, diagnostics);
-  if (check.json) fmt::print("{}\n", all.dump(2));
+                 Json& found, Diagnostics& diagnostics) {
+  if (!check.nodes.empty()) check_lobe_nodes(options, check, opened, found, diagnostics);
+  if (check.materials) check_materials(options, check, opened, found, diagnostics);
 }
 
 }  // namespace nacre::tool

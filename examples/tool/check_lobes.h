@@ -20,9 +20,10 @@ struct LobeCheck {
   bool is_wanted() const { return materials || !nodes.empty(); }
 };
 
-/// Compiles what is asked for and prints what leaves of the light, or that it has no closure; a
-/// fault for each law that does not hold. Texts are not held to what lobes promise.
+/// Compiles what is asked for and prints what leaves of the light, or that it has no closure, or
+/// with `json` adds it to `found`; a fault for each law that does not hold. Texts are not held to
+/// what lobes promise.
 void check_lobes(const CommonOptions& options, const LobeCheck& check, const Opened& opened,
-                 Diagnostics& diagnostics);
+                 nlohmann::ordered_json& found, Diagnostics& diagnostics);
 
 }  // namespace nacre::tool

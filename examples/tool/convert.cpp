@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "examples/common/atomic_file.h"
 #include "examples/tool/options.h"
@@ -21,6 +22,7 @@ struct ConvertOptions {
   std::vector<std::string> search_paths;
   bool flatten = false;
   bool quiet = false;
+  bool json = false;
 };
 
 bool is_relative(std::string_view name) { return !name.empty() && fs::path(name).is_relative(); }
@@ -47,20 +49,32 @@ void warn_of_other_folder(const ConvertOptions& options, const Document& documen
                       from.parent_path().string(), to.parent_path().string());
 }
 
-int run(const ConvertOptions& options) {
-  Diagnostics diagnostics;
+/// Whether the document is written.
+bool convert(const ConvertOptions& options, Diagnostics& diagnostics) {
   ReadOptions read;
   read.keep_comments = true;
   read.stop = stop();
   for (const std::string& path : options.search_paths) read.search_paths.emplace_back(path);
   const auto document = read_document(options.file, read, diagnostics);
-  if (document == nullptr) return report(diagnostics);
+  if (document == nullptr) return false;
   const std::string text = write_document(*document, {.flatten = options.flatten});
   promise_files({options.out});
   const bool written = host::prepare_output(options.out, diagnostics) &&
                        host::write_text_atomically(options.out, text, diagnostics);
   warn_of_other_folder(options, *document, diagnostics);
-  if (written) file_is_written(options.out, options.quiet);
+  if (written) file_is_written(options.out, options.quiet || options.json);
+  return written;
+}
+
+int run(const ConvertOptions& options) {
+  Diagnostics diagnostics;
+  const bool written = convert(options, diagnostics);
+  if (options.json) {
+    print_json({{"document", options.file},
+                {"file", options.out},
+                {"written", written},
+                {"flattened", options.flatten}});
+  }
   return report(diagnostics);
 }
 
@@ -81,9 +95,11 @@ void add_convert(CLI::App& app, int& status) {
                   "Where includes are looked for too; may be repeated")
       ->type_name("DIR");
   command.add_flag("-q,--quiet", options->quiet, "Do not print the name of the file");
+  command.add_flag("--json", options->json,
+                   "For programs to read: an object that says what was written");
   command.footer(
       "Elements, attributes and comments stay, unknown ones too; what changed since the document's "
-      "version is rewritten.\nExit status: 0 done, 1 problems, 2 usage.");
+      "version is rewritten.");
   command.callback(
       [options, &status] { status = guarded(options->file, [&] { return run(*options); }); });
 }

@@ -180,13 +180,14 @@ int run(const InspectOptions& options) {
   Diagnostics diagnostics;
   const Opened opened = open(options.common, diagnostics);
   if (!opened) {
-    if (options.json) fmt::print("[]\n");
+    if (options.json) print_json(Json::array());
     return report(diagnostics);
   }
   ShaderOptions shader = options.common.shader_options();
   if (options.cost && shader.compile.backend != Backend::jit) {
     diagnostics.error("bad-option", {}, "--cost measures compiled code", "--backend jit",
                       options.common.backend);
+    if (options.json) print_json(Json::array());
     return report(diagnostics);
   }
   const auto for_cost = options.cost ? options.common.compiler() : nullptr;
@@ -225,8 +226,7 @@ int run(const InspectOptions& options) {
                        for_cost.get(), diagnostics));
   }
   if (options.json) {
-    // Names come from documents, which may hold bytes that are no UTF-8.
-    fmt::print("{}\n", results.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(results);
   } else {
     for (const Json& result : results) print_text(result);
   }
@@ -249,7 +249,8 @@ void add_inspect(CLI::App& app, int& status) {
   command.add_flag("--cost", options->cost,
                    "Run the kernels and say what time each node, lobe and function takes");
   command.add_flag("--live", options->live, "Keep parameters changeable");
-  command.add_flag("--json", options->json, "For programs to read");
+  command.add_flag("--json", options->json,
+                   "For programs to read: a list with an object for each material and output");
   options->common.add_compile(command);
   options->common.add_lobes(command);
   options->common.add_profile(command);

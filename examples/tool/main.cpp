@@ -1,43 +1,42 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
 
+#include "examples/tool/commands.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
 #include "examples/tool/stop.h"
+#include "examples/tool/usage.h"
 
 namespace {
 
-constexpr const char* footer =
-    R"(Exit status: 0 done, 1 problems (on standard error), 2 usage; stopped by SIGINT, SIGTERM or
-SIGHUP before all was written, death by that signal, which shells call 128 + its number.
+using namespace nacre::tool;
 
-Examples:
-  nacre bake marble.mtlx --size 1024 --out textures
-  nacre render marble.mtlx --material Marble_3D --spp 64 --size 512x512 --out marble.png
-  nacre check marble.mtlx)";
+/// What is wrong with the command line itself is said in the form that it asks for.
+bool asks_for_json(int argc, char** argv) {
+  return std::find(argv + std::min(argc, 1), argv + argc, std::string_view("--json")) !=
+         argv + argc;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  nacre::tool::prepare_process();
-  const nacre::tool::StopOnSignal signals;
+  prepare_process();
+  const StopOnSignal signals;
   CLI::App app{"nacre: MaterialX shading on the CPU, compiled to SIMD machine code", "nacre"};
-  app.set_version_flag("--version", NACRE_TOOL_VERSION);
-  app.require_subcommand(1);
-  app.footer(footer);
-  int status = nacre::tool::status_ok;
-  nacre::tool::add_bake(app, status);
-  nacre::tool::add_check(app, status);
-  nacre::tool::add_convert(app, status);
-  nacre::tool::add_inspect(app, status);
-  nacre::tool::add_render(app, status);
-  nacre::tool::add_tune(app, status);
+  int status = status_ok;
+  add_commands(app, status);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // For help, or the version.
+    app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    status = app.exit(error) == 0 ? nacre::tool::status_ok : nacre::tool::status_usage;
+    set_report_form({asks_for_json(argc, argv), false});
+    report_usage(app, error);
+    status = status_usage;
   }
-  status = nacre::tool::finish_output(status);
-  const bool failed = nacre::tool::stop().is_due() && status != nacre::tool::status_ok;
-  if (failed || nacre::tool::is_stopped_early()) nacre::tool::end_stopped();
+  status = finish_output(status);
+  const bool failed = stop().is_due() && status != status_ok;
+  if (failed || is_stopped_early()) end_stopped();
   return status;
 }

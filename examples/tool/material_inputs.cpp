@@ -5,6 +5,7 @@
 #include "jit/document/inheritance.h"
 #include "jit/graph/find.h"
 #include "jit/graph/resolve/feed.h"
+#include "runtime/near_names.h"
 
 namespace nacre::tool {
 
@@ -35,7 +36,9 @@ std::vector<std::string> material_inputs(const Opened& opened, const std::string
   }
   diagnostics.error("unknown-material", {document.files().front(), 0, 0, {}},
                     "there is no material '" + material + "'",
-                    known.empty() ? "a material" : "one of " + known);
+                    known.empty() ? "a material" : "one of " + known, {},
+                    near_hint(diagnostics, material, find_materials(document),
+                              [](auto& each) { return std::string_view(each.name); }));
   return {};
 }
 

@@ -18,7 +18,7 @@ void MeshOptions::add(CLI::App& command) {
       command
           .add_option("--scene", scene,
                       "Bake on the meshes of a scene by their uv: glTF 2.0 or OBJ, or builtin for "
-                      "the one that render shows (default: on a plane, see below)")
+                      "the one that render shows (default: on a plane)")
           ->type_name("FILE");
   const auto add = [&](const char* flag, auto& value, const char* what) {
     return command.add_option(flag, value, what)->needs(file)->group("Baking on meshes, --scene");

@@ -26,10 +26,15 @@ namespace fs = std::filesystem;
 /// is a mistake.
 constexpr int most_threads = 1024;
 
+// Groups of options in help.
+constexpr const char* how_exact = "How exact kernels are";
+constexpr const char* what_runs = "Colours, code and threads";
+
 }  // namespace
 
 void CommonOptions::add_document(CLI::App& command) {
   command.add_option("FILE", file, "MaterialX document")->required()->type_name("FILE.mtlx");
+  command.option_defaults()->group("The document and its images");
   command.add_option("--library", libraries, "Further node definitions: a file or folder")
       ->type_name("DIR");
   command.add_option("--search-path", search_paths, "Where includes and images are looked for too")
@@ -60,9 +65,13 @@ void CommonOptions::add_document(CLI::App& command) {
                   "OpenColorIO configuration whose colour spaces count before those built in; "
                   "env: the one that the environment variable OCIO names")
       ->type_name("FILE");
-  command.add_flag("--strict", strict,
-                   "Refuse what the standard has no meaning for; else what MaterialX makes code "
-                   "of is read as that code has it, with a warning");
+  CLI::Option* lenient = command.add_flag_callback(
+      "--lenient", [] {},
+      "Read what the standard has no meaning for, but MaterialX makes "
+      "code of, as that code has it, with a warning for each. So it is "
+      "without --strict");
+  command.add_flag("--strict", strict, "Refuse what the standard has no meaning for")
+      ->excludes(lenient);
   command.add_flag("-q,--quiet", quiet, "No progress on standard error");
   command
       .add_option("--texture-memory", texture_limits.budget,
@@ -72,6 +81,7 @@ void CommonOptions::add_document(CLI::App& command) {
       ->type_name("SIZE")
       ->default_str("2GB");
   add_limits(command);
+  command.option_defaults()->group("Options");
 }
 
 void CommonOptions::add_limits(CLI::App& command) {
@@ -116,6 +126,7 @@ void CommonOptions::add_limits(CLI::App& command) {
 }
 
 void CommonOptions::add_lobes(CLI::App& command) {
+  command.option_defaults()->group(how_exact);
   const std::map<std::string, Compensation> compensations{{"all", Compensation::all},
                                                           {"nothing", Compensation::nothing},
                                                           {"reflection", Compensation::reflection}};
@@ -126,6 +137,7 @@ void CommonOptions::add_lobes(CLI::App& command) {
       ->transform(CLI::CheckedTransformer(compensations, CLI::ignore_case)
                       .description("{all,nothing,reflection}"))
       ->default_str("all");
+  command.option_defaults()->group("Options");
 }
 
 void CommonOptions::add_compile(CLI::App& command) {
@@ -134,6 +146,7 @@ void CommonOptions::add_compile(CLI::App& command) {
 }
 
 void CommonOptions::add_exactness(CLI::App& command) {
+  command.option_defaults()->group(how_exact);
   command.add_option("--accuracy", accuracy, "Error promised for every function and closure")
       ->check(CLI::IsMember({"precise", "standard", "fast"}))
       ->capture_default_str();
@@ -145,9 +158,11 @@ void CommonOptions::add_exactness(CLI::App& command) {
                   "How much longer than wide a pixel may be on an image without blur; 1: no care")
       ->check(CLI::Range(1, largest_anisotropy))
       ->capture_default_str();
+  command.option_defaults()->group("Options");
 }
 
 void CommonOptions::add_machine(CLI::App& command) {
+  command.option_defaults()->group(what_runs);
   command.add_option("--lanes", lanes, "Points side by side in compiled code (default: by CPU)")
       ->check(CLI::IsMember({1, 4, 8, 16}));
   command.add_option("--threads", threads, "Threads (default: as many as the machine has)")
@@ -162,9 +177,11 @@ void CommonOptions::add_machine(CLI::App& command) {
   command.add_flag("--no-cache", no_cache, "Neither read nor write compiled kernels");
   command.add_flag("--compile-here", compile_here,
                    "Compile in this process, which a fault of LLVM's ends; else in others");
+  command.option_defaults()->group("Options");
 }
 
 void CommonOptions::add_profile(CLI::App& command) {
+  command.option_defaults()->group(how_exact);
   CLI::Option* const option =
       command
           .add_option("--profile", profile,
@@ -173,6 +190,7 @@ void CommonOptions::add_profile(CLI::App& command) {
   for (const char* chosen : {"--accuracy", "--anisotropy", "--compensation"}) {
     if (CLI::Option* const other = command.get_option_no_throw(chosen)) option->excludes(other);
   }
+  command.option_defaults()->group("Options");
 }
 
 std::unique_ptr<Compiler> CommonOptions::compiler() const {
@@ -181,9 +199,11 @@ std::unique_ptr<Compiler> CommonOptions::compiler() const {
 }
 
 void CommonOptions::add_waiting(CLI::App& command) {
+  command.option_defaults()->group(what_runs);
   begins_at_once = true;
   command.add_flag("--wait-for-code{false}", begins_at_once,
                    "Begin when all is compiled, rather than interpret until then");
+  command.option_defaults()->group("Options");
 }
 
 Accuracy CommonOptions::parsed_accuracy() const {
@@ -329,11 +349,6 @@ void report_code(const BoundKernel& kernel, const ShaderOptions& options,
   if (!options.compile.asynchronous) return;
   const Diagnostics said = kernel.diagnostics();
   for (const Diagnostic& one : said.all()) diagnostics.add(one);
-}
-
-int report(const Diagnostics& diagnostics) {
-  std::fputs(diagnostics.to_string().c_str(), stderr);
-  return diagnostics.has_errors() ? status_problems : status_ok;
 }
 
 ProgressLine::ProgressLine(std::string title, bool quiet)

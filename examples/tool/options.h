@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "examples/tool/report.h"
 #include "jit/document/document.h"
 #include "jit/document/read.h"
 #include "jit/shading/shading_system.h"
@@ -106,9 +107,6 @@ void report_texels(ShadingSystem& system, Diagnostics& diagnostics);
 
 /// Adds what is to be said of code that was made while the kernel was used.
 void report_code(const BoundKernel& kernel, const ShaderOptions& options, Diagnostics& diagnostics);
-
-/// Prints diagnostics on standard error; the status they mean.
-int report(const Diagnostics& diagnostics);
 
 /// One line on standard error that is rewritten as work goes on; silent when
 /// that is no terminal or `quiet`.

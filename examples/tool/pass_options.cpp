@@ -8,6 +8,7 @@
 
 #include "jit/graph/look/geometry_names.h"
 #include "runtime/channel/channel_name.h"
+#include "runtime/near_names.h"
 
 namespace nacre::tool {
 
@@ -65,8 +66,8 @@ bool put(std::string_view pattern, std::uint8_t group, const host::Scene& scene,
 void PassOptions::add(CLI::App& command) {
   command
       .add_option("--aov", names,
-                  "Images beside the picture, layers of the .exr: see below. Light adds up: "
-                  "emission, background, direct and indirect are the picture")
+                  "Images beside the picture, layers of the .exr. Which there are stands below. "
+                  "Light adds up: emission, background, direct and indirect are the picture")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME,...");
@@ -79,6 +80,16 @@ void PassOptions::add(CLI::App& command) {
       ->allow_extra_args(false)
       ->type_name("NAME=PATTERN,...");
 }
+
+namespace {
+
+std::vector<std::string> pass_names() {
+  std::vector<std::string> names{"crypto_object", "crypto_material"};
+  for (const host::Pass& pass : host::known_passes()) names.emplace_back(pass.name);
+  return names;
+}
+
+}  // namespace
 
 host::PassRequest pass_request(const PassOptions& options, Diagnostics& diagnostics) {
   host::PassRequest request;
@@ -98,8 +109,8 @@ host::PassRequest pass_request(const PassOptions& options, Diagnostics& diagnost
       if (!known) request.values.push_back({name, 0});
     } else {
       diagnostics.error("unknown-aov", {}, "there is no such pass",
-                        "one of those that nacre render --help lists, or GRAPH/NODE of a value",
-                        "'" + name + "'");
+                        "one of those that nacre render --help-all lists, or GRAPH/NODE of a value",
+                        "'" + name + "'", near_hint(diagnostics, name, pass_names()));
     }
   }
   for (const std::string& group : options.groups) {

@@ -18,6 +18,7 @@
 
 #include "examples/common/partial_file.h"
 #include "examples/tool/options.h"
+#include "examples/tool/report.h"
 #include "examples/tool/stop.h"
 
 namespace nacre::tool {
@@ -66,12 +67,13 @@ void terminated() {
   try {
     if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
-    say("error: this needs more memory than there is [out-of-memory]\n");
+    say(report_form().json
+            ? R"({"severity":"error","code":"out-of-memory","message":"this needs more memory than )"
+              "there is\"}\n"
+            : "error: this needs more memory than there is [out-of-memory]\n");
     end_with_problems();
   } catch (const std::system_error& error) {
-    say("error: the system refuses; found ");
-    say(error.what());
-    say(" [system]\n");
+    say(said_line(failure(error)).c_str());
     end_with_problems();
   } catch (...) {
   }
@@ -120,7 +122,7 @@ int guarded(const std::string& file, const std::function<int()>& run) {
     said = failure(thrown);
   }
   said.where.file = file;
-  std::fprintf(stderr, "%s\n", said.to_string().c_str());
+  std::fputs(said_line(said).c_str(), stderr);
   return status_problems;
 }
 
@@ -137,8 +139,12 @@ int finish_output(int status) {
   std::cout.flush();  // CLI11's, after it: it empties the same buffer and keeps no reason.
   if (output_error == 0 && std::ferror(stdout) == 0 && std::cout) return status;
   const int reason = output_error;
-  std::fprintf(stderr, "error: standard output could not be written%s%s [cannot-write]\n",
-               reason != 0 ? "; found " : "", reason != 0 ? std::strerror(reason) : "");
+  const Diagnostic said{.code = "cannot-write",
+                        .where = {},
+                        .message = "standard output could not be written",
+                        .expected = {},
+                        .found = reason != 0 ? std::strerror(reason) : ""};
+  std::fputs(said_line(said).c_str(), stderr);
   return status == status_ok ? status_problems : status;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
@@ -27,6 +28,7 @@
 #include "examples/tool/not_rendered.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
+#include "examples/tool/render_answer.h"
 #include "examples/tool/render_checkpoint.h"
 #include "examples/tool/render_options.h"
 #include "examples/tool/scene_materials.h"
@@ -371,7 +373,7 @@ void complete_passes(RenderOptions& options, const host::Scene& world,
   complete_groups(options.passes, world, names, passes, diagnostics);
 }
 
-int run(RenderOptions& options) {
+int run(RenderOptions& options, nlohmann::ordered_json& answer) {
   Diagnostics diagnostics;
   if (!parse_size(options.size, options.settings.width, options.settings.height, diagnostics)) {
     report(diagnostics);
@@ -475,7 +477,8 @@ int run(RenderOptions& options) {
     if (!statistics.is_whole && !enough.is_out_of_time()) {
       keep_promise_partly(options.out, samples_text(statistics, options.settings));
     }
-    file_is_written(options.out, options.common.quiet);
+    file_is_written(options.out, options.common.quiet || options.json);
+    answer = written_picture(options, statistics);
   }
   report_texels(*opened.system, diagnostics);
   const int status = report(diagnostics);
@@ -492,7 +495,9 @@ void add_render(CLI::App& app, int& status) {
   command.callback([options, &status, &command] {
     options->asked = asked_of(command);
     const std::string& named = options->common.file;
-    status = guarded(named.empty() ? options->scene : named, [&] { return run(*options); });
+    nlohmann::ordered_json answer = unwritten_picture(*options);
+    status = guarded(named.empty() ? options->scene : named, [&] { return run(*options, answer); });
+    if (options->json && status != status_usage) print_json(answer);
   });
 }
 

@@ -67,8 +67,9 @@ std::string digest_of(const host::Scene& world) {
 
 std::string asked_of(const CLI::App& command) {
   constexpr std::string_view others[] = {
-      "out",      "threads",      "time-limit",       "checkpoint", "quiet",
-      "no-cache", "compile-here", "checkpoint-every", "cache",      "wait-for-code"};
+      "out",      "threads",      "time-limit",        "checkpoint", "quiet",
+      "no-cache", "compile-here", "checkpoint-every",  "cache",      "wait-for-code",
+      "json",     "lenient",      "warnings-as-errors"};
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0 || std::ranges::any_of(others, [&](auto name) {

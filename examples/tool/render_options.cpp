@@ -39,7 +39,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--spp", settings.samples, "Samples a pixel")
       ->check(number_within(1, 1e9))
       ->capture_default_str();
-  command.add_option("--size", options.size, "Pixels: N or WxH")->capture_default_str();
+  command.add_option("--size", options.size, "Pixels")->capture_default_str()->type_name("N|WxH");
   command.add_option("--out", options.out, "Image to write: .exr or .png")->type_name("FILE");
   command
       .add_option("--write-document", options.document,
@@ -100,6 +100,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--white", options.write.white, "Luminance shown as white; 0: clip; png only")
       ->check(number_within(0, 1e9))
       ->capture_default_str();
+  command.add_flag("--json", options.json,
+                   "For programs to read: an object that says what was written, with its samples");
   command.add_flag("--half", options.write.half, "16-bit floats in .exr");
   add_techniques(command, settings);
   options.passes.add(command);

@@ -36,6 +36,7 @@ struct RenderOptions {
   float dice = 1.0f;               ///< DisplaceSettings::edge; 0: nothing is displaced.
   bool walks = true;               ///< Follow light below surfaces.
   bool energy_conserving = false;  ///< KernelRequest::energy_conserving
+  bool json = false;               ///< Say what was made for programs.
 };
 
 /// Its options; they write to `options`, which lives as long as `command`.

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "examples/common/partial_file.h"
+#include "examples/tool/report.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::tool {
@@ -96,20 +97,22 @@ const char* name_of(int signal) {
   }
 }
 
-std::string complaint(int signal, const std::vector<std::string>& missing,
-                      const std::vector<std::string>& partial, std::size_t promised) {
-  std::string text = "error: stopped by ";
-  text += name_of(signal);
-  for (const std::string& each : partial) text += "; " + printable(each);
+Diagnostic complaint(int signal, const std::vector<std::string>& missing,
+                     const std::vector<std::string>& partial, std::size_t promised) {
+  Diagnostic said;
+  said.code = "stopped";
+  said.message = fmt::format("stopped by {}", name_of(signal));
+  for (const std::string& each : partial) said.message += "; " + printable(each);
   if (!missing.empty()) {
-    text += fmt::format("; expected {} file{}, not written: ", promised, promised == 1 ? "" : "s");
+    std::string& text = said.expected;
+    text = fmt::format("{} file{}, not written: ", promised, promised == 1 ? "" : "s");
     constexpr std::size_t most = 4;
     for (std::size_t i = 0; i < std::min(most, missing.size()); ++i) {
       text += (i == 0 ? "" : ", ") + printable(missing[i]);
     }
     if (missing.size() > most) text += fmt::format(" and {} more", missing.size() - most);
   }
-  return text + " [stopped]\n";
+  return said;
 }
 
 }  // namespace
@@ -173,9 +176,10 @@ void end_stopped() {
   std::string text;
   {
     const std::scoped_lock lock(all.mutex);
-    text = complaint(all.signal, all.missing, all.partial, all.promised.size());
+    text = said_line(complaint(all.signal, all.missing, all.partial, all.promised.size()));
   }
-  if (::isatty(STDERR_FILENO) != 0) text.insert(0, "\r\033[K");  // Over the progress.
+  if (::isatty(STDERR_FILENO) != 0 && !report_form().json)
+    text.insert(0, "\r\033[K");  // Over the progress.
   // Not through stdio: a thread that waits for a full pipe has its lock.
   (void)!::write(STDERR_FILENO, text.data(), text.size());
   const int signal = all.signal;

@@ -46,8 +46,8 @@ bool read_output(const Element& output, const TextureRequest& request, TextureSe
 }  // namespace
 
 void TextureRequest::add(CLI::App& command) {
-  command.add_option("--size", size,
-                     "Texels: N or WxH (default: an output's width and height, else 1024)");
+  command.add_option("--size", size, "Texels (default: an output's width and height, else 1024)")
+      ->type_name("N|WxH");
   command
       .add_option("--bitdepth", bits,
                   "Bits of a channel: 8 or 16 in png, 16 or 32 in exr and tx (default: an "

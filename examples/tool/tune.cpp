@@ -104,10 +104,16 @@ int run(ToolOptions& options) {
   Diagnostics diagnostics;
   if (!options.out.empty()) {
     promise_files({options.out});
-    if (!host::prepare_output(options.out, diagnostics)) return report(diagnostics);
+    if (!host::prepare_output(options.out, diagnostics)) {
+      if (options.json) print_json(Json::array());
+      return report(diagnostics);
+    }
   }
   const Opened opened = open(options.common, diagnostics);
-  if (!opened) return report(diagnostics);
+  if (!opened) {
+    if (options.json) print_json(Json::array());
+    return report(diagnostics);
+  }
   TuneOptions& tuning = options.tune;
   tuning.shader = options.common.shader_options();
   if (!options.has_times) tuning.seconds_a_kernel = 0;
@@ -132,8 +138,7 @@ int run(ToolOptions& options) {
   if (options.json) {
     Json results = Json::array();
     for (const TunedSubject& each : done) results.push_back(as_json(each));
-    // Names come from documents, which may hold bytes that are no UTF-8.
-    fmt::print("{}\n", results.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(results);
   }
   // Half a profile would leave the rest to chance.
   if (!options.out.empty() && !diagnostics.has_errors() && !stop().is_due() &&
@@ -184,7 +189,8 @@ void add_tune(CLI::App& app, int& status) {
       ->type_name("OUT.json");
   command.add_flag("!--no-times", options->has_times,
                    "Do not compile and run what was found to say how long it takes");
-  command.add_flag("--json", options->json, "For programs to read");
+  command.add_flag("--json", options->json,
+                   "For programs to read: a list with an object for each material and output");
   options->common.add_machine(command);
   command.callback([options, &status] {
     status = guarded(options->common.file, [&] { return run(*options); });

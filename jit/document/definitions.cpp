@@ -176,11 +176,10 @@ void Definitions::apply_inheritance(Diagnostics& diagnostics) {
       if (name.empty()) return nullptr;
       const NodeDef* base = resolve_nodedef(name, heir);
       if (base != nullptr) return base->element;
-      diagnostics.error("unknown-nodedef", location(heir),
-                        "the nodedef to inherit from does not exist", "the name of a nodedef",
-                        fmt::format("'{}'", name),
-                        near_hint(diagnostics, name, all(),
-                                  [](const NodeDef* each) { return each->name; }));
+      diagnostics.error(
+          "unknown-nodedef", location(heir), "the nodedef to inherit from does not exist",
+          "the name of a nodedef", fmt::format("'{}'", name),
+          near_hint(diagnostics, name, all(), [](const NodeDef* each) { return each->name; }));
       return nullptr;
     };
     const auto chain = inheritance_chain(*def.element, "nodedef", base_of, diagnostics);

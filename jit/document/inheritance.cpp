@@ -51,8 +51,7 @@ std::vector<const Element*> node_inheritance(const Element& node, Diagnostics& d
     const Element* base = node.parent()->child(name);
     if (base != nullptr && base->category() == node.category()) return base;
     diagnostics.error("unknown-nodename", location(heir), "there is no such node to inherit from",
-                      fmt::format("the name of a <{}>", node.category()),
-                      fmt::format("'{}'", name),
+                      fmt::format("the name of a <{}>", node.category()), fmt::format("'{}'", name),
                       near_hint(diagnostics, name, node.parent()->children(), [&](auto& each) {
                         return each.category() == node.category() ? each.name()
                                                                   : std::string_view();

@@ -259,11 +259,12 @@ const NodeDef* find_nodedef(const Element& instance, const Definitions& definiti
   }
   std::erase_if(candidates, [](const NodeDef* def) { return !is_for_us(def->target); });
   if (candidates.empty()) {
-    diagnostics.error("unknown-node", location(instance), "there is no node of this category",
-                      meant_by(instance.category(), definitions),
-                      fmt::format("<{}>", instance.category().substr(0, 100)),
-                      near_hint(diagnostics, instance.category(), definitions.all(),
-                                [](const NodeDef* each) { return std::string_view(each->category); }));
+    diagnostics.error(
+        "unknown-node", location(instance), "there is no node of this category",
+        meant_by(instance.category(), definitions),
+        fmt::format("<{}>", instance.category().substr(0, 100)),
+        near_hint(diagnostics, instance.category(), definitions.all(),
+                  [](const NodeDef* each) { return std::string_view(each->category); }));
     return nullptr;
   }
   const std::string_view version = instance.attribute("version");

@@ -20,9 +20,11 @@ void Complaints::warning(std::string code, const Element& element, std::string m
 }
 
 bool Complaints::tolerates(std::string code, const Element& element, const std::string& message,
-                           std::string_view so, std::string expected, std::string found, std::string hint) {
+                           std::string_view so, std::string expected, std::string found,
+                           std::string hint) {
   if (!lenient_) {
-    error(std::move(code), element, message, std::move(expected), std::move(found), std::move(hint));
+    error(std::move(code), element, message, std::move(expected), std::move(found),
+          std::move(hint));
     return false;
   }
   warning(std::move(code), element, fmt::format("{}, so {}", message, so), std::move(expected),

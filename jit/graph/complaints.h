@@ -23,7 +23,8 @@ class Complaints {
   /// True, with a warning that ends in `so`, where GraphOptions::lenient goes on; else an
   /// error.
   bool tolerates(std::string code, const Element& element, const std::string& message,
-                 std::string_view so, std::string expected = {}, std::string found = {}, std::string hint = {});
+                 std::string_view so, std::string expected = {}, std::string found = {},
+                 std::string hint = {});
   /// Hands on what was said of an element.
   void add(const Diagnostics& said, const Element& element);
 

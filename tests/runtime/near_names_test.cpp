@@ -37,11 +37,12 @@ TEST(NearNames, LongerNamesMayBeFurther) {
   EXPECT_EQ(near("stnrd_srface", {"standard_surface"}), Names{});
 }
 
-TEST(NearNames, AreThreeAtMostNearestFirstThenByName) {
+TEST(NearNames, AreTheNearestThreeAtMostByName) {
   const Names known{"image5", "image", "imago", "tiledimage", "images", "imagea"};
   EXPECT_EQ(near("imagee", known), (Names{"image", "image5", "imagea"}));
   const Names backwards(known.rbegin(), known.rend());
   EXPECT_EQ(near("imagee", backwards), (Names{"image", "image5", "imagea"}));
+  EXPECT_EQ(near("ND_mix_flaot", {"ND_max_float", "ND_mix_float"}), Names{"ND_mix_float"});
 }
 
 TEST(NearNames, OtherCaseGoesBeforeSlips) {
@@ -61,7 +62,8 @@ TEST(NearNames, OfLongOrEmptyNamesThereAreNone) {
 
 TEST(NearNames, AreOfferedAsFarAsAHintIsWorthIt) {
   NearNames names("target");
-  for (std::size_t i = 0; i < NearNames::most_offered; ++i) names.offer("other" + std::to_string(i));
+  for (std::size_t i = 0; i < NearNames::most_offered; ++i)
+    names.offer("other" + std::to_string(i));
   names.offer("targe");
   EXPECT_EQ(names.names(), Names{});
 }

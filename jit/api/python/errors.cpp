@@ -14,10 +14,9 @@ namespace {
 nb::object errors_module() { return nb::module_::import_("nacre._errors"); }
 
 nb::object as_python(const Diagnostic& one) {
-  return errors_module().attr("Diagnostic")(one.severity, text(one.code), text(one.file), one.line,
-                                            one.column, text(one.path), text(one.message),
-                                            text(one.expected), text(one.found), text(one.text),
-                                            text(one.hint));
+  return errors_module().attr("Diagnostic")(
+      one.severity, text(one.code), text(one.file), one.line, one.column, text(one.path),
+      text(one.message), text(one.expected), text(one.found), text(one.text), text(one.hint));
 }
 
 void set_error(const Error& error) {

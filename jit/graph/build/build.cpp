@@ -82,8 +82,7 @@ class GraphBuild {
     }
     diagnostics_.error("unknown-request", at_root(document_, name),
                        "the document has no such node, output or input",
-                       "NODE, NODE/PORT or GRAPH/...", fmt::format("'{}'", name),
-                       near_value(name));
+                       "NODE, NODE/PORT or GRAPH/...", fmt::format("'{}'", name), near_value(name));
   }
 
   void add_material(const std::string& name) {
@@ -164,9 +163,8 @@ class GraphBuild {
                                : find_element(document_, name.substr(0, slash));
     if (scope == nullptr) return near_output(name);
     const std::string before = slash == std::string::npos ? "" : name.substr(0, slash + 1);
-    return near_hint(diagnostics_, name, scope->children(), [&](const Element& each) {
-      return before + std::string(each.name());
-    });
+    return near_hint(diagnostics_, name, scope->children(),
+                     [&](const Element& each) { return before + std::string(each.name()); });
   }
 
   void check_variant(const VariantChoice& choice) {

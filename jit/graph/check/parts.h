@@ -35,11 +35,13 @@ class ElementCheck {
   void tolerable(std::string code, const Element& element, std::string message, std::string_view so,
                  std::string expected = {}, std::string found = {}, std::string hint = {}) {
     if (!lenient_) {
-      error(std::move(code), element, std::move(message), std::move(expected), std::move(found), std::move(hint));
+      error(std::move(code), element, std::move(message), std::move(expected), std::move(found),
+            std::move(hint));
       return;
     }
     message.append(", so ").append(so);
-    warning(std::move(code), element, std::move(message), std::move(expected), std::move(found), std::move(hint));
+    warning(std::move(code), element, std::move(message), std::move(expected), std::move(found),
+            std::move(hint));
   }
 
   Diagnostics& diagnostics_;

@@ -89,13 +89,12 @@ Connection connect_to_nodegraph(const Element& port, Diagnostics& diagnostics, b
   const Element* target = find_in(scope_of(port), name, port);
   if (target == nullptr) target = find_in(port.document().root(), name, port);
   if (target == nullptr || target->category() != "nodegraph") {
-    diagnostics.error("unknown-nodegraph", location(port), "there is no node graph of this name",
-                      "the name of a node graph", fmt::format("'{}'", name),
-                      near_hint(diagnostics, name, port.document().root().children(),
-                                [](const Element& child) {
-                                  return child.category() == "nodegraph" ? child.name()
-                                                                         : std::string_view();
-                                }));
+    diagnostics.error(
+        "unknown-nodegraph", location(port), "there is no node graph of this name",
+        "the name of a node graph", fmt::format("'{}'", name),
+        near_hint(diagnostics, name, port.document().root().children(), [](const Element& child) {
+          return child.category() == "nodegraph" ? child.name() : std::string_view();
+        }));
     return invalid();
   }
   return connect_to_graph(port, *target, diagnostics, lenient);

@@ -164,8 +164,8 @@ std::optional<std::uint32_t> Instances::output_index(const NodeDef& def, std::st
   const std::string hint = near_hint(complaints_.diagnostics(), name, def.outputs,
                                      [](const NodeDefOutput& output) { return output.name; });
   if (def.outputs.size() == 1 && leaf == 0) {
-    const bool takes_only = complaints_.tolerates(
-        "unknown-output", user, message, "its only one is taken", names, found, hint);
+    const bool takes_only = complaints_.tolerates("unknown-output", user, message,
+                                                  "its only one is taken", names, found, hint);
     return takes_only ? std::optional<std::uint32_t>(0) : std::nullopt;
   }
   complaints_.error("unknown-output", user, message, names, found, hint);

@@ -1,0 +1,92 @@
+#include "examples/tool/usage.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "examples/tool/report.h"
+#include "runtime/near_names.h"
+
+namespace nacre::tool {
+
+namespace {
+
+/// Of all options, as they are typed.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (!command->get_group().empty()) names.push_back(command->get_name());
+  }
+  return names;
+}
+
+Diagnostic fault(std::string message) {
+  Diagnostic said;
+  said.code = "usage";
+  said.message = std::move(message);
+  return said;
+}
+
+/// Of the first word that means nothing.
+Diagnostic unexpected(const CLI::App& app, const CLI::App& command, const std::string& word) {
+  const std::string called =
+      &command == &app ? app.get_name() : app.get_name() + ' ' + command.get_name();
+  const std::string name = word.substr(0, word.find('='));
+  if (name.starts_with("--")) {
+    Diagnostic said = fault(fmt::format("{} has no option {}", called, name));
+    said.hint = near_hint({}, name, option_names(command));
+    return said;
+  }
+  if (name.starts_with('-')) return fault(fmt::format("{} has no option {}", called, name));
+  if (&command != &app) return fault(fmt::format("{} takes no further '{}'", called, word));
+  Diagnostic said = fault(fmt::format("{} has no command '{}'", called, word));
+  said.hint = near_hint({}, word, command_names(app));
+  return said;
+}
+
+}  // namespace
+
+const CLI::App& meant_command(const CLI::App& app) {
+  const std::vector<CLI::App*> named = app.get_subcommands();
+  return named.empty() ? app : *named.front();
+}
+
+Diagnostic usage_fault(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = meant_command(app);
+  // Before what is missing because of it.
+  const std::vector<std::string> extras = command.remaining();
+  if (&command == &app && !extras.empty()) return unexpected(app, command, extras.front());
+  for (const std::string& word : extras) {
+    if (word.starts_with("--") && word.size() > 2) return unexpected(app, command, word);
+  }
+  if (!extras.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    return unexpected(app, command, extras.front());
+  }
+  if (&command != &app) return fault(error.what());
+  Diagnostic said = fault("a command is missing");
+  said.expected = fmt::format("one of {}", fmt::join(command_names(app), ", "));
+  return said;
+}
+
+void report_usage(const CLI::App& app, const CLI::ParseError& error) {
+  std::string text = said_line(usage_fault(app, error));
+  if (!report_form().json) {
+    const CLI::App& command = meant_command(app);
+    text += fmt::format("See: {}{} --help\n", app.get_name(),
+                        &command == &app ? "" : ' ' + command.get_name());
+  }
+  std::fputs(text.c_str(), stderr);
+}
+
+}  // namespace nacre::tool
