@@ -71,13 +71,13 @@ std::vector<std::string> NearNames::names() const {
   return names;
 }
 
-std::string NearNames::hint() const {
+std::string NearNames::hint(std::string_view before) const {
   const std::vector<std::string> near = names();
   if (near.empty()) return {};
   std::string list;
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (i > 0) list += i + 1 < near.size() ? ", " : " or ";
-    list += fmt::format("'{}'", near[i]);
+    list += fmt::format("'{}{}'", before, near[i]);
   }
   if (near_.front().slips == 0) return "it differs only in case from " + list;
   return fmt::format("did you mean {}?", list);

@@ -32,8 +32,8 @@ class NearNames {
   std::vector<std::string> names() const;
 
   /// For Diagnostic::hint: "it differs only in case from 'Mix'", "did you mean 'mix' or 'min'?";
-  /// "" where nothing is near.
-  std::string hint() const;
+  /// "" where nothing is near. `before` stands before each name.
+  std::string hint(std::string_view before = {}) const;
 
  private:
   struct Near {

@@ -62,7 +62,8 @@ std::vector<Command> commands() {
 }
 
 constexpr const char* answers =
-    "With --json standard output has one JSON document and nothing else, of what failed too (status "
+    "With --json standard output has one JSON document and nothing else, of what failed too "
+    "(status "
     "2: none), and standard error a JSON object a line for each thing said: severity, code, file, "
     "line, column, path, message, expected, found, hint as far as known, and text, all in one.";
 

@@ -77,7 +77,8 @@ std::string bash_command(const CLI::App& command) {
   }
   const auto words = positional_words(command);
   text += fmt::format(
-      "      esac\n      if [[ $current == -* ]]; then _nacre_words '{}'\n      else {}\n      fi ;;\n",
+      "      esac\n      if [[ $current == -* ]]; then _nacre_words '{}'\n      else {}\n      fi "
+      ";;\n",
       all_names(options),
       words.empty() ? "documents" : fmt::format("_nacre_words '{}'", fmt::join(words, " ")));
   for (const char* kind : {"folders", "files", "documents"}) {
@@ -87,7 +88,8 @@ std::string bash_command(const CLI::App& command) {
   return text;
 }
 
-constexpr const char* bash_head = R"(# Completion of nacre for bash. Made by `nacre completion bash`.
+constexpr const char* bash_head =
+    R"(# Completion of nacre for bash. Made by `nacre completion bash`.
 
 _nacre_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$current"); }
 _nacre_files() {
@@ -151,14 +153,14 @@ std::string zsh_command(const CLI::App& command) {
   std::string text = fmt::format("    {})\n      _arguments", command.get_name());
   for (const OptionText& each : typed_options(command)) {
     for (const std::string& name : each.names) {
-      text += fmt::format(" \\\n        '*{}[{}]{}'", name, zsh_text(brief(each)),
-                          zsh_values(each));
+      text +=
+          fmt::format(" \\\n        '*{}[{}]{}'", name, zsh_text(brief(each)), zsh_values(each));
     }
   }
   const auto words = positional_words(command);
-  return text + (words.empty() ? " \\\n        '1:document:_files -g \"*.mtlx\"' ;;\n"
-                               : fmt::format(" \\\n        '1:word:({})' ;;\n",
-                                             fmt::join(words, " ")));
+  return text + (words.empty()
+                     ? " \\\n        '1:document:_files -g \"*.mtlx\"' ;;\n"
+                     : fmt::format(" \\\n        '1:word:({})' ;;\n", fmt::join(words, " ")));
 }
 
 std::string zsh_script(const CLI::App& app) {
@@ -169,11 +171,12 @@ std::string zsh_script(const CLI::App& app) {
       text += fmt::format(" \\\n    '{}[{}]'", name, zsh_text(brief(each)));
     }
   }
-  text += " \\\n    '1: :->command' '*::argument:->argument'\n  case $state in\n    command)\n"
-          "      local -a commands=(\n";
+  text +=
+      " \\\n    '1: :->command' '*::argument:->argument'\n  case $state in\n    command)\n"
+      "      local -a commands=(\n";
   for (const CLI::App* command : shown_commands(app)) {
-    text += fmt::format("        '{}:{}'\n", command->get_name(),
-                        zsh_text(command->get_description()));
+    text +=
+        fmt::format("        '{}:{}'\n", command->get_name(), zsh_text(command->get_description()));
   }
   text += "      )\n      _describe command commands ;;\n    argument)\n  case $line[1] in\n";
   for (const CLI::App* command : shown_commands(app)) text += zsh_command(*command);

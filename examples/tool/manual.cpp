@@ -4,9 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <memory>
 
+#include "examples/common/atomic_file.h"
 #include "examples/tool/commands.h"
+#include "examples/tool/completion.h"
 #include "examples/tool/option_text.h"
 #include "examples/tool/options.h"
 
@@ -58,7 +62,8 @@ std::string option_list(const CLI::App& command) {
     if (option.is_positional) continue;
     if (option.group != group) text += fmt::format(".SS {}\n", escaped(option.group));
     group = option.group;
-    text += fmt::format(".TP\n\\fB{}\\fR", escaped(fmt::format("{}", fmt::join(option.names, ", "))));
+    text +=
+        fmt::format(".TP\n\\fB{}\\fR", escaped(fmt::format("{}", fmt::join(option.names, ", "))));
     if (!option.value.empty()) text += fmt::format(" \\fI{}\\fR", escaped(option.value));
     text += '\n' + escaped(option.text + option.notes) + '\n';
   }
@@ -68,9 +73,9 @@ std::string option_list(const CLI::App& command) {
 std::string example_list(const CLI::App& command) {
   std::string text;
   for (const std::string& line : help_of(command).examples) {
-    text += fmt::format(".PP\n.nf\n.RS 4\n{}\n.RE\n.fi\n", escaped(line));
+    text += escaped(line) + '\n';
   }
-  return text;
+  return text.empty() ? text : ".nf\n.RS 4\n" + text + ".RE\n.fi\n";
 }
 
 std::string see_also(const CLI::App& app, const CLI::App& command) {
@@ -89,10 +94,11 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
   const bool is_program = &command == &app;
   const std::string called =
       is_program ? app.get_name() : app.get_name() + '-' + command.get_name();
-  std::string text = fmt::format(".\\\" Made by `{} manual`.\n.TH {} 1 \"\" \"{} {}\"\n",
-                                 app.get_name(), escaped(called), app.get_name(), NACRE_TOOL_VERSION);
-  text += section("NAME") + fmt::format("{} \\- {}\n", escaped(called),
-                                        escaped(command.get_description()));
+  std::string text =
+      fmt::format(".\\\" Made by `{} manual`.\n.TH {} 1 \"\" \"{} {}\"\n", app.get_name(),
+                  escaped(called), app.get_name(), NACRE_TOOL_VERSION);
+  text += section("NAME") +
+          fmt::format("{} \\- {}\n", escaped(called), escaped(command.get_description()));
   text += section("SYNOPSIS");
   if (is_program) {
     text += fmt::format(".B {}\n.I COMMAND\n[\\fIOPTION\\fR]...\n", app.get_name());
@@ -110,12 +116,37 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
                           escaped(each->get_description()));
     }
   }
-  text += section("DESCRIPTION") + paragraphs(command.get_description() + ".\n\n" +
-                                              command.get_footer());
+  text += section("DESCRIPTION") +
+          paragraphs(command.get_description() + ".\n\n" + command.get_footer());
   text += section("OPTIONS") + option_list(command);
   text += section("EXAMPLES") + example_list(command);
   return text + section("SEE ALSO") + see_also(app, command);
 }
+
+namespace {
+
+/// Files below `folder`.
+int write_all(const CLI::App& app, const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files{
+      {"man/man1/nacre.1", manual_page(app, app)},
+      {"bash-completion/completions/nacre", completion_script(app, "bash")},
+      {"fish/vendor_completions.d/nacre.fish", completion_script(app, "fish")},
+      {"zsh/site-functions/_nacre", completion_script(app, "zsh")}};
+  for (const CLI::App* each : shown_commands(app)) {
+    files[fmt::format("man/man1/nacre-{}.1", each->get_name())] = manual_page(app, *each);
+  }
+  Diagnostics diagnostics;
+  for (const auto& [name, text] : files) {
+    const std::string file = (folder / name).string();
+    if (!host::prepare_output(file, diagnostics) ||
+        !host::write_text_atomically(file, text, diagnostics)) {
+      break;
+    }
+  }
+  return report(diagnostics);
+}
+
+}  // namespace
 
 void add_manual(CLI::App& app, int& status) {
   CLI::App& command = *app.add_subcommand("manual", "Print a page of the manual, in man(7)");
@@ -126,7 +157,14 @@ void add_manual(CLI::App& app, int& status) {
   command.add_option("COMMAND", *name, "The command whose page it is (default: the program's)")
       ->check(CLI::IsMember(names))
       ->type_name("COMMAND");
-  command.callback([&app, &status, name] {
+  const auto folder = std::make_shared<std::string>();
+  command.add_option("--write", *folder, "Write all pages, and completions, below this folder")
+      ->type_name("DIR");
+  command.callback([&app, &status, name, folder] {
+    if (!folder->empty()) {
+      status = write_all(app, *folder);
+      return;
+    }
     const CLI::App* of = &app;
     if (!name->empty()) of = app.get_subcommand(*name);
     fmt::print("{}", manual_page(app, *of));

@@ -34,7 +34,8 @@ std::string shown_type(const std::string& type) {
   return type == "FLOAT" ? "X" : type;
 }
 
-/// CLI11 has the type, and behind colons what validators say: "TEXT:{exr,png}", "INT:INT in [1 - 9]".
+/// CLI11 has the type, and behind colons what validators say: "TEXT:{exr,png}", "INT:INT in [1 -
+/// 9]".
 void read_type(const CLI::Option& option, OptionText& text) {
   if (option.get_type_size() == 0) return;
   const std::string all = option.get_type_name();

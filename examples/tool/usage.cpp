@@ -14,11 +14,11 @@ namespace nacre::tool {
 
 namespace {
 
-/// Of all options, as they are typed.
+/// Of all options, without what stands before all of them.
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
   }
   return names;
 }
@@ -45,7 +45,9 @@ Diagnostic unexpected(const CLI::App& app, const CLI::App& command, const std::s
   const std::string name = word.substr(0, word.find('='));
   if (name.starts_with("--")) {
     Diagnostic said = fault(fmt::format("{} has no option {}", called, name));
-    said.hint = near_hint({}, name, option_names(command));
+    NearNames near(std::string_view(name).substr(2));
+    for (const std::string& each : option_names(command)) near.offer(each);
+    said.hint = near.hint("--");
     return said;
   }
   if (name.starts_with('-')) return fault(fmt::format("{} has no option {}", called, name));

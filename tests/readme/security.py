@@ -10,11 +10,11 @@ import subprocess
 import sys
 
 ROW = re.compile(r"^\| `(--[a-z-]+)` \| ([0-9.]+) \|.*\| `(\w+)::(\w+)` \|$", re.MULTILINE)
-OPTION = re.compile(r"^  (--max-[a-z-]+) [^\n]*?=([0-9.]+)(?= |$)", re.MULTILINE)
+OPTION = re.compile(r"^  (--max-[a-z-]+) (?:(?!^  -).)*?\(default:\s+([0-9.]+)\)", re.MULTILINE | re.DOTALL)
 
 
 def shown(nacre: str, command: str) -> dict[str, str]:
-    text = subprocess.run([nacre, command, "--help"], capture_output=True, text=True, check=True).stdout
+    text = subprocess.run([nacre, command, "--help-all"], capture_output=True, text=True, check=True).stdout
     limits = text[text.index("Limits, beyond which"):]
     return dict(OPTION.findall(limits))
 
@@ -29,7 +29,7 @@ def main() -> int:
         listed = {flag: default for flag, default, structure, _ in rows
                   if structure != "SceneLimits" or command in ("bake", "render")}
         if not limits:
-            faults.append(f"nacre {command} --help shows no limits")
+            faults.append(f"nacre {command} --help-all shows no limits")
         for flag in sorted(limits.keys() | listed.keys()):
             said, is_there = listed.get(flag, "nothing"), limits.get(flag, "nothing")
             if said != is_there:

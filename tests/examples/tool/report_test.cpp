@@ -126,9 +126,9 @@ TEST_F(Report, ConvertAndRenderSayWhatTheyWrote) {
   EXPECT_EQ(answer()["written"], true);
   EXPECT_EQ(run("convert --json " + mtlx + " --out " + file("a.mtlx/b.mtlx")), 1);
   EXPECT_EQ(answer()["written"], false);
-  EXPECT_EQ(run("render --json " + mtlx + " --size 8x4 --spp 2 --out " + file("a.exr") +
-                " --aov albedo"),
-            0)
+  EXPECT_EQ(
+      run("render --json " + mtlx + " --size 8x4 --spp 2 --out " + file("a.exr") + " --aov albedo"),
+      0)
       << errors_;
   const Json picture = answer();
   EXPECT_EQ(picture["file"], file("a.exr"));

@@ -77,6 +77,17 @@ def test_what_the_program_says_is_an_error(tmp_path):
     assert first.file == str(broken)
 
 
+@pytest.mark.parametrize("run", [nacre.inspect, nacre.render])  # As objects, and as lines.
+def test_what_was_meant_is_said(run, tmp_path):
+    more = {"out": tmp_path / "a.png"} if run is nacre.render else {}
+    with pytest.raises(nacre.Error) as caught:
+        run(MARBLE, material="marble_3d", no_cache=True, **more)
+    said = [each for each in caught.value.diagnostics if each.hint]
+    assert [each.hint for each in said] == ["it differs only in case from 'Marble_3D'"]
+    assert said[0].code in ("unknown-request", "unknown-material") and str(said[0]).endswith(
+        f"; {said[0].hint} [{said[0].code}]" + (f" ({said[0].path})" if said[0].path else ""))
+
+
 def test_what_the_program_warns_of_is_a_warning(tmp_path):
     text = """<materialx version="1.39">
       <image name="I" type="color3"><input name="file" type="filename" value="none.png"/></image>
