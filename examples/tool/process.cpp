@@ -69,7 +69,8 @@ void terminated() {
   } catch (const std::bad_alloc&) {
     say(report_form().json
             ? R"({"severity":"error","code":"out-of-memory","message":"this needs more memory than )"
-              "there is\"}\n"
+              R"(there is","text":"error: this needs more memory than there is [out-of-memory]"})"
+              "\n"
             : "error: this needs more memory than there is [out-of-memory]\n");
     end_with_problems();
   } catch (const std::system_error& error) {
