@@ -39,7 +39,7 @@ class Check:
                   "function=$(complete -p nacre); function=${function#*-F }; function=${function%% *}\n"
                   f"COMP_WORDS=(nacre {line}); COMP_CWORD={len(words)}\n"
                   "$function nacre; printf '%s\\n' \"${COMPREPLY[@]}\"")
-        return set(output_of("bash", "--norc", "-ec", script, folder=folder).split("\n")) - {""}
+        return set(output_of("bash", "--norc", "-c", script, folder=folder).split("\n")) - {""}
 
     def want(self, what: str, found: set[str], wanted: set[str]) -> None:
         for name in sorted(found ^ wanted):
@@ -100,7 +100,7 @@ class Check:
 
 
 def main() -> int:
-    faults = Check(pathlib.Path(sys.argv[1])).run()
+    faults = Check(pathlib.Path(sys.argv[1]).resolve()).run()
     print("\n".join(faults))
     return 1 if faults else 0
 
