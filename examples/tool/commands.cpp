@@ -92,7 +92,7 @@ void add_commands(CLI::App& app, int& status) {
   app.footer(exit_statuses);
   set_help(app, {{},
                  {"nacre bake marble.mtlx --size 1024 --out textures",
-                  "nacre render marble.mtlx --material Marble_3D --spp 64 --out marble.png",
+                  "nacre render marble.mtlx --material Marble --spp 64 --out marble.png",
                   "nacre check marble.mtlx"}});
 }
 

@@ -140,11 +140,10 @@ int finish_output(int status) {
   std::cout.flush();  // CLI11's, after it: it empties the same buffer and keeps no reason.
   if (output_error == 0 && std::ferror(stdout) == 0 && std::cout) return status;
   const int reason = output_error;
-  const Diagnostic said{.code = "cannot-write",
-                        .where = {},
-                        .message = "standard output could not be written",
-                        .expected = {},
-                        .found = reason != 0 ? std::strerror(reason) : ""};
+  Diagnostic said;
+  said.code = "cannot-write";
+  said.message = "standard output could not be written";
+  if (reason != 0) said.found = std::strerror(reason);
   std::fputs(said_line(said).c_str(), stderr);
   return status == status_ok ? status_problems : status;
 }

@@ -16,7 +16,6 @@
 #include "examples/render/displace.h"
 #include "examples/render/image_io.h"
 #include "examples/render/load_scene.h"
-#include "examples/render/media.h"
 #include "examples/render/mesh.h"
 #include "examples/render/nested_solids.h"
 #include "examples/tool/assignment.h"
@@ -31,6 +30,7 @@
 #include "examples/tool/render_answer.h"
 #include "examples/tool/render_checkpoint.h"
 #include "examples/tool/render_options.h"
+#include "examples/tool/render_report.h"
 #include "examples/tool/scene_materials.h"
 #include "examples/tool/size.h"
 #include "examples/tool/stop.h"
@@ -321,33 +321,6 @@ void displace(const RenderOptions& options, host::Scene& world, const host::Rend
                       fmt::format("{} that are not", result.invalid));
 }
 
-void report_invalid_results(const host::RenderStatistics& statistics, Diagnostics& diagnostics) {
-  if (statistics.invalid_results == 0) return;
-  diagnostics.warning("invalid-results", {},
-                      "some results of kernels were not finite and were left out", "finite numbers",
-                      fmt::format("{} that were not", statistics.invalid_results));
-}
-
-/// What was left out of media.
-void report_media(const host::RenderStatistics& statistics, Diagnostics& diagnostics) {
-  if (statistics.paths_cut != 0) {
-    diagnostics.warning("paths-cut", {},
-                        "some light was scattered too often in media and is missing",
-                        "more --max-scatterings",
-                        fmt::format("{} of {} paths", statistics.paths_cut, statistics.paths));
-  }
-  if (statistics.beyond_bound != 0) {
-    diagnostics.warning("dense-volume", {},
-                        "a volume is denser in places than was found before: more noise there", {},
-                        fmt::format("{} times", statistics.beyond_bound));
-  }
-  if (statistics.media_dropped != 0) {
-    diagnostics.warning("media-dropped", {}, "some media lie in too many others and were left out",
-                        fmt::format("{} within one another", host::Media::capacity),
-                        fmt::format("{} times", statistics.media_dropped));
-  }
-}
-
 /// Whether the image that is to be written holds them.
 void check_passes(const RenderOptions& options, Diagnostics& diagnostics) {
   const host::PassRequest& passes = options.settings.passes;
@@ -463,8 +436,7 @@ int run(RenderOptions& options, nlohmann::ordered_json& answer) {
                                     .checkpoint = checkpoint ? &*checkpoint : nullptr};
   host::RenderStatistics statistics;
   const auto film = host::render(input, options.settings, diagnostics, control, &statistics);
-  report_invalid_results(statistics, diagnostics);
-  report_media(statistics, diagnostics);
+  report_left_out(statistics, diagnostics);
   report_failed(opened, assignments, shaders, lights, diagnostics);
   for (const BoundKernel* kernel : kernels) {
     report_code(*kernel, options.common.shader_options(), diagnostics);

@@ -30,12 +30,11 @@ std::string left_out(const Diagnostics& diagnostics) {
     if (each.severity == Severity::warning) --warnings;
   }
   if (errors == 0 && warnings == 0) return {};
-  return said_line({.severity = Severity::note,
-                    .code = "more",
-                    .where = {},
-                    .message = fmt::format("{} more errors and {} more warnings", errors, warnings),
-                    .expected = {},
-                    .found = {}});
+  Diagnostic said;
+  said.severity = Severity::note;
+  said.code = "more";
+  said.message = fmt::format("{} more errors and {} more warnings", errors, warnings);
+  return said_line(said);
 }
 
 std::string text_of(const Diagnostics& diagnostics) {
@@ -85,12 +84,12 @@ int report(const Diagnostics& diagnostics) {
   const std::size_t warnings = diagnostics.warning_count();
   const bool counts = report_form().warnings_as_errors && warnings > 0;
   if (counts) {
-    text += said_line({.severity = Severity::error,
-                       .code = "warnings-as-errors",
-                       .where = {},
-                       .message = "warnings count as errors here",
-                       .expected = "none",
-                       .found = fmt::format("{}", warnings)});
+    Diagnostic said;
+    said.code = "warnings-as-errors";
+    said.message = "warnings count as errors here";
+    said.expected = "none";
+    said.found = fmt::format("{}", warnings);
+    text += said_line(said);
   }
   std::fputs(text.c_str(), stderr);
   return diagnostics.has_errors() || counts ? status_problems : status_ok;

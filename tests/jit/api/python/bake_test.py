@@ -81,9 +81,9 @@ def test_what_the_program_says_is_an_error(tmp_path):
 def test_what_was_meant_is_said(run, tmp_path):
     more = {"out": tmp_path / "a.png"} if run is nacre.render else {}
     with pytest.raises(nacre.Error) as caught:
-        run(MARBLE, material="marble_3d", no_cache=True, **more)
+        run(MARBLE, material="marble", no_cache=True, **more)
     said = [each for each in caught.value.diagnostics if each.hint]
-    assert [each.hint for each in said] == ["it differs only in case from 'Marble_3D'"]
+    assert [each.hint for each in said] == ["it differs only in case from 'Marble'"]
     assert said[0].code in ("unknown-request", "unknown-material") and str(said[0]).endswith(
         f"; {said[0].hint} [{said[0].code}]" + (f" ({said[0].path})" if said[0].path else ""))
 
