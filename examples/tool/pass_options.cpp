@@ -191,8 +191,8 @@ std::string pass_help() {
   text +=
       "  crypto_object, crypto_material                  Cryptomatte 1.2, six names a pixel\n"
       "  GRAPH/NODE                                      a value of the graph, or input of a node\n"
-      "direct and indirect passes are by what light last left before the camera; albedo, normal\n"
-      "and what follows are of the first surface that does not let the ray through.\n";
+      "direct and indirect passes are by what light last left before the camera; albedo, normal "
+      "and what follows are of the first surface that does not let the ray through.";
   return text;
 }
 
