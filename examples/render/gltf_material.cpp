@@ -115,10 +115,9 @@ bool read_extension(std::string_view name, const GltfValue& e, Reader& reader, S
     to.dispersion = reader.number(e["dispersion"], 0.f, largest);
   } else if (name == "KHR_materials_pbrSpecularGlossiness") {
     to.base_color = reader.textured<4>(e, "diffuseFactor", "diffuseTexture", {1.f, 1.f, 1.f, 1.f});
-    auto& glossy = to.glossy.emplace();
-    glossy.specular = reader.color<3>(e["specularFactor"], {1.f, 1.f, 1.f});
-    glossy.glossiness = reader.number(e["glossinessFactor"], 1.f);
-    glossy.texture = reader.texture(e["specularGlossinessTexture"]);
+    to.glossy = SceneMaterial::Glossy{reader.color<3>(e["specularFactor"], {1.f, 1.f, 1.f}),
+                                      reader.number(e["glossinessFactor"], 1.f),
+                                      reader.texture(e["specularGlossinessTexture"])};
   } else {
     return false;
   }
