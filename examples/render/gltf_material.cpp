@@ -87,7 +87,7 @@ bool read_extension(std::string_view name, const GltfValue& e, Reader& reader, S
   } else if (name == "KHR_materials_transmission") {
     to.transmission = reader.textured(e, "transmissionFactor", "transmissionTexture", 0.f);
   } else if (name == "KHR_materials_volume") {
-    auto& volume = to.volume.emplace();
+    auto& volume = to.volume.emplace(SceneMaterial::Volume{});  // Clang 19 asks for the braces.
     volume.thickness = reader.textured(e, "thicknessFactor", "thicknessTexture", 0.f, 1e30);
     if (e["attenuationDistance"]) {
       volume.attenuation_distance = reader.number(e["attenuationDistance"], 1.f, 1e30, 1e-30);
