@@ -155,7 +155,7 @@ class GltfReader {
     const auto local = animation_.local_motion(number, node);
     if (!local) return nullptr;
     const bool moves = !parent.is_still() || !local->is_still();
-    const SourceLocation where{root_.report().file, 0, 0, node.path()};
+    const SourceLocation where = node.location();
     const std::size_t bytes = steps_of_product(parent, *local) * sizeof(Affine);
     if (moves && !budget_.take_bytes(where, bytes)) return nullptr;
     auto world = std::make_shared<const Motion>(parent * *local);
@@ -225,7 +225,7 @@ class GltfReader {
       if (is_baked) bake_transform(mesh, places->front().still());
       // glTF 2.0, 3.7.2.1: without normals faces are flat, and tangents do not count.
       if (mesh.normal.empty()) mesh.tangent.clear();
-      const SourceLocation where{root_.report().file, 0, 0, primitives[i].path()};
+      const SourceLocation where = primitives[i].location();
       Diagnostics& diagnostics = root_.report().diagnostics;
       const bool is_whole = mesh.is_fibres()
                                 ? finish_fibres(mesh, where, diagnostics)

@@ -150,7 +150,7 @@ std::optional<GltfAccessor> GltfAccessors::sparse(const GltfValue& a, const Form
   // A count is any number that the file says.
   constexpr std::size_t most = std::size_t{1} << 40;
   const std::size_t size = form.count > most ? most : form.count * element;
-  if (!budget_.take_bytes({a.report().file, 0, 0, a.path()}, size)) return {};
+  if (!budget_.take_bytes(a.location(), size)) return {};
   std::string& bytes = made_.emplace_back(form.count * element, '\0');
   for (std::size_t i = 0; base && i < form.count; ++i) {
     std::memcpy(&bytes[i * element], base->data + i * base->stride, element);

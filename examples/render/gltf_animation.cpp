@@ -193,7 +193,7 @@ std::optional<Motion> GltfAnimation::local_motion(std::size_t number, const Gltf
   }
   // The most that the segments may take.
   const std::size_t bytes = (bounds.size() - 1) * (Motion::most_steps + 1) * sizeof(Affine);
-  if (!budget_.take_bytes({node.report().file, 0, 0, node.path()}, bytes)) return {};
+  if (!budget_.take_bytes(node.location(), bytes)) return {};
   std::vector<Motion::Segment> segments;
   for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
     segments.push_back(segment(found->second, still, bounds[i], bounds[i + 1]));

@@ -155,8 +155,7 @@ std::optional<std::string> GltfBuffers::read_file(const GltfValue& uri, const st
               uri.shown());
     return {};
   }
-  return read_scene_file(wanted.string(), {uri.report().file, 0, 0, uri.path()}, file_bytes_,
-                         uri.report().diagnostics);
+  return read_scene_file(wanted.string(), uri.location(), file_bytes_, uri.report().diagnostics);
 }
 
 }  // namespace nacre::host

@@ -14,8 +14,6 @@ namespace {
 /// Between these, vertices run straight.
 constexpr std::size_t most_steps = 16;
 
-SourceLocation place(const GltfValue& value) { return {value.report().file, 0, 0, value.path()}; }
-
 Vec3 at(const std::vector<float>& values, std::size_t i) {
   return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
 }
@@ -50,7 +48,7 @@ std::optional<std::vector<float>> GltfDeform::offsets(const GltfValue& index,
                 fmt::format("{} of {}", a->count, a->components));
     return {};
   }
-  if (!budget_.take_bytes(place(index), 12 * vertices)) return {};
+  if (!budget_.take_bytes(index.location(), 12 * vertices)) return {};
   std::vector<float> values = GltfAccessors::floats(*a);
   if (std::ranges::all_of(values, [](float v) { return std::isfinite(v); })) return values;
   index.error("an offset of the morph target is not finite", "finite numbers", "one that is not");
@@ -95,7 +93,8 @@ bool GltfDeform::apply(const GltfValue& node, std::size_t node_number, const Glt
   if (skin != nullptr && !skin->is_still())
     steps = std::max({steps, skin->steps(), std::size_t{1}});
   steps = steps == 0 ? 0 : std::min(std::bit_ceil(steps), most_steps);
-  if (!budget_.take_bytes(place(primitive), steps * vertices * sizeof(float) * 10)) return false;
+  if (!budget_.take_bytes(primitive.location(), steps * vertices * sizeof(float) * 10))
+    return false;
 
   const MeshPose rest{mesh.position, mesh.normal, mesh.tangent};
   const auto pose_at = [&](float time) {

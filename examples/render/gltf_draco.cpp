@@ -90,7 +90,7 @@ bool unpack_draco(const GltfValue& root, const GltfValue& primitive, GltfBuffers
   if (!extension) return true;
   const auto packed = buffers.view(extension["bufferView"]);
   if (!packed) return false;
-  const SourceLocation where{extension.report().file, 0, 0, extension.path()};
+  const SourceLocation where = extension.location();
   const auto declared = declared_elements(*packed);
   if (!declared) {
     extension.error("the compressed mesh cannot be unpacked",

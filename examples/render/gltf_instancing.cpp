@@ -43,7 +43,7 @@ std::optional<std::vector<float>> GltfInstancing::read(const GltfValue& index, i
   count = a->count;
   // A motion each, and the three lists of what they are made of.
   const std::size_t bytes = count * (sizeof(Motion) + sizeof(Affine) + 4 * 10);
-  if (!budget_.take_bytes({index.report().file, 0, 0, index.path()}, bytes)) return {};
+  if (!budget_.take_bytes(index.location(), bytes)) return {};
   std::vector<float> values = GltfAccessors::floats(*a);
   const auto bad = std::ranges::find_if(values, [](float v) { return !std::isfinite(v); });
   if (bad == values.end()) return values;
@@ -98,7 +98,7 @@ std::optional<std::vector<Motion>> GltfInstancing::places(const GltfValue& node,
     if (!attributes.need("an object of attributes")) return {};
     const auto own = offsets(attributes);
     if (!own) return {};
-    const SourceLocation where{node.report().file, 0, 0, extension.path()};
+    const SourceLocation where = extension.location();
     for (const Affine& offset : *own) {
       const std::size_t bytes = world.is_still() ? 0 : world.steps() * sizeof(Affine);
       if (!budget_.take_bytes(where, bytes)) return {};
@@ -118,7 +118,7 @@ std::optional<std::vector<Motion>> GltfInstancing::places(const GltfValue& node,
 
 bool GltfInstancing::place(Mesh& mesh, const std::vector<Motion>& places,
                            const GltfValue& primitive) {
-  const SourceLocation where{primitive.report().file, 0, 0, primitive.path()};
+  const SourceLocation where = primitive.location();
   const Bounds own = vertex_bounds(mesh);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Motion& motion = places[i];

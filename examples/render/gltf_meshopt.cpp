@@ -51,8 +51,7 @@ std::optional<std::string> unpack_meshopt(const GltfValue& extension, std::strin
   }
   if (*count > most_bytes / *stride) {
     extension.report().diagnostics.error(
-        "file-too-large", {extension.report().file, 0, 0, extension.path()},
-        "the files of the scene are too large",
+        "file-too-large", extension.location(), "the files of the scene are too large",
         fmt::format("at most {} bytes more (--max-scene-file-size)", most_bytes),
         fmt::format("{} elements of {} bytes", *count, *stride));
     return {};

@@ -139,7 +139,7 @@ bool GltfPrimitives::read_triangles(const GltfValue& primitive, std::size_t mode
         name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name == "TEXCOORD_0";
     other += name.size() + (is_own ? 0 : 16 * kept);
   }
-  if (!budget_.take({primitive.report().file, 0, 0, primitive.path()}, kept, triangles, other)) {
+  if (!budget_.take(primitive.location(), kept, triangles, other)) {
     return false;
   }
   std::vector<std::uint32_t> numbers;
@@ -171,8 +171,7 @@ bool GltfPrimitives::read_lines(const GltfValue& primitive, std::size_t mode,
   for (const Attribute& attribute : list) {
     other += attribute.semantic.size() + 16 * (vertices + corners);
   }
-  if (!budget_.take({primitive.report().file, 0, 0, primitive.path()}, vertices + corners, corners,
-                    other)) {
+  if (!budget_.take(primitive.location(), vertices + corners, corners, other)) {
     return false;
   }
   std::vector<std::uint32_t> order;

@@ -10,8 +10,6 @@ namespace nacre::host {
 
 namespace {
 
-SourceLocation place(const GltfValue& value) { return {value.report().file, 0, 0, value.path()}; }
-
 Affine affine(const float* column) {
   const auto vec3 = [](const float* v) { return Vec3{v[0], v[1], v[2]}; };
   return {vec3(column), vec3(column + 4), vec3(column + 8), vec3(column + 12)};
@@ -46,7 +44,8 @@ std::optional<GltfSkin> GltfSkin::read(const GltfValue& root, const GltfValue& s
                fmt::format("{}", accessor->count));
     return {};
   }
-  if (!budget.take_bytes(place(bind), accessor->count * (sizeof(Affine) + 16 * sizeof(float)))) {
+  if (!budget.take_bytes(bind.location(),
+                         accessor->count * (sizeof(Affine) + 16 * sizeof(float)))) {
     return {};
   }
   const std::vector<float> values = GltfAccessors::floats(*accessor);
@@ -109,7 +108,7 @@ std::optional<SkinWeights> read_skin_weights(const GltfValue& attributes, std::s
                    fmt::format("{} elements", vertices), fmt::format("{}", accessor->count));
       return {};
     }
-    if (!budget.take_bytes(place(of), vertices * 4 * 16)) return {};
+    if (!budget.take_bytes(of.location(), vertices * 4 * 16)) return {};
     numbers.push_back(accessors.integers(*joint));
     shares.push_back(GltfAccessors::floats(*weight));
     const auto beyond =

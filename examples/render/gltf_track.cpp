@@ -124,7 +124,7 @@ std::unique_ptr<GltfTrack> GltfTrack::read_all(const GltfValue& sampler, std::si
   }
   const std::size_t bytes =
       4 * (times->count + values->count * static_cast<std::size_t>(values->components));
-  if (!budget.take_bytes({sampler.report().file, 0, 0, sampler.path()}, bytes)) return nullptr;
+  if (!budget.take_bytes(sampler.location(), bytes)) return nullptr;
   track->times_ = GltfAccessors::floats(*times);
   track->values_ = GltfAccessors::floats(*values);
   const bool ok = check_times(input, track->times_) &&
@@ -147,7 +147,7 @@ std::vector<std::unique_ptr<GltfTrack>> GltfTrack::read_weights(const GltfValue&
   const auto all = read_all(sampler, 1, count, accessors, budget);
   if (all == nullptr) return list;
   const std::size_t bytes = 4 * (all->times_.size() * count + all->values_.size());
-  if (!budget.take_bytes({sampler.report().file, 0, 0, sampler.path()}, bytes)) return list;
+  if (!budget.take_bytes(sampler.location(), bytes)) return list;
   for (std::size_t k = 0; k < count; ++k) {
     auto& track = list.emplace_back(std::make_unique<GltfTrack>());
     track->interpolation_ = all->interpolation_;

@@ -40,6 +40,7 @@ class GltfValue {
   explicit operator bool() const { return json_ != nullptr; }
   const std::string& path() const { return path_; }
   const GltfReport& report() const { return *report_; }
+  SourceLocation location() const { return {report_->file, 0, 0, path_}; }
 
   GltfValue operator[](const char* name) const;
   /// The element; not there when beyond the end.

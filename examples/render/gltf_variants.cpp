@@ -18,8 +18,7 @@ bool GltfVariants::choose(const std::string& name) {
     names += (names.empty() ? "" : ", ") + each;
   }
   root_.report().diagnostics.error(
-      "unknown-variant", {root_.report().file, 0, 0, variants.path()},
-      "the scene has no variant of that name",
+      "unknown-variant", variants.location(), "the scene has no variant of that name",
       names.empty() ? "a file with KHR_materials_variants" : "one of " + names, '"' + name + '"');
   return false;
 }

@@ -27,6 +27,7 @@ struct Path {
   Media media;          ///< What it is inside of.
   int scatterings = 0;  ///< Within media.
 
+  int forks = 0;            ///< How often it has forked, before it forked off another, too.
   bool is_diffuse = false;  ///< One of diffuse_lobes has scattered it.
   float min_alpha = 0.f;    ///< The most that facets have had that scattered it.
 
@@ -216,7 +217,7 @@ class Wavefront {
   void join_forks(std::span<Path> paths);
   bool may_fork(const Material& material, const Path& path) const;
   void fork(const Material& material, std::span<const std::uint32_t> paths);
-  void limit_lobes(std::span<const std::uint32_t> paths);
+  void clamp_roughness(std::span<const std::uint32_t> paths);
   void want_lobes(const Material& material, std::span<const std::uint32_t> paths,
                   std::int32_t of_forks);
   void note_lobe(Path& path, std::size_t lane) const;

@@ -25,7 +25,6 @@ void Wavefront::shade_batch(const Material& material, std::span<const std::uint3
   const bool scatters = material.capabilities.scatters && any_goes_on;
   if (!scatters && !material.capabilities.emits && first_hits_.empty()) return;
   fill(paths, material);
-  limit_lobes(paths);
   if (material.capabilities.emits) add_emission(material, paths);
   if (scatters || asks_points_) {
     const Stopwatch watch(statistics_.shading_seconds);
@@ -127,7 +126,11 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
   fork(material, paths);
   want_lobes(material, paths, reflecting_lobes);
   sample(material, paths);
-  for (std::size_t lane = 0; lane < paths.size(); ++lane) go_on(material, paths[lane], lane);
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    Path& path = paths_[paths[lane]];
+    if (may_fork(material, path)) ++path.forks;
+    go_on(material, paths[lane], lane);
+  }
 }
 
 void Wavefront::sample(const Material& material, std::span<const std::uint32_t> paths) {

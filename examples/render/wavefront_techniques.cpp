@@ -39,8 +39,11 @@ void Wavefront::join_forks(std::span<Path> paths) {
 
 bool Wavefront::may_fork(const Material& material, const Path& path) const {
   const std::int32_t lobes = material.capabilities.lobes;
-  const int most = std::min(context_.settings.techniques.split_events, context_.settings.max_depth);
-  return path.depth < most && (lobes & reflecting_lobes) != 0 && (lobes & transmitting_lobes) != 0;
+  const int most = context_.settings.techniques.split_events;
+  // Below a surface a path has events that its depth does not count.
+  const bool is_early = path.forks < most && path.depth < most;
+  return is_early && path.depth < context_.settings.max_depth && (lobes & reflecting_lobes) != 0 &&
+         (lobes & transmitting_lobes) != 0;
 }
 
 /// Sends copies of the paths that fork along what the surface lets through.
@@ -52,21 +55,22 @@ void Wavefront::fork(const Material& material, std::span<const std::uint32_t> pa
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
     const std::uint32_t from = paths[lane];
     if (!forks(from)) continue;
-    // A path of this depth lies below given_ << depth, and forks once there.
-    const int depth = paths_[from].depth;
-    const auto to = from + static_cast<std::uint32_t>(given_ << depth);
+    // What has forked k times lies below given_ << k, so that this place is nobody else's.
+    const int before = paths_[from].forks;
+    const auto to = from + static_cast<std::uint32_t>(given_ << before);
     paths_[to] = paths_[from];
     paths_[to].radiance = {};
-    paths_[to].key.event += 1u << (16 + depth);  // Numbers of its own.
+    ++paths_[to].forks;                           // The other's is counted once it was sampled.
+    paths_[to].key.event += 1u << (16 + before);  // Numbers of its own.
     hits_[to] = hits_[from];
     go_on(material, to, lane);
   }
 }
 
-/// What lobes there may be at the points of a batch, and how smooth.
-void Wavefront::limit_lobes(std::span<const std::uint32_t> paths) {
-  const Techniques& techniques = context_.settings.techniques;
-  if (!techniques.clamps_roughness) return;
+/// How smooth facets may be in the points of a batch. What is asked of other points, the emission
+/// and opacity of what light sampling meets, has none.
+void Wavefront::clamp_roughness(std::span<const std::uint32_t> paths) {
+  if (!context_.settings.techniques.clamps_roughness) return;
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
     buffer_.batch.min_alpha[lane] = paths_[paths[lane]].min_alpha;
   }
