@@ -5,9 +5,7 @@
 #include <numbers>
 
 #include "examples/render/bvh.h"
-#include "examples/render/load_scene.h"
-#include "tests/examples/render/scene_samples.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/examples/render/card_fixture.h"
 
 namespace nacre::host {
 namespace {
@@ -33,26 +31,16 @@ std::string moving_data() {
 std::string moving_card(std::string_view channels, std::string_view samplers,
                         std::string_view node = "") {
   std::string text = spoiled_card("\"byteLength\": 204", "\"byteLength\": 456");
-  const auto put = [&text](std::string_view before, const std::string& what) {
-    text.insert(text.find(before), what);
-  };
   const auto instead = [&text](std::string_view from, std::string_view to) {
     text.replace(text.find(from), from.size(), to);
   };
   if (!node.empty()) instead("\"scale\": [1, 1, 1]", node);
-  put("\"scenes\"", "\"animations\": [{\"channels\": [" + std::string(channels) +
-                        "], \"samplers\": [" + std::string(samplers) + "]}],\n  ");
-  const auto view = [](int offset, int length) {
-    return ", {\"buffer\": 0, \"byteOffset\": " + std::to_string(offset) +
-           ", \"byteLength\": " + std::to_string(length) + "}";
-  };
-  put("],\n  \"accessors\"", view(204, 12) + view(216, 36) + view(252, 48) + view(300, 108) +
-                                 view(408, 12) + view(420, 36));
-  const auto accessor = [](int number, int count, const char* type) {
-    return ", {\"bufferView\": " + std::to_string(number) +
-           ", \"componentType\": 5126, \"count\": " + std::to_string(count) + ", \"type\": \"" +
-           type + "\"}";
-  };
+  put_before(text, "\"scenes\"",
+             "\"animations\": [{\"channels\": [" + std::string(channels) + "], \"samplers\": [" +
+                 std::string(samplers) + "]}],\n  ");
+  put_before(text, "],\n  \"accessors\"",
+             buffer_view(204, 12) + buffer_view(216, 36) + buffer_view(252, 48) +
+                 buffer_view(300, 108) + buffer_view(408, 12) + buffer_view(420, 36));
   text.insert(text.rfind("]\n}"), accessor(5, 3, "SCALAR") + accessor(6, 3, "VEC3") +
                                       accessor(7, 3, "VEC4") + accessor(8, 9, "VEC3") +
                                       accessor(9, 3, "SCALAR") + accessor(10, 3, "VEC3"));
@@ -63,12 +51,10 @@ constexpr std::string_view translate =
     R"({"sampler": 0, "target": {"node": 0, "path": "translation"}})";
 constexpr std::string_view turn = R"({"sampler": 0, "target": {"node": 0, "path": "rotation"}})";
 
-class Animation : public ::testing::Test {
+class Animation : public Card {
  protected:
   Scene load(const std::string& text, const Shutter& shutter, const SceneLimits& limits = {}) {
-    folder_.write("card.bin", moving_data());
-    diagnostics_ = {};
-    return load_scene(folder_.write("a.gltf", text), limits, diagnostics_, shutter);
+    return Card::load(text, moving_data(), shutter, limits);
   }
   /// Where the card's first corner is while the shutter is closed.
   Vec3 corner(const std::string& text, double time) {
@@ -78,17 +64,7 @@ class Animation : public ::testing::Test {
     EXPECT_TRUE(scene.meshes[0].instances.empty());
     return scene.meshes[0].position[1];  // (1, 0, 0)
   }
-  std::string first() const {
-    if (diagnostics_.all().empty()) return "";
-    const Diagnostic& d = diagnostics_.all().front();
-    return d.code + ' ' + d.where.path;
-  }
-
-  TemporaryFolder folder_;
-  Diagnostics diagnostics_;
 };
-
-void expect_at(Vec3 a, Vec3 b) { EXPECT_LT(length(a - b), 1e-5f) << a.x << ' ' << a.y; }
 
 TEST_F(Animation, ClosedShuttersSeeTheMoment) {
   const std::string linear = moving_card(translate, R"({"input": 5, "output": 6})");

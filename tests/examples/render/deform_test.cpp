@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "examples/render/bvh.h"
-#include "examples/render/load_scene.h"
 #include "examples/render/surface.h"
-#include "tests/examples/render/scene_samples.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/examples/render/card_fixture.h"
 
 namespace nacre::host {
 namespace {
@@ -35,34 +33,23 @@ std::string bending_data() {
 std::string bending_card(std::string_view primitive, std::string_view node,
                          std::string_view root = "") {
   std::string text = spoiled_card("\"byteLength\": 204", "\"byteLength\": 500");
-  const auto put = [&text](std::string_view before, const std::string& what) {
-    text.insert(text.find(before), what);
-  };
   text.replace(text.find("\"scale\": [1, 1, 1]"), 18, node);
-  put("\"indices\": 2", std::string(primitive));
+  put_before(text, "\"indices\": 2", std::string(primitive));
   text.replace(text.find("\"nodes\": [0, 1]"), 15, "\"nodes\": [0, 1, 2]");
   const std::size_t camera = text.find("{\"camera\": 0");
   const std::size_t end = text.find('}', camera) + 1;
   text.insert(end, R"(, {"children": [3]}, {"translation": [0, 1, 0], "rotation": [0, 0,
       0.70710678, 0.70710678]})");
-  put("\"scenes\"", std::string(root));
-  const auto view = [](int offset, int length) {
-    return ", {\"buffer\": 0, \"byteOffset\": " + std::to_string(offset) +
-           ", \"byteLength\": " + std::to_string(length) + "}";
-  };
-  put("],\n  \"accessors\"", view(204, 16) + view(220, 64) + view(284, 128) + view(412, 12) +
-                                 view(424, 2) + view(428, 12) + view(440, 12) + view(452, 48));
-  const auto accessor = [](int of, int kind, int count, const char* type) {
-    return ", {\"bufferView\": " + std::to_string(of) +
-           ", \"componentType\": " + std::to_string(kind) +
-           ", \"count\": " + std::to_string(count) + ", \"type\": \"" + type + "\"}";
-  };
+  put_before(text, "\"scenes\"", std::string(root));
+  put_before(text, "],\n  \"accessors\"",
+             buffer_view(204, 16) + buffer_view(220, 64) + buffer_view(284, 128) +
+                 buffer_view(412, 12) + buffer_view(424, 2) + buffer_view(428, 12) +
+                 buffer_view(440, 12) + buffer_view(452, 48));
   const std::string sparse = R"(, {"componentType": 5126, "count": 4, "type": "VEC3", "sparse":
       {"count": 1, "indices": {"bufferView": 9, "componentType": 5123}, "values": {"bufferView": 8}}})";
-  text.insert(text.rfind("]\n}"),
-              accessor(5, 5121, 4, "VEC4") + accessor(6, 5126, 4, "VEC4") +
-                  accessor(7, 5126, 2, "MAT4") + sparse + accessor(10, 5126, 3, "SCALAR") +
-                  accessor(11, 5126, 3, "SCALAR") + accessor(12, 5126, 4, "VEC3"));
+  text.insert(text.rfind("]\n}"), accessor(5, 4, "VEC4", 5121) + accessor(6, 4, "VEC4") +
+                                      accessor(7, 2, "MAT4") + sparse + accessor(10, 3, "SCALAR") +
+                                      accessor(11, 3, "SCALAR") + accessor(12, 4, "VEC3"));
   const std::size_t attributes = text.find("\"NORMAL\": 3");
   if (primitive.empty()) text.insert(attributes, R"("JOINTS_0": 5, "WEIGHTS_0": 6, )");
   return text;
@@ -71,12 +58,10 @@ std::string bending_card(std::string_view primitive, std::string_view node,
 constexpr std::string_view skin = R"("skins": [{"joints": [2, 3], "inverseBindMatrices": 7}], )";
 constexpr std::string_view morph = R"("targets": [{"POSITION": 8}, {"POSITION": 11}], )";
 
-class Deform : public ::testing::Test {
+class Deform : public Card {
  protected:
   Scene load(const std::string& text, const Shutter& shutter = {}) {
-    folder_.write("card.bin", bending_data());
-    diagnostics_ = {};
-    return load_scene(folder_.write("a.gltf", text), {}, diagnostics_, shutter);
+    return Card::load(text, bending_data(), shutter);
   }
   /// The four corners, in their order.
   std::vector<Vec3> corners(const std::string& text, double time = 0) {
@@ -84,19 +69,7 @@ class Deform : public ::testing::Test {
     EXPECT_EQ(scene.meshes.size(), 1u) << diagnostics_.to_string();
     return scene.meshes.empty() ? std::vector<Vec3>(4) : scene.meshes[0].position;
   }
-  std::string first() const {
-    if (diagnostics_.all().empty()) return "";
-    const Diagnostic& d = diagnostics_.all().front();
-    return d.code + ' ' + d.where.path;
-  }
-
-  TemporaryFolder folder_;
-  Diagnostics diagnostics_;
 };
-
-void expect_at(Vec3 a, Vec3 b) {
-  EXPECT_LT(length(a - b), 1e-5f) << a.x << ' ' << a.y << ' ' << a.z;
-}
 
 // The second joint stands at (0, 1, 0), turned by 90 degrees about z, and its inverse bind matrix
 // takes (x, y) to (x, y - 1): (1, 1) goes to (0, 2) and (0, 1) stays. The node's own place, ten

@@ -6,29 +6,12 @@
 
 #include <algorithm>
 
-#include "examples/render/load_scene.h"
-#include "tests/examples/render/scene_samples.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/examples/render/card_fixture.h"
 
 namespace nacre::host {
 namespace {
 
-class Packed : public ::testing::Test {
- protected:
-  Scene load(const std::string& text, const std::string& data) {
-    folder_.write("card.bin", data);
-    diagnostics_ = {};
-    return load_scene(folder_.write("a.gltf", text), {}, diagnostics_);
-  }
-  std::string first() const {
-    if (diagnostics_.all().empty()) return "";
-    const Diagnostic& d = diagnostics_.all().front();
-    return d.code + ' ' + d.where.path;
-  }
-
-  TemporaryFolder folder_;
-  Diagnostics diagnostics_;
-};
+class Packed : public Card {};
 
 bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 

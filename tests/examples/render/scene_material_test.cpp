@@ -1,33 +1,21 @@
 // Materials of glTF files as they are read.
 #include <gtest/gtest.h>
 
-#include "examples/render/load_scene.h"
-#include "tests/examples/render/scene_samples.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/examples/render/card_fixture.h"
 
 namespace nacre::host {
 namespace {
 
 constexpr std::string_view paint = R"([{"name": "paint"}])";
 
-class SceneMaterials : public ::testing::Test {
+class SceneMaterials : public Card {
  protected:
   Scene load(std::string_view materials, std::string_view root = "",
              const std::string& variant = "") {
     std::string text = spoiled_card(paint, materials);
     text.insert(text.find("\"scenes\""), root);
-    folder_.write("card.bin", card_data());
-    diagnostics_ = {};
-    return load_scene(folder_.write("a.gltf", text), {}, diagnostics_, {}, {true, variant});
+    return Card::load(text, card_data(), {}, {}, {true, variant});
   }
-  std::string first() const {
-    if (diagnostics_.all().empty()) return "";
-    const Diagnostic& d = diagnostics_.all().front();
-    return d.code + ' ' + d.where.path;
-  }
-
-  TemporaryFolder folder_;
-  Diagnostics diagnostics_;
 };
 
 TEST_F(SceneMaterials, HaveTheSpecificationsDefaults) {

@@ -70,4 +70,22 @@ inline std::string glb(std::string json, std::string data) {
          json + word(data.size()) + std::string("BIN\0", 4) + data;
 }
 
+/// Puts something before the first place of a text.
+inline void put_before(std::string& text, std::string_view place, std::string_view what) {
+  text.insert(text.find(place), what);
+}
+
+/// One more of the card's buffer views.
+inline std::string buffer_view(int offset, int length) {
+  return ", {\"buffer\": 0, \"byteOffset\": " + std::to_string(offset) +
+         ", \"byteLength\": " + std::to_string(length) + "}";
+}
+
+/// One more of its accessors.
+inline std::string accessor(int view, int count, const char* type, int component = 5126) {
+  return ", {\"bufferView\": " + std::to_string(view) +
+         ", \"componentType\": " + std::to_string(component) +
+         ", \"count\": " + std::to_string(count) + ", \"type\": \"" + type + "\"}";
+}
+
 }  // namespace nacre::host

@@ -1,45 +1,14 @@
 // Passes of `nacre render`, read by OpenImageIO.
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "tests/examples/tool/image_layers.h"
 #include "tests/examples/tool/tool_fixture.h"
 
 namespace nacre {
 namespace {
-
-/// By channel, and the texts of the header.
-struct Layers {
-  std::map<std::string, std::vector<float>> planes;
-  std::map<std::string, std::string> texts;
-
-  const std::vector<float>& operator[](const std::string& name) const { return planes.at(name); }
-};
-
-Layers layers_of(const std::string& file) {
-  const auto in = OIIO::ImageInput::open(file);
-  EXPECT_NE(in, nullptr);
-  if (in == nullptr) return {};
-  Layers layers;
-  const OIIO::ImageSpec& spec = in->spec();
-  const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  std::vector<float> all(pixels * channels);
-  in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, all.data());
-  for (std::size_t c = 0; c < channels; ++c) {
-    std::vector<float>& plane = layers.planes[spec.channelnames[c]];
-    for (std::size_t i = 0; i < pixels; ++i) plane.push_back(all[i * channels + c]);
-  }
-  for (const OIIO::ParamValue& each : spec.extra_attribs) {
-    if (each.type() == OIIO::TypeDesc::STRING) {
-      layers.texts[each.name().string()] = each.get_string();
-    }
-  }
-  return layers;
-}
 
 /// A card of a document's one material.
 constexpr std::string_view card = "o card\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";

@@ -1,10 +1,9 @@
 // Ways to less noise, through the tool: what each leaves out, and that the others change no mean.
-#include <OpenImageIO/imageio.h>
-
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "tests/examples/tool/image_layers.h"
 #include "tests/examples/tool/tool_fixture.h"
 
 namespace nacre {
@@ -33,7 +32,7 @@ struct Picture {
 
 class Techniques : public Tool {
  protected:
-  /// A material by the text of its BSDF, which is called "b" and its name.
+  /// A material by the text of its BSDF, which is called "b" and its name, and where it goes.
   static std::string material(const std::string& name, const std::string& bsdf) {
     return bsdf + R"(<surface name="s)" + name +
            R"(" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b)" + name +
@@ -88,32 +87,22 @@ f 1 2 6 5
         0)
         << errors_;
     EXPECT_EQ(errors_, "");
-    const auto in = OIIO::ImageInput::open(file("a.exr"));
-    if (in == nullptr) return {};
-    const OIIO::ImageSpec& spec = in->spec();
-    std::vector<float> texels(std::size_t{size} * size * static_cast<std::size_t>(spec.nchannels));
-    EXPECT_TRUE(in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, texels.data()));
-    std::size_t id = 0;
-    for (std::size_t c = 0; c < spec.channelnames.size(); ++c) {
-      if (spec.channelnames[c].find("mesh_id") != std::string::npos) id = c;
-    }
-    const auto value = [&](int x, int y, std::size_t channel) {
-      return texels[static_cast<std::size_t>(y * size + x) *
-                        static_cast<std::size_t>(spec.nchannels) +
-                    channel];
+    const Layers layers = layers_of(file("a.exr"));
+    const auto value = [&](int x, int y, const char* channel) {
+      return layers[channel][static_cast<std::size_t>(y * size + x)];
     };
     // A pixel at an edge shows both.
     const auto is_within = [&](int x, int y, float mesh) {
       for (int k = 0; k < 9; ++k) {
-        if (value(x + k % 3 - 1, y + k / 3 - 1, id) != mesh) return false;
+        if (value(x + k % 3 - 1, y + k / 3 - 1, "mesh_id.V") != mesh) return false;
       }
       return true;
     };
     Picture picture;
     for (int y = 1; y + 1 < size; ++y) {
       for (int x = 1; x + 1 < size; ++x) {
-        if (is_within(x, y, 1.f)) picture.floor.push_back(value(x, y, 1));
-        if (is_within(x, y, 2.f)) picture.wall.push_back(value(x, y, 1));
+        if (is_within(x, y, 1.f)) picture.floor.push_back(value(x, y, "G"));
+        if (is_within(x, y, 2.f)) picture.wall.push_back(value(x, y, "G"));
       }
     }
     EXPECT_GT(picture.floor.size(), 100u);
@@ -199,6 +188,16 @@ TEST_F(Techniques, ForksHaveTheSameMean) {
     const std::string both = glass("floor", alpha) + glass("wall", alpha);
     EXPECT_LT(difference(both, "--split 0", "--split 3"), 3.5) << alpha;
   }
+}
+
+// What a path has met, and where its forks are, hangs on nothing but the path.
+TEST_F(Techniques, PicturesAreTheSameForAnyNumberOfThreads) {
+  const std::string both = metal("floor", "0.25") + glass("wall", "0.1");
+  const char* const options = "--spp 8 --clamp-roughness --no-caustics --split 2";
+  const Picture one = render(both, std::string(options) + " --threads 1");
+  const Picture three = render(both, std::string(options) + " --threads 3");
+  EXPECT_EQ(one.floor, three.floor);
+  EXPECT_EQ(one.wall, three.wall);
 }
 
 TEST_F(Techniques, ForksAndLobesOfPassesDoNotGoTogether) {
