@@ -17,9 +17,15 @@ if(TARGET nacre_python)
 endif()
 set(nacre_bench_hosts startup_host)
 set(nacre_bench_tool "")
+set(nacre_bench_renders "")
 if(TARGET nacre_tool)
   list(APPEND nacre_bench_hosts nacre_tool)
   set(nacre_bench_tool --tool $<TARGET_FILE:nacre_tool>)
+  # Beside another renderer, which comes from PyPI where there is none.
+  set(nacre_bench_renders COMMAND "${NACRE_BENCH_PYTHON}"
+    "${PROJECT_SOURCE_DIR}/bench/renders/equal_error.py" "${nacre_bench_results}/report/equal_error.md"
+    $<TARGET_FILE:nacre_tool> --install "${CMAKE_BINARY_DIR}/bench-peers"
+    --keep "${nacre_bench_results}/equal_error")
 endif()
 add_custom_target(bench
   COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=${CMAKE_BINARY_DIR}/python"
@@ -30,6 +36,7 @@ add_custom_target(bench
   COMMAND "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/startup.py"
     --host $<TARGET_FILE:startup_host> ${nacre_bench_tool}
     --out "${nacre_bench_results}/report/startup.md"
+  ${nacre_bench_renders}
   COMMAND ${CMAKE_COMMAND} -E echo "Tables and plots: ${nacre_bench_results}/report"
   DEPENDS ${nacre_benches} ${nacre_bench_hosts}
   USES_TERMINAL VERBATIM)

@@ -43,6 +43,9 @@ class PixelCamera {
   /// The ray through image position (x, y), in pixels from the upper left corner.
   Ray ray(float x, float y, Uniform2 lens, float time = 0.f) const;
 
+  /// Whether rays depend on where on the lens they begin.
+  bool has_lens() const { return camera_.lens_radius > 0.f; }
+
   /// How far P moves, on the plane through P with unit normal n, when the image
   /// position moves by one sample: Igehy 1999, "Tracing Ray Differentials",
   /// sections 3.1.1 and 3.1.2, for a straight ray of this direction and length.

@@ -8,6 +8,8 @@ namespace {
 
 /// Intervals that share an entry of the guide: their edges are in one line of the cache.
 constexpr std::size_t intervals_of_entry = 4;
+/// Edges that are looked at together.
+constexpr std::size_t counted = 8;
 
 }  // namespace
 
@@ -20,6 +22,7 @@ Distribution::Distribution(const std::vector<double>& weights) {
     edges_.push_back(sum_ > 0 ? static_cast<float>(running / sum_) : 0.f);
   }
   if (sum_ > 0) edges_.back() = 1.f;
+  last_ = weights.size() - 1;
 
   const std::size_t entries = (weights.size() + intervals_of_entry - 1) / intervals_of_entry;
   std::uint32_t interval = 0;
@@ -28,15 +31,26 @@ Distribution::Distribution(const std::vector<double>& weights) {
     while (interval + 1 < weights.size() && edges_[interval + 1] <= begin) ++interval;
     guide_.push_back(interval);
   }
+  guide_.push_back(static_cast<std::uint32_t>(last_));
+  edges_.insert(edges_.end(), counted, 2.f);
 }
 
 Distribution::Choice Distribution::choose(float u) const {
-  const auto entries = static_cast<float>(guide_.size());
-  const auto entry = std::min(static_cast<std::size_t>(u * entries), guide_.size() - 1);
+  const std::size_t entry = entry_of(u);
   std::size_t i = guide_[entry];
   // The product may have been rounded up to an entry that begins beyond u.
   while (i > 0 && edges_[i] > u) --i;
-  while (i + 2 < edges_.size() && edges_[i + 1] <= u) ++i;
+  if (guide_[entry + 1] <= i + counted) {
+    // No branch depends on where it is: edges that are not beyond u.
+    std::size_t passed = 0;
+    for (std::size_t k = 1; k <= counted; ++k) passed += edges_[i + k] <= u ? 1 : 0;
+    i += passed;
+  } else {
+    const float* const first = edges_.data() + i;
+    i += static_cast<std::size_t>(std::upper_bound(first + 1, edges_.data() + last_ + 1, u) -
+                                  (first + 1));
+  }
+  while (i < last_ && edges_[i + 1] <= u) ++i;
   const float span = edges_[i + 1] - edges_[i];
   const float within = span > 0.f ? std::min((u - edges_[i]) / span, 0x1.fffffep-1f) : 0.5f;
   return {static_cast<int>(i), within};

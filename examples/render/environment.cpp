@@ -10,61 +10,41 @@ namespace nacre::host {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
+constexpr int probability = 3;  ///< Of a texel.
 
 Vec3 clean(Vec3 rgb) {
   const auto f = [](float v) { return std::isfinite(v) ? std::max(v, 0.f) : 0.f; };
   return {f(rgb.x), f(rgb.y), f(rgb.z)};
 }
 
-// Angles for where a direction is in an image need not be exact to the last bit, as the library's
-// are.
-
-/// In [0, pi], for x in [-1, 1]: Abramowitz and Stegun 1964, 4.4.46, off by at most 2e-8 before
-/// rounding.
-float arc_cosine(float x) {
-  const float a = std::min(std::abs(x), 1.f);
-  float sum = -0.0012624911f;
-  for (const float c : {0.0066700901f, -0.0170881256f, 0.0308918810f, -0.0501743046f, 0.0889789874f,
-                        -0.2145988016f, 1.5707963050f}) {
-    sum = sum * a + c;
-  }
-  const float angle = std::sqrt(1.f - a) * sum;
-  return x < 0.f ? pi - angle : angle;
-}
-
-/// In [-pi, pi]; 0 of zeros: Abramowitz and Stegun 1964, 4.4.49, off by at most 2e-8 before
-/// rounding.
-float arc_tangent(float y, float x) {
-  const float ax = std::abs(x), ay = std::abs(y);
-  const float larger = std::max(ax, ay);
-  if (!(larger > 0.f)) return 0.f;
-  const float ratio = std::min(ax, ay) / larger, square = ratio * ratio;
-  float sum = 0.0028662257f;
-  for (const float c : {-0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f,
-                        -0.1420889944f, 0.1999355085f, -0.3333314528f, 1.f}) {
-    sum = sum * square + c;
-  }
-  float angle = sum * ratio;
-  if (ay > ax) angle = 0.5f * pi - angle;
-  if (x < 0.f) angle = pi - angle;
-  return y < 0.f ? -angle : angle;
-}
-
 }  // namespace
 
-Environment::Environment(int width, int height, std::vector<Vec3> texels, float rotation)
-    : width_(width), height_(height), texels_(std::move(texels)), rotation_(rotation) {
+Environment::Environment(int width, int height, const std::vector<Vec3>& texels, float rotation)
+    : width_(width), height_(height), map_(width, height, rotation) {
   assert(width > 0 && height > 0);
-  assert(texels_.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (Vec3& t : texels_) t = clean(t);
+  assert(texels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  texels_.reserve(static_cast<std::size_t>(width + 2) * static_cast<std::size_t>(height + 2));
+  for (int y = -1; y <= height; ++y) {
+    for (int x = -1; x <= width; ++x) {
+      const int column = (x + width) % width, row = std::clamp(y, 0, height - 1);
+      const Vec3 rgb =
+          clean(texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(column)]);
+      texels_.push_back(Texel{rgb.x, rgb.y, rgb.z, 0.f});
+    }
+  }
   build_tables();
 }
 
-Vec3 Environment::texel(int x, int y) const {
-  const int wrapped = x < 0 ? x + width_ : (x >= width_ ? x - width_ : x);  // x in [-1, width]
-  const int clamped = std::clamp(y, 0, height_ - 1);
-  return texels_[static_cast<std::size_t>(clamped) * static_cast<std::size_t>(width_) +
-                 static_cast<std::size_t>(wrapped)];
+/// The number of a texel; the image goes on for one to each side.
+std::size_t Environment::at(int x, int y) const {
+  return static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(width_ + 2) +
+         static_cast<std::size_t>(x + 1);
+}
+
+Vec3 Environment::radiance(int x, int y) const {
+  const Texel& t = texels_[at(x, y)];
+  return {t[0], t[1], t[2]};
 }
 
 /// Between the latitudes of row y: (2π / width) (cos θ0 - cos θ1), as a product
@@ -85,12 +65,15 @@ void Environment::build_tables() {
       float mean = 0.f;
       for (int j = -1; j <= 1; ++j) {
         for (int i = -1; i <= 1; ++i) {
-          mean += share[i + 1] * share[j + 1] * luminance(texel(x + i, y + j));
+          mean += share[i + 1] * share[j + 1] * luminance(radiance(x + i, y + j));
         }
       }
       columns[static_cast<std::size_t>(x)] = mean;
     }
     columns_.emplace_back(columns);
+    for (int x = 0; x < width_; ++x) {
+      texels_[at(x, y)][probability] = columns_.back().probability(x);
+    }
     rows.push_back(columns_.back().sum() * texel_solid_angle(y));
   }
   rows_ = Distribution(rows);
@@ -102,47 +85,101 @@ void Environment::build_tables() {
 }
 
 float Environment::texel_pdf(int x, int y) const {
-  const auto row = static_cast<std::size_t>(y);
-  return row_densities_[row] * columns_[row].probability(x);
+  return row_densities_[static_cast<std::size_t>(y)] * texels_[at(x, y)][probability];
 }
 
-/// At a position in texels, in [0, width) and [0, height).
-Vec3 Environment::between_texels(Vec2 position) const {
-  if (texels_.size() == 1) return texels_[0];  // To the bit.
+/// The first of the four texels around a position, in [0, width) and [0, height).
+Environment::Corner Environment::corner(Vec2 position) const {
   const Vec2 p = position - Vec2{0.5f, 0.5f};
-  const float fx = std::floor(p.x), fy = std::floor(p.y);
-  const int x = static_cast<int>(fx), y = static_cast<int>(fy);
-  const float s = p.x - fx, t = p.y - fy;
-  return (1.f - t) * ((1.f - s) * texel(x, y) + s * texel(x + 1, y)) +
-         t * ((1.f - s) * texel(x, y + 1) + s * texel(x + 1, y + 1));
+  // Towards zero is down, from -1 on.
+  const float x = static_cast<float>(static_cast<int>(p.x + 1.f) - 1);
+  const float y = static_cast<float>(static_cast<int>(p.y + 1.f) - 1);
+  return {at(static_cast<int>(x), static_cast<int>(y)), p.x - x, p.y - y};
 }
 
-/// The position in rows, in [0, height), by the cosine to +y.
-float Environment::row_at(float cosine) const {
-  return std::min(arc_cosine(cosine) / pi, 0x1.fffffep-1f) * static_cast<float>(height_);
+/// What between_texels() reads there; most of the time all of it.
+void Environment::fetch(Vec2 position) const {
+  const Corner c = corner(position);
+  __builtin_prefetch(&texels_[c.first]);
+  __builtin_prefetch(&texels_[c.first + static_cast<std::size_t>(width_ + 3)]);
+}
+
+Vec3 Environment::between_texels(Vec2 position) const {
+  if (width_ * height_ == 1) return radiance(0, 0);  // To the bit.
+  const Corner corner = this->corner(position);
+  const Texel* const row = texels_.data() + corner.first;
+  const Texel* const next = row + width_ + 2;
+  const float s = corner.s, t = corner.t;
+  const Texel sum =
+      (1.f - t) * ((1.f - s) * row[0] + s * row[1]) + t * ((1.f - s) * next[0] + s * next[1]);
+  return {sum[0], sum[1], sum[2]};
+}
+
+Environment::Light Environment::light_at(Vec2 position) const {
+  const int x = std::min(static_cast<int>(position.x), width_ - 1);
+  const int y = std::min(static_cast<int>(position.y), height_ - 1);
+  return {between_texels(position), texel_pdf(x, y)};
 }
 
 Environment::Light Environment::light(Vec3 direction) const {
-  float u = 0.5f + (arc_tangent(direction.x, -direction.z) - rotation_) / (2.f * pi);
-  u -= std::floor(u);
-  const Vec2 p{std::min(u, 0x1.fffffep-1f) * static_cast<float>(width_), row_at(direction.y)};
-  const int x = std::min(static_cast<int>(p.x), width_ - 1);
-  const int y = std::min(static_cast<int>(p.y), height_ - 1);
-  return {between_texels(p), texel_pdf(x, y)};
+  Light found;
+  light({&direction, 1}, {&found, 1});
+  return found;
 }
 
 Environment::Sample Environment::sample(Uniform2 u) const {
-  if (!(mean_ > 0.f)) return {};
-  const auto [y, t] = rows_.choose(u.y);
-  const auto [x, s] = columns_[static_cast<std::size_t>(y)].choose(u.x);
-  // Even in solid angle: even in the cosine between the latitudes of the row.
-  const auto row = static_cast<std::size_t>(y);
-  const float height = latitudes_[row] + t * (latitudes_[row + 1] - latitudes_[row]);
-  const float radius = std::sqrt(std::max(0.f, 1.f - height * height));
-  const float column = static_cast<float>(x) + s;
-  const float angle = 2.f * pi * (column / static_cast<float>(width_) - 0.5f) + rotation_;
-  const Vec3 wi = {radius * std::sin(angle), height, -radius * std::cos(angle)};
-  return {wi, between_texels({column, row_at(height)}), texel_pdf(x, y)};
+  Sample drawn;
+  sample({&u, 1}, {&drawn, 1});
+  return drawn;
+}
+
+void Environment::light(std::span<const Vec3> directions, std::span<Light> lights) const {
+  assert(directions.size() == lights.size());
+  Vec2 positions[SkyMap::block_size];
+  for (std::size_t first = 0; first < directions.size(); first += SkyMap::block_size) {
+    const std::size_t count = std::min(SkyMap::block_size, directions.size() - first);
+    map_.positions_of(directions.data() + first, count, positions);
+    for (std::size_t i = 0; i < count; ++i) fetch(positions[i]);
+    for (std::size_t i = 0; i < count; ++i) lights[first + i] = light_at(positions[i]);
+  }
+}
+
+void Environment::sample(std::span<const Uniform2> u, std::span<Sample> samples) const {
+  assert(u.size() == samples.size());
+  if (!(mean_ > 0.f)) {
+    std::ranges::fill(samples, Sample{});
+    return;
+  }
+  for (std::size_t first = 0; first < u.size(); first += SkyMap::block_size) {
+    const std::size_t count = std::min(SkyMap::block_size, u.size() - first);
+    sample_block(u.subspan(first, count), samples.data() + first);
+  }
+}
+
+void Environment::sample_block(std::span<const Uniform2> u, Sample* samples) const {
+  Distribution::Choice rows[SkyMap::block_size];
+  SkyMap::Place places[SkyMap::block_size] = {};
+  float densities[SkyMap::block_size];
+  Vec3 directions[SkyMap::block_size];
+  Vec2 positions[SkyMap::block_size];
+  const auto row = [&](std::size_t i) { return static_cast<std::size_t>(rows[i].interval); };
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    rows[i] = rows_.choose(u[i].y);
+    columns_[row(i)].fetch_guide(u[i].x);
+  }
+  for (std::size_t i = 0; i < u.size(); ++i) columns_[row(i)].fetch_edges(u[i].x);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const auto [x, within] = columns_[row(i)].choose(u[i].x);
+    densities[i] = row_densities_[row(i)] * columns_[row(i)].probability(x);
+    // Even in solid angle: even in the cosine between the latitudes of the row.
+    const float top = latitudes_[row(i)], bottom = latitudes_[row(i) + 1];
+    places[i] = {static_cast<float>(x) + within, top + rows[i].within * (bottom - top)};
+  }
+  map_.directions_to(places, u.size(), directions, positions);
+  for (std::size_t i = 0; i < u.size(); ++i) fetch(positions[i]);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    samples[i] = {directions[i], between_texels(positions[i]), densities[i]};
+  }
 }
 
 Environment Environment::studio(float scale, float rotation) {
@@ -172,7 +209,7 @@ Environment Environment::studio(float scale, float rotation) {
       texels.push_back(scale * rgb);
     }
   }
-  return {width, height, std::move(texels), rotation};
+  return {width, height, texels, rotation};
 }
 
 }  // namespace nacre::host

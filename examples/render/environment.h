@@ -1,11 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "examples/render/distribution.h"
 #include "examples/render/sampler.h"
+#include "examples/render/sky_map.h"
 #include "examples/render/vec.h"
 #include "runtime/diagnostic.h"
 #include "runtime/stop.h"
@@ -25,7 +27,7 @@ class Environment {
  public:
   /// `texels`: rgb radiance, row by row from the top, width * height.
   /// Non-finite and negative values become 0. `rotation`: radians about +y.
-  Environment(int width, int height, std::vector<Vec3> texels, float rotation = 0.f);
+  Environment(int width, int height, const std::vector<Vec3>& texels, float rotation = 0.f);
 
   static Environment constant(Vec3 radiance) { return {1, 1, {radiance}}; }
   /// A photographer's dome: a dim grey gradient with two soft boxes and a strip; times `scale`.
@@ -50,20 +52,36 @@ class Environment {
   /// Along a unit vector.
   Light light(Vec3 direction) const;
   Sample sample(Uniform2 u) const;
+  /// The same for many, to the bit: nobody waits for each place of the image by itself. As many
+  /// results as there are directions, or pairs.
+  void light(std::span<const Vec3> directions, std::span<Light> lights) const;
+  void sample(std::span<const Uniform2> u, std::span<Sample> samples) const;
   /// Mean luminance over the sphere.
   float mean_luminance() const { return mean_; }
 
  private:
-  Vec3 texel(int x, int y) const;
+  /// Red, green, blue, and the chance to be drawn among those of its row.
+  using Texel [[gnu::vector_size(4 * sizeof(float))]] = float;
+  /// A texel, and how far behind its middle.
+  struct Corner {
+    std::size_t first;
+    float s, t;
+  };
+
+  std::size_t at(int x, int y) const;
+  Vec3 radiance(int x, int y) const;
+  Corner corner(Vec2 position) const;
+  void fetch(Vec2 position) const;
   Vec3 between_texels(Vec2 position) const;
-  float row_at(float cosine) const;
+  Light light_at(Vec2 position) const;
+  void sample_block(std::span<const Uniform2> u, Sample* samples) const;
   float texel_solid_angle(int y) const;
   float texel_pdf(int x, int y) const;
   void build_tables();
 
   int width_, height_;
-  std::vector<Vec3> texels_;
-  float rotation_;
+  std::vector<Texel> texels_;  ///< With those around the image.
+  SkyMap map_;
   Distribution rows_;
   std::vector<Distribution> columns_;  ///< By row.
   std::vector<float> latitudes_;       ///< Cosines to +y between the rows; height + 1.

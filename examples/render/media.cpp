@@ -48,18 +48,6 @@ void Media::choose_current() {
   }
 }
 
-std::uint32_t Media::exit(std::uint32_t mesh, std::uint32_t instance) const {
-  if (count_ == 0) return no_exit;
-  const Inside& last = inside_[current_];
-  return last.is_of(mesh, instance) ? last.exit : no_exit;
-}
-
-bool Media::is_open(std::uint32_t mesh, std::uint32_t instance) const {
-  return std::all_of(inside_.begin(), inside_.begin() + count_, [&](const Inside& each) {
-    return each.medium.is_open || each.is_of(mesh, instance);
-  });
-}
-
 void Media::leave(std::uint32_t mesh, std::uint32_t instance) {
   const std::uint32_t at = find(mesh, instance);
   if (at == none) return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -34,9 +35,17 @@ class Media {
   bool enter(std::uint32_t mesh, std::uint32_t instance, const Medium& medium,
              const Dielectric& dielectric);
   /// `exit` of what the path is inside of, if that is this mesh; else no_exit.
-  std::uint32_t exit(std::uint32_t mesh, std::uint32_t instance) const;
+  std::uint32_t exit(std::uint32_t mesh, std::uint32_t instance) const {
+    if (empty()) return no_exit;
+    const Inside& last = inside_[current_];
+    return last.is_of(mesh, instance) ? last.exit : no_exit;
+  }
   /// Whether light goes straight out of all that the path is inside of, that mesh apart.
-  bool is_open(std::uint32_t mesh = ~0u, std::uint32_t instance = 0) const;
+  bool is_open(std::uint32_t mesh = ~0u, std::uint32_t instance = 0) const {
+    return std::all_of(inside_.begin(), inside_.begin() + count_, [&](const Inside& each) {
+      return each.medium.is_open || each.is_of(mesh, instance);
+    });
+  }
   /// Which mesh and instance current() is of.
   std::uint32_t mesh() const { return inside_[current_].mesh; }
   std::uint32_t instance() const { return inside_[current_].instance; }
@@ -70,9 +79,9 @@ class Media {
   std::uint32_t solid(std::uint32_t left_out = none) const;
   void choose_current();
 
-  std::array<Inside, capacity> inside_ = {};
   std::uint32_t count_ = 0;
   std::uint32_t current_ = 0;
+  std::array<Inside, capacity> inside_ = {};
 };
 
 }  // namespace nacre::host

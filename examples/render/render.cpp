@@ -10,6 +10,7 @@
 #include "examples/common/run_on_threads.h"
 #include "examples/render/accumulation.h"
 #include "examples/render/camera.h"
+#include "examples/render/camera_paths.h"
 #include "examples/render/render_context.h"
 #include "examples/render/tiles.h"
 #include "examples/render/wavefront.h"
@@ -21,32 +22,6 @@ namespace {
 
 /// Paths of a tile that are followed together.
 constexpr int wave_size = 4096;
-
-/// From the distribution even on [0, 1) to the tent on (-1, 1).
-float tent(float u) {
-  return u < 0.5f ? std::sqrt(2.f * u) - 1.f : 1.f - std::sqrt(2.f * (1.f - u));
-}
-
-Path camera_path(const RenderContext& context, int x, int y, int sample) {
-  const RenderSettings& s = context.settings;
-  Path path;
-  path.key = {s.seed,
-              static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(s.width) +
-                  static_cast<std::uint32_t>(x),
-              static_cast<std::uint32_t>(sample), 0};
-  const Uniform2 u = uniform2(s.sampler, path.key, Draw::pixel);
-  const bool box = s.filter == PixelFilter::box;
-  const float dx = box ? u.x : 0.5f + tent(u.x);
-  const float dy = box ? u.y : 0.5f + tent(u.y);
-  const float time = is_open(s) ? uniform2(s.sampler, path.key, Draw::time).x : 0.f;
-  const PixelCamera::Ray ray =
-      context.camera.ray(static_cast<float>(x) + dx, static_cast<float>(y) + dy,
-                         uniform2(s.sampler, path.key, Draw::lens), time);
-  path.ray = {ray.origin, ray.direction, INFINITY, ray_camera, time};
-  path.vertex = ray.origin;
-  path.media = context.camera_media;
-  return path;
-}
 
 /// What the threads of one render share.
 struct Shared {
@@ -63,7 +38,7 @@ struct Shared {
 
 /// Adds samples to a tile; as many as it has then, which are fewer than wanted where the render
 /// ends before.
-int render_tile(Shared& shared, const TileWork& work, Wavefront& wavefront,
+int render_tile(Shared& shared, const TileWork& work, CameraPaths& camera, Wavefront& wavefront,
                 std::vector<Path>& paths) {
   const Tile& tile = shared.tiles[work.tile];
   const int width = tile.x1 - tile.x0;
@@ -73,13 +48,7 @@ int render_tile(Shared& shared, const TileWork& work, Wavefront& wavefront,
                       (first > 0 && shared.control.enough.stop_requested());
     if (ends) return first;
     const int last = std::min(first + at_once, work.last);
-    paths.clear();
-    for (int sample = first; sample < last; ++sample) {
-      for (int i = 0; i < tile.pixels(); ++i) {
-        paths.push_back(
-            camera_path(shared.context, tile.x0 + i % width, tile.y0 + i / width, sample));
-      }
-    }
+    camera.begin(tile, first, last, paths);
     wavefront.trace(paths);
     for (std::size_t k = 0; k < paths.size(); ++k) {
       const int i = static_cast<int>(k) % tile.pixels();
@@ -124,10 +93,11 @@ void work(Shared& shared) {
   // Embree asks for flushed denormals, and the image must not depend on the caller's modes.
   const ScopedFloatEnvironment environment;
   Wavefront wavefront(shared.context, most);
+  CameraPaths camera(shared.context);
   std::vector<Path> paths;
   paths.reserve(most);
   while (const auto work = shared.queue.take()) {
-    const int done = render_tile(shared, *work, wavefront, paths);
+    const int done = render_tile(shared, *work, camera, wavefront, paths);
     if (shared.control.enough.stop_requested()) shared.queue.wrap_up();
     const bool is_over = shared.control.stop.stop_requested();
     if (is_over) shared.queue.close();

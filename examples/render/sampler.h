@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace nacre::host {
 
@@ -41,5 +42,8 @@ struct SampleKey {
 
 /// Two numbers for one purpose.
 Uniform2 uniform2(SamplerKind kind, const SampleKey& key, Draw draw);
+/// The same for many keys, to the bit, several at a time. As many numbers as keys.
+void uniform2(SamplerKind kind, std::span<const SampleKey> keys, Draw draw,
+              std::span<Uniform2> numbers);
 
 }  // namespace nacre::host

@@ -37,6 +37,8 @@ class SceneLights {
   explicit SceneLights(const RenderContext& context);
 
   bool empty() const;
+  /// Whether choose() and area_pdf() depend on where; otherwise all is the environment's.
+  bool asks_where() const { return environment_chance_ < 1.f; }
   Choice choose(const LitPlace& from, Uniform2 u) const;
   /// Density per area with which choose() finds points of a side of a triangle from there, if they
   /// are drawn evenly over it. 0 where paths alone find it: of what is closed the inside, sides

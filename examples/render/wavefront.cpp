@@ -95,12 +95,20 @@ void Wavefront::intersect() {
 
 void Wavefront::add_environment() {
   if (context_.environment == nullptr) return;
+  missed_.clear();
+  ways_out_.clear();
   for (const std::uint32_t i : active_) {
     const Path& path = paths_[i];
     if (!hits_[i].missed() || path.unlit) continue;
-    const Environment::Light light = context_.environment->light(path.ray.direction);
-    const float light_pdf = context_.lights.environment_chance() * light.pdf;
-    add_found(i, hit_weight(path, light_pdf) * (path.throughput * light.radiance),
+    missed_.push_back(i);
+    ways_out_.push_back(path.ray.direction);
+  }
+  found_.resize(missed_.size());
+  context_.environment->light(ways_out_, found_);
+  for (std::size_t k = 0; k < missed_.size(); ++k) {
+    const Path& path = paths_[missed_[k]];
+    const float light_pdf = context_.lights.environment_chance() * found_[k].pdf;
+    add_found(missed_[k], hit_weight(path, light_pdf) * (path.throughput * found_[k].radiance),
               context_.settings.passes.groups.of_environment, true);
   }
 }
@@ -163,6 +171,15 @@ void Wavefront::fill(std::span<const std::uint32_t> paths, const Material& mater
 
 Uniform2 Wavefront::draw(const Path& path, Draw what) const {
   return uniform2(context_.settings.sampler, path.key, what);
+}
+
+/// One pair for each of the paths, in their order.
+void Wavefront::draw(std::span<const std::uint32_t> paths, Draw what,
+                     std::vector<Uniform2>& numbers) {
+  keys_.clear();
+  for (const std::uint32_t i : paths) keys_.push_back(paths_[i].key);
+  numbers.resize(paths.size());
+  uniform2(context_.settings.sampler, keys_, what, numbers);
 }
 
 bool Wavefront::connects() const {

@@ -24,7 +24,6 @@ struct Path {
   float alpha = 1.f;    ///< 0: it ended on a matte.
   int depth = 0;        ///< Scattering events.
   int passes = 0;       ///< Transparent surfaces passed.
-  Media media;          ///< What it is inside of.
   int scatterings = 0;  ///< Within media.
 
   int forks = 0;            ///< How often it has forked, before it forked off another, too.
@@ -45,6 +44,8 @@ struct Path {
   float distance = 0.f;  ///< From `vertex` to ray.origin: not 0 behind transparent surfaces.
   float width = 0.f;     ///< Of the cone at `vertex`.
   float spread = 0.f;    ///< Radians.
+
+  Media media;  ///< What it is inside of; last, for most paths are in nothing, and it is large.
 };
 
 /// By ScatterClass, which part of something is its; each channel adds up to 1.
@@ -90,6 +91,10 @@ class Wavefront {
   struct LightPoint {
     std::uint32_t path;
     SurfacePoint point;
+  };
+  /// What draws a light, and where on it.
+  struct LightNumbers {
+    Uniform2 light, place;
   };
   /// A path that a light is chosen for that no ray meets, which one, and where the path is.
   struct LitPoint {
@@ -139,6 +144,7 @@ class Wavefront {
   SurfacePoint surface_point(std::uint32_t path) const;
   void fill(std::span<const std::uint32_t> paths, const Material& material);
   Uniform2 draw(const Path& path, Draw what) const;
+  void draw(std::span<const std::uint32_t> paths, Draw what, std::vector<Uniform2>& numbers);
   float hit_weight(const Path& path, float light_pdf) const;
   float connection_weight(float light_pdf, float material_pdf) const;
   bool connects() const;
@@ -206,8 +212,10 @@ class Wavefront {
   // wavefront_light.cpp
   void sample_lights();
   Vec3 lit_normal(std::uint32_t path) const;
-  void choose_light(std::uint32_t path, const InnerPoint& from, Vec3 normal);
+  void choose_lights();
+  void choose_light(std::uint32_t path, const InnerPoint& from, Vec3 normal, LightNumbers numbers);
   void ask_lights();
+  void ask_environment();
   void light_emission(const Material& material, std::span<const std::uint32_t> points);
   void light_points(const LightShader& light, std::span<const std::uint32_t> lit);
 
@@ -245,11 +253,20 @@ class Wavefront {
   std::vector<std::uint32_t> met_;  ///< Paths that may meet something before they hit,
   std::vector<float> met_at_;       ///< by path: how far away;
   std::vector<std::uint32_t> met_order_;
-  std::vector<Group> met_groups_;           ///< by material.
-  std::vector<InnerPoint> inner_points_;    ///< Of the batch at hand.
-  std::vector<std::uint32_t> sorted_;       ///< Paths that hit, by material.
-  std::vector<Group> groups_;               ///< Of sorted_; one per material.
-  std::vector<LightSample> light_samples_;  ///< By path.
+  std::vector<Group> met_groups_;                 ///< by material.
+  std::vector<InnerPoint> inner_points_;          ///< Of the batch at hand.
+  std::vector<std::uint32_t> sorted_;             ///< Paths that hit, by material.
+  std::vector<Group> groups_;                     ///< Of sorted_; one per material.
+  std::vector<LightSample> light_samples_;        ///< By path.
+  std::vector<std::uint32_t> asking_;             ///< Paths that a light is chosen for.
+  std::vector<std::uint32_t> lit_by_sky_;         ///< Those of them that the environment is,
+  std::vector<Uniform2> sky_numbers_;             ///< what draws its direction,
+  std::vector<Environment::Sample> sky_samples_;  ///< and what that is.
+  std::vector<std::uint32_t> missed_;             ///< Paths that end in the environment,
+  std::vector<Vec3> ways_out_;                    ///< where they go,
+  std::vector<Environment::Light> found_;         ///< and what they find.
+  std::vector<SampleKey> keys_;                   ///< Of the numbers that are drawn,
+  std::vector<Uniform2> numbers_, more_numbers_;  ///< which are these.
   std::vector<LightPoint> light_points_;
   std::vector<std::uint32_t> light_order_;
   std::vector<Group> light_groups_;
@@ -286,8 +303,10 @@ template <class Key>
 void group_by(std::size_t count, std::vector<std::uint32_t>& order, std::vector<Group>& groups,
               Key key) {
   for (Group& g : groups) g = {};
+  std::vector<std::uint32_t> keys(count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (key(i) != ~0u) ++groups[key(i)].end;
+    keys[i] = key(i);
+    if (keys[i] != ~0u) ++groups[keys[i]].end;
   }
   std::uint32_t total = 0;
   for (Group& g : groups) {
@@ -297,7 +316,7 @@ void group_by(std::size_t count, std::vector<std::uint32_t>& order, std::vector<
   }
   order.resize(total);
   for (std::size_t i = 0; i < count; ++i) {
-    if (key(i) != ~0u) order[groups[key(i)].end++] = static_cast<std::uint32_t>(i);
+    if (keys[i] != ~0u) order[groups[keys[i]].end++] = static_cast<std::uint32_t>(i);
   }
 }
 

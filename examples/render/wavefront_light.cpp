@@ -9,6 +9,7 @@ namespace nacre::host {
 
 /// One light sample for every path that can use one.
 void Wavefront::sample_lights() {
+  asking_.clear();
   for (std::size_t m = 0; m < groups_.size(); ++m) {
     const Capabilities& can = context_.materials[m].capabilities;
     if (!can.scatters || can.only_delta) continue;
@@ -21,13 +22,30 @@ void Wavefront::sample_lights() {
       // Not from inside of what has a surface: that is in the way.
       if (!path.media.is_open(hit.mesh, hit.instance)) continue;
       if (!context_.scene.meshes[hit.mesh].illuminated) continue;
-      choose_light(i,
-                   {hit.mesh, hit.instance, path.ray.time,
-                    surface_position(context_.scene, surface_point(i)), -path.ray.direction},
-                   lit_normal(i));
+      asking_.push_back(i);
     }
   }
+  choose_lights();
   ask_lights();
+}
+
+/// For all that ask.
+void Wavefront::choose_lights() {
+  draw(asking_, Draw::light, numbers_);
+  if (!context_.lights.asks_where()) {
+    lit_by_sky_ = asking_;
+    sky_numbers_ = numbers_;
+    return;
+  }
+  draw(asking_, Draw::light_choice, more_numbers_);
+  for (std::size_t k = 0; k < asking_.size(); ++k) {
+    const std::uint32_t i = asking_[k];
+    const Path& path = paths_[i];
+    choose_light(i,
+                 {hits_[i].mesh, hits_[i].instance, path.ray.time,
+                  surface_position(context_.scene, surface_point(i)), -path.ray.direction},
+                 lit_normal(i), {more_numbers_[k], numbers_[k]});
+  }
 }
 
 /// Of the surface that a path is at.
@@ -37,25 +55,22 @@ Vec3 Wavefront::lit_normal(std::uint32_t i) const {
 }
 
 /// Draws what lights a path from there; ask_lights() completes it.
-void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from, Vec3 normal) {
-  const Path& path = paths_[i];
+void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from, Vec3 normal,
+                             LightNumbers numbers) {
   LightSample& light = light_samples_[i];
   light = {};
-  const SceneLights::Choice choice =
-      context_.lights.choose({from.P, normal}, draw(path, Draw::light_choice));
-  const Uniform2 position = draw(path, Draw::light);
+  const SceneLights::Choice choice = context_.lights.choose({from.P, normal}, numbers.light);
   if (choice.kind == SceneLights::Kind::none) return;
   if (choice.kind == SceneLights::Kind::environment) {
-    const Environment::Sample s = context_.environment->sample(position);
-    light = {s.wi, s.radiance, {}, choice.probability * s.pdf, true};
-    light.group = context_.settings.passes.groups.of_environment;
+    lit_by_sky_.push_back(i);
+    sky_numbers_.push_back(numbers.place);
     return;
   }
   if (choice.kind == SceneLights::Kind::unmet) {
     lit_.push_back({i, choice.light, choice.probability, from});
     return;
   }
-  const Vec2 at = sample_triangle(position);
+  const Vec2 at = sample_triangle(numbers.place);
   SurfacePoint light_point{choice.mesh, choice.triangle, at.x, at.y, {}, false, 0.f, 0.f,
                            0,           from.time};
   const Vec3 on_light = surface_position(context_.scene, light_point);
@@ -78,6 +93,7 @@ void Wavefront::choose_light(std::uint32_t i, const InnerPoint& from, Vec3 norma
 /// Emission of the points that are chosen, in batches of their own, by the material of the light;
 /// and what the others send.
 void Wavefront::ask_lights() {
+  ask_environment();
   group_by(light_points_.size(), light_order_, light_groups_,
            [this](std::size_t k) { return context_.material_of(light_points_[k].point); });
   for (std::size_t m = 0; m < light_groups_.size(); ++m) {
@@ -97,6 +113,21 @@ void Wavefront::ask_lights() {
                 });
   }
   lit_.clear();
+}
+
+void Wavefront::ask_environment() {
+  if (lit_by_sky_.empty()) return;
+  sky_samples_.resize(lit_by_sky_.size());
+  context_.environment->sample(sky_numbers_, sky_samples_);
+  const float chance = context_.lights.environment_chance();
+  for (std::size_t k = 0; k < lit_by_sky_.size(); ++k) {
+    const Environment::Sample& s = sky_samples_[k];
+    LightSample& light = light_samples_[lit_by_sky_[k]];
+    light = {s.wi, s.radiance, {}, chance * s.pdf, true};
+    light.group = context_.settings.passes.groups.of_environment;
+  }
+  lit_by_sky_.clear();
+  sky_numbers_.clear();
 }
 
 void Wavefront::light_emission(const Material& material, std::span<const std::uint32_t> points) {

@@ -61,7 +61,7 @@ bool Wavefront::scatter_inside(std::uint32_t i, const Medium& medium, float dist
     choose_light(
         i,
         {path.media.mesh(), path.media.instance(), path.ray.time, path.vertex, -path.ray.direction},
-        {});
+        {}, {draw(path, Draw::light_choice), draw(path, Draw::light)});
     scatterings_.push_back({i, path.ray.direction, medium.anisotropy, path.throughput});
   }
   path.ray = {path.vertex, to.direction, INFINITY, ray_secondary, path.ray.time};

@@ -118,10 +118,10 @@ void Wavefront::weigh_connections(const Material& material, std::span<const std:
 }
 
 void Wavefront::extend(const Material& material, std::span<const std::uint32_t> paths) {
+  draw(paths, Draw::lobe, numbers_);
+  draw(paths, Draw::direction, more_numbers_);
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
-    const Path& path = paths_[paths[lane]];
-    const Uniform2 direction = draw(path, Draw::direction);
-    store(buffer_.u, lane, {draw(path, Draw::lobe).x, direction.x, direction.y});
+    store(buffer_.u, lane, {numbers_[lane].x, more_numbers_[lane].x, more_numbers_[lane].y});
   }
   fork(material, paths);
   want_lobes(material, paths, reflecting_lobes);
@@ -150,7 +150,7 @@ void Wavefront::go_on(const Material& material, std::uint32_t index, std::size_t
                            goes_within(material, hit, lane, load(buffer_.sample.wi, lane));
   if (!scatter(path, lane, hit.distance)) return;
   note_scattering(index, lane);
-  path.normal = lit_normal(index);
+  if (context_.lights.asks_where()) path.normal = lit_normal(index);
   path.light_blind = path.light_blind || unconnected;
   if ((buffer_.sample.flags[lane] & sample_transmitted) != 0) {
     change_medium(material, path, hit, lane);

@@ -144,6 +144,45 @@ TEST(Environment, TopRowIsUpAndTheMiddleIsMinusZ) {
   EXPECT_EQ(e.light({-1.f, 0.f, 0.f}).radiance.z, 0.f);
 }
 
+// Whole waves are asked at once: the place within a block changes nothing.
+TEST(Environment, ManyAreTheSameAsOneByOne) {
+  const Environment e = spotty(64, 32, 0.7f);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> u(0.f, 1.f);
+  for (const std::size_t count : {1u, 8u, 63u, 64u, 65u, 300u}) {
+    std::vector<Uniform2> numbers;
+    for (std::size_t i = 0; i < count; ++i) numbers.push_back({u(random), u(random)});
+    std::vector<Environment::Sample> samples(count);
+    e.sample(numbers, samples);
+    std::vector<Vec3> directions;
+    for (const Environment::Sample& s : samples) directions.push_back(s.wi);
+    std::vector<Environment::Light> lights(count);
+    e.light(directions, lights);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Environment::Sample s = e.sample(numbers[i]);
+      ASSERT_EQ(s.wi.x, samples[i].wi.x) << i << " of " << count;
+      ASSERT_EQ(s.radiance.y, samples[i].radiance.y) << i << " of " << count;
+      ASSERT_EQ(s.pdf, samples[i].pdf) << i << " of " << count;
+      const Environment::Light l = e.light(directions[i]);
+      ASSERT_EQ(l.radiance.x, lights[i].radiance.x) << i << " of " << count;
+      ASSERT_EQ(l.pdf, lights[i].pdf) << i << " of " << count;
+    }
+  }
+}
+
+// Directions have length 1, at any rotation: the sine and cosine of an angle belong together.
+TEST(Environment, DirectionsAreUnitVectors) {
+  for (const float rotation : {0.f, 1.f, -2.f, 40.f}) {
+    const Environment e = spotty(32, 16, rotation);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> u(0.f, 1.f);
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 wi = e.sample({u(random), u(random)}).wi;
+      ASSERT_NEAR(double{wi.x} * wi.x + double{wi.y} * wi.y + double{wi.z} * wi.z, 1.0, 1e-6);
+    }
+  }
+}
+
 // Against the library's inverse functions, in double.
 TEST(Environment, DirectionsAreWhereTheImageHasThem) {
   const int width = 512, height = 256;

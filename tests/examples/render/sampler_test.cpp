@@ -60,6 +60,25 @@ TEST(Sampler, NumbersAreBelowOne) {
   }
 }
 
+// What several lanes make is what one makes, at every length of the last block.
+TEST(Sampler, ManyAreTheSameAsOneByOne) {
+  for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
+    for (const std::size_t count : {0u, 1u, 7u, 63u, 64u, 65u, 1000u}) {
+      std::vector<SampleKey> keys;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        keys.push_back({i * 0x9e3779b9u, i ^ 0xfffffff0u, i * i, i % 9, i % 3});
+      }
+      std::vector<Uniform2> numbers(count);
+      uniform2(kind, keys, Draw::direction, numbers);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Uniform2 one = uniform2(kind, keys[i], Draw::direction);
+        ASSERT_EQ(numbers[i].x, one.x) << i << " of " << count;
+        ASSERT_EQ(numbers[i].y, one.y) << i << " of " << count;
+      }
+    }
+  }
+}
+
 TEST(Sampler, SeedChangesEveryNumber) {
   int same = 0;
   for (std::uint32_t i = 0; i < 1000; ++i) {
