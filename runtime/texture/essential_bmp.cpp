@@ -43,14 +43,19 @@ bool is_one_run(std::uint32_t mask) {
 
 class BmpReader {
  public:
-  BmpReader(const ImageFile& file, const ImageLimits& limits, std::string& bytes)
-      : file_(file), limits_(limits), cursor_(file), result_(bytes) {}
+  BmpReader(const ImageFile& file, const ImageLimits& limits, ImageExtent extent,
+            std::string& bytes)
+      : file_(file), limits_(limits), extent_(extent), cursor_(file), result_(bytes) {}
 
   std::optional<Diagnostic> run() {
     if (auto problem = take_header()) return problem;
     if (auto problem = check_packing()) return problem;
     if (auto problem = take_palette()) return problem;
     if (bitmap_.pixels_at > file_.bytes()) return broken("the pixels are behind the file's end");
+    if (extent_ == ImageExtent::header) {
+      begin_result(bitmap_.has_runs() ? 8 : bitmap_.bits, 0);
+      return std::nullopt;
+    }
     cursor_.skip(bitmap_.pixels_at - cursor_.at());
     return bitmap_.has_runs() ? take_runs() : take_rows();
   }
@@ -234,6 +239,7 @@ class BmpReader {
 
   const ImageFile& file_;
   const ImageLimits& limits_;
+  ImageExtent extent_;
   FileCursor cursor_;
   std::string& result_;
   Bitmap bitmap_;
@@ -244,8 +250,8 @@ class BmpReader {
 }  // namespace
 
 std::optional<Diagnostic> essential_bmp(const ImageFile& file, const ImageLimits& limits,
-                                        std::string& bytes) {
-  return BmpReader(file, limits, bytes).run();
+                                        ImageExtent extent, std::string& bytes) {
+  return BmpReader(file, limits, extent, bytes).run();
 }
 
 }  // namespace nacre

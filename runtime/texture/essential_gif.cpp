@@ -160,7 +160,7 @@ class GifReader {
 }  // namespace
 
 std::optional<Diagnostic> essential_gif(const ImageFile& file, const ImageLimits& limits,
-                                        std::string& bytes) {
+                                        ImageExtent, std::string& bytes) {
   return GifReader(file, limits, bytes).run();
 }
 

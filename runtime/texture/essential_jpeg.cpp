@@ -9,6 +9,7 @@ namespace {
 
 constexpr int most_scans = 100;  // Encoders write about ten; a progressive script at most 64.
 constexpr std::size_t always_read = std::size_t{64} << 20;
+constexpr std::size_t read_at_once = std::size_t{1} << 16;  // Of a header.
 
 // Second bytes of markers; the first is 0xff. ITU-T T.81, table B.1.
 constexpr int first_restart = 0xd0, last_restart = 0xd7, start_of_image = 0xd8, end_of_image = 0xd9;
@@ -28,11 +29,13 @@ bool is_left_out(int marker) {
 
 class JpegReader {
  public:
-  JpegReader(const ImageFile& file, const ImageLimits& limits, std::string& bytes)
-      : file_(file), limits_(limits), result_(bytes) {}
+  JpegReader(const ImageFile& file, const ImageLimits& limits, ImageExtent extent,
+             std::string& bytes)
+      : file_(file), limits_(limits), extent_(extent), result_(bytes) {}
 
   std::optional<Diagnostic> run() {
-    if (!load(std::min<std::uint64_t>(file_.bytes(), always_read))) return broken("it ends early");
+    const std::size_t first = extent_ == ImageExtent::whole ? always_read : read_at_once;
+    if (!load(std::min<std::uint64_t>(file_.bytes(), first))) return broken("it ends early");
     result_.assign("\xff\xd8");
     at_ = 2;
     for (;;) {
@@ -45,6 +48,11 @@ class JpegReader {
       if (marker == start_of_image) return broken("an image begins inside the image");
       if (auto problem = take_segment(marker)) return problem;
       if (marker != start_of_scan) continue;
+      if (extent_ == ImageExtent::header) {
+        // Readers of several scans look at all of them when they begin: there is none.
+        result_ += "\xff\xd9";
+        return std::nullopt;
+      }
       if (++scans_ > most_scans) return broken("the image has too many scans");
       take_scan();
     }
@@ -61,12 +69,20 @@ class JpegReader {
     return file_.read(known, whole_.data() + known, whole_.size() - known) == whole_.size() - known;
   }
 
+  /// Whether the file has so many bytes, which are there then. A header goes on for as long as
+  /// its segments do.
+  bool reaches(std::size_t end) {
+    if (end <= whole_.size()) return true;
+    if (extent_ == ImageExtent::whole || end > file_.bytes()) return false;
+    return load(std::min<std::uint64_t>(file_.bytes(), end + read_at_once));
+  }
+
   int byte(std::size_t at) const { return static_cast<unsigned char>(whole_[at]); }
   int two_bytes(std::size_t at) const { return byte(at) << 8 | byte(at + 1); }
 
   /// Moves behind the next marker, past any filling; its number, -1 where there is none.
   int next_marker() {
-    while (at_ + 1 < whole_.size()) {
+    while (reaches(at_ + 2)) {
       if (byte(at_) != 0xff) return -1;
       const int marker = byte(++at_);
       if (marker == 0xff) continue;
@@ -77,9 +93,9 @@ class JpegReader {
   }
 
   std::optional<Diagnostic> take_segment(int marker) {
-    if (at_ + 2 > whole_.size()) return broken("the file ends inside a segment");
+    if (!reaches(at_ + 2)) return broken("the file ends inside a segment");
     const auto length = static_cast<std::size_t>(two_bytes(at_));
-    if (length < 2 || length > whole_.size() - at_) return broken("a segment is cut short");
+    if (length < 2 || !reaches(at_ + length)) return broken("a segment is cut short");
     if (starts_frame(marker)) {
       if (auto problem = take_frame(length)) return problem;
     }
@@ -99,7 +115,7 @@ class JpegReader {
     if (length < 8) return broken("a segment is cut short");
     const int height = two_bytes(at_ + 3), width = two_bytes(at_ + 5), channels = byte(at_ + 7);
     if (auto problem = check_image_size(file_.path(), width, height, limits_)) return problem;
-    if (file_.bytes() <= whole_.size()) return std::nullopt;
+    if (file_.bytes() <= whole_.size() || extent_ == ImageExtent::header) return std::nullopt;
     const std::uint64_t samples = static_cast<std::uint64_t>(width) *
                                   static_cast<std::uint64_t>(height) *
                                   static_cast<std::uint64_t>(channels);
@@ -130,6 +146,7 @@ class JpegReader {
 
   const ImageFile& file_;
   const ImageLimits& limits_;
+  ImageExtent extent_;
   std::string& result_;
   std::string whole_;
   std::size_t at_ = 0;
@@ -140,8 +157,8 @@ class JpegReader {
 }  // namespace
 
 std::optional<Diagnostic> essential_jpeg(const ImageFile& file, const ImageLimits& limits,
-                                         std::string& bytes) {
-  return JpegReader(file, limits, bytes).run();
+                                         ImageExtent extent, std::string& bytes) {
+  return JpegReader(file, limits, extent, bytes).run();
 }
 
 }  // namespace nacre

@@ -39,8 +39,9 @@ std::uint64_t most_packed_bytes(const PngHeader& header) {
 
 class PngReader {
  public:
-  PngReader(const ImageFile& file, const ImageLimits& limits, std::string& bytes)
-      : file_(file), limits_(limits), cursor_(file), bytes_(bytes) {}
+  PngReader(const ImageFile& file, const ImageLimits& limits, ImageExtent extent,
+            std::string& bytes)
+      : file_(file), limits_(limits), extent_(extent), cursor_(file), bytes_(bytes) {}
 
   std::optional<Diagnostic> run() {
     if (!cursor_.take(signature_size, bytes_)) return broken("the file ends inside its signature");
@@ -56,6 +57,11 @@ class PngReader {
       }
       if (auto problem = check_chunk(head, type)) return problem;
       const bool is_data = type == "IDAT";
+      // As far as libpng reads before it is asked for pixels.
+      if (is_data && extent_ == ImageExtent::header) {
+        bytes_ += head;
+        return std::nullopt;
+      }
       // What comes behind the first pixels says nothing about them any more.
       const bool is_late = data_ && (type == "PLTE" || type == "tRNS");
       const bool is_needed =
@@ -131,6 +137,7 @@ class PngReader {
 
   const ImageFile& file_;
   const ImageLimits& limits_;
+  ImageExtent extent_;
   FileCursor cursor_;
   std::string& bytes_;
   std::optional<PngHeader> header_;
@@ -142,8 +149,8 @@ class PngReader {
 }  // namespace
 
 std::optional<Diagnostic> essential_png(const ImageFile& file, const ImageLimits& limits,
-                                        std::string& bytes) {
-  return PngReader(file, limits, bytes).run();
+                                        ImageExtent extent, std::string& bytes) {
+  return PngReader(file, limits, extent, bytes).run();
 }
 
 }  // namespace nacre

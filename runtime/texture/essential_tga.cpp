@@ -7,7 +7,7 @@
 namespace nacre {
 
 std::optional<Diagnostic> essential_tga(const ImageFile& file, const ImageLimits& limits,
-                                        std::string& bytes) {
+                                        ImageExtent extent, std::string& bytes) {
   constexpr std::string_view version_2 = "TRUEVISION-XFILE.";
   std::string header;
   if (!FileCursor(file).take(image_signature_bytes, header)) {
@@ -21,6 +21,12 @@ std::optional<Diagnostic> essential_tga(const ImageFile& file, const ImageLimits
   if (auto problem = check_image_size(file.path(), static_cast<std::int64_t>(width),
                                       static_cast<std::int64_t>(height), limits)) {
     return problem;
+  }
+  if (extent == ImageExtent::header) {
+    // The reader passes over the identification, and looks for a mark at the end.
+    bytes = header;
+    bytes.resize(image_signature_bytes + static_cast<std::size_t>(byte(0)) + 2 * version_2.size());
+    return std::nullopt;
   }
   const bool is_packed = (byte(2) & 8) != 0;
   const std::uint64_t pixels = width * height;

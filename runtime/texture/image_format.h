@@ -16,6 +16,12 @@ namespace nacre {
 /// all of them on an unknown file.
 enum class ImageFormat { exr, png, jpeg, tiff, hdr, tga, bmp, gif };
 
+/// How much of a file is looked at.
+enum class ImageExtent {
+  header,  ///< What says of which size and type the pixels are. They may be damaged or missing.
+  whole
+};
+
 /// OpenImageIO's name of the reader.
 std::string_view reader_name(ImageFormat format);
 

@@ -29,15 +29,28 @@ std::optional<Diagnostic> ImageReader::guarded(
 
 std::optional<Diagnostic> ImageReader::open(const std::string& path, const std::string& layer,
                                             const ImageLimits& limits, const Stop& stop) {
+  return open(path, layer, limits, stop, ImageExtent::whole);
+}
+
+std::optional<Diagnostic> ImageReader::look(const std::string& path, const std::string& layer,
+                                            const ImageLimits& limits, const Stop& stop) {
+  auto problem = open(path, layer, limits, stop, ImageExtent::header);
+  decoder_.reset();
+  return problem;
+}
+
+std::optional<Diagnostic> ImageReader::open(const std::string& path, const std::string& layer,
+                                            const ImageLimits& limits, const Stop& stop,
+                                            ImageExtent extent) {
   path_ = path;
   info_ = {};
   stop_ = stop;
   decoder_.reset();
-  return guarded([&] { return open_image(layer, limits); });
+  return guarded([&] { return open_image(layer, limits, extent); });
 }
 
 std::optional<Diagnostic> ImageReader::open_image(const std::string& layer,
-                                                  const ImageLimits& limits) {
+                                                  const ImageLimits& limits, ImageExtent extent) {
   Diagnostic error;
   auto file = ImageFile::open(path_, limits, error);
   if (file == nullptr) return error;
@@ -45,7 +58,7 @@ std::optional<Diagnostic> ImageReader::open_image(const std::string& layer,
   if (module == nullptr) return error;
   info_.file = file->identity();
   decoder_ = module->make_decoder();
-  return decoder_->open(std::move(file), layer, limits, stop_, info_);
+  return decoder_->open(std::move(file), layer, limits, extent, stop_, info_);
 }
 
 std::optional<Diagnostic> ImageReader::read(const std::function<void(int, const float*)>& row) {

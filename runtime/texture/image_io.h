@@ -8,6 +8,7 @@
 #include "runtime/diagnostic.h"
 #include "runtime/stop.h"
 #include "runtime/texture/file_identity.h"
+#include "runtime/texture/image_format.h"
 #include "runtime/texture/image_limits.h"
 
 namespace nacre {
@@ -49,7 +50,11 @@ class ImageReader {
   /// "stopped".
   std::optional<Diagnostic> open(const std::string& path, const std::string& layer,
                                  const ImageLimits& limits, const Stop& stop = {});
-  /// After open() without an error.
+  /// The same of the header alone: costs next to nothing, whatever the size of the image, of which
+  /// nothing is unpacked or can be read afterwards. What is wrong with the pixels is not noticed.
+  std::optional<Diagnostic> look(const std::string& path, const std::string& layer,
+                                 const ImageLimits& limits, const Stop& stop = {});
+  /// After open() or look() without an error.
   const ImageInfo& info() const { return info_; }
 
   /// Calls `row(y, samples)` for the full window's rows, y = 0 the TOP one, in order,
@@ -57,7 +62,10 @@ class ImageReader {
   std::optional<Diagnostic> read(const std::function<void(int, const float*)>& row);
 
  private:
-  std::optional<Diagnostic> open_image(const std::string& layer, const ImageLimits& limits);
+  std::optional<Diagnostic> open(const std::string& path, const std::string& layer,
+                                 const ImageLimits& limits, const Stop& stop, ImageExtent extent);
+  std::optional<Diagnostic> open_image(const std::string& layer, const ImageLimits& limits,
+                                       ImageExtent extent);
   std::optional<Diagnostic> guarded(const std::function<std::optional<Diagnostic>()>& work);
 
   std::unique_ptr<ImageDecoder> decoder_;

@@ -17,11 +17,11 @@ class ImageDecoder {
  public:
   virtual ~ImageDecoder() = default;
 
-  /// See ImageReader::open; fills in `info`. May throw, and so may `read`.
+  /// See ImageReader::open and, of a header, look; fills in `info`. May throw, and so may `read`.
   virtual std::optional<Diagnostic> open(std::shared_ptr<const ImageFile> file,
                                          const std::string& layer, const ImageLimits& limits,
-                                         const Stop& stop, ImageInfo& info) = 0;
-  /// See ImageReader::read.
+                                         ImageExtent extent, const Stop& stop, ImageInfo& info) = 0;
+  /// See ImageReader::read; of what was opened whole.
   virtual std::optional<Diagnostic> read(const std::function<void(int, const float*)>& row) = 0;
 };
 

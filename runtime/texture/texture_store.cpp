@@ -121,7 +121,7 @@ TextureStore::Loaded TextureStore::load_image(const TextureKey& key, const Stop&
 
 TextureHandle TextureStore::stand_in(const TextureKey& key, const Stop& stop) const {
   ImageReader reader;
-  if (reader.open(key.path, key.layer, options_.limits, stop)) return nullptr;
+  if (reader.look(key.path, key.layer, options_.limits, stop)) return nullptr;
   const texture_layout::Plan whole = plan_texture(reader.info(), key.policy);
   if (whole.bytes() > options_.budget) return nullptr;
   const int side = whole.levels == 1 ? 1 : 2;

@@ -92,8 +92,8 @@ class TextureStore {
   TextureHandle acquire(const TextureKey& key, Diagnostics& diagnostics, const Stop& stop = {});
 
   /// What stands for a texture that is acquired later: of its format, channels and number of texels
-  /// as far as kernels know them, but of few and black. Null where the image cannot be had, or
-  /// would not be resident.
+  /// as far as kernels know them, but of few and black. Of the file the header alone is looked at.
+  /// Null where that is wrong, or the image would not be resident.
   TextureHandle stand_in(const TextureKey& key, const Stop& stop = {}) const;
 
   /// Images in memory, by names of the host's: documents that name one get it in place of a file.

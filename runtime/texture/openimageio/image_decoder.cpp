@@ -96,7 +96,7 @@ int row_step(const OIIO::ImageSpec& spec) {
 class Decoder final : public ImageDecoder {
  public:
   std::optional<Diagnostic> open(std::shared_ptr<const ImageFile> file, const std::string& layer,
-                                 const ImageLimits& limits, const Stop& stop,
+                                 const ImageLimits& limits, ImageExtent extent, const Stop& stop,
                                  ImageInfo& info) override;
   std::optional<Diagnostic> read(const std::function<void(int, const float*)>& row) override;
 
@@ -109,9 +109,9 @@ class Decoder final : public ImageDecoder {
 
 std::optional<Diagnostic> Decoder::open(std::shared_ptr<const ImageFile> file,
                                         const std::string& layer, const ImageLimits& limits,
-                                        const Stop& stop, ImageInfo& info) {
+                                        ImageExtent extent, const Stop& stop, ImageInfo& info) {
   stop_ = stop;
-  if (auto problem = open_input(std::move(file), limits, stop_, input_)) return problem;
+  if (auto problem = open_input(std::move(file), limits, extent, stop_, input_)) return problem;
   OIIO::ImageInput& input = *input_.reader;
   if (!select_layer(input_, layer, limits.max_layers, info)) {
     if (layer.empty()) return broken_image(input_.file->path(), input.geterror());

@@ -54,7 +54,8 @@ class GuardedSource final : public OIIO::Filesystem::IOFile {
   TiffDirectories directories_;
 };
 
-using Essence = std::optional<Diagnostic> (*)(const ImageFile&, const ImageLimits&, std::string&);
+using Essence = std::optional<Diagnostic> (*)(const ImageFile&, const ImageLimits&, ImageExtent,
+                                              std::string&);
 
 /// For formats of which a reader gets a copy without what the pixels do not need.
 Essence essence_of(ImageFormat format) {
@@ -124,8 +125,8 @@ bool GuardedInput::seek(int subimage, int level) {
 }
 
 std::optional<Diagnostic> open_input(std::shared_ptr<const ImageFile> file,
-                                     const ImageLimits& limits, const Stop& stop,
-                                     GuardedInput& input) {
+                                     const ImageLimits& limits, ImageExtent extent,
+                                     const Stop& stop, GuardedInput& input) {
   input.close();
   input.file = std::move(file);
   const ImageFile& from = *input.file;
@@ -139,7 +140,7 @@ std::optional<Diagnostic> open_input(std::shared_ptr<const ImageFile> file,
     if (auto reason = tiff_fault(from, limits, directories)) return broken(*reason);
   }
   if (const Essence essence = essence_of(from.format())) {
-    if (auto problem = essence(from, limits, input.bytes)) return problem;
+    if (auto problem = essence(from, limits, extent, input.bytes)) return problem;
     input.source =
         std::make_unique<OIIO::Filesystem::IOMemReader>(input.bytes.data(), input.bytes.size());
   } else {

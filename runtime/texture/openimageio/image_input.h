@@ -35,11 +35,12 @@ struct GuardedInput {
 
 /// Opens a file with the reader of its format, whatever its name, after everything that
 /// the reader allocates or interprets unasked was looked at. Alpha is not multiplied in.
-/// The sizes of what is opened are not checked yet: see check_header. Once `stop` is due
+/// The sizes of what is opened are not checked yet: see check_header. Of a header nothing can be
+/// read. Once `stop` is due
 /// the reader gets no more bytes.
 std::optional<Diagnostic> open_input(std::shared_ptr<const ImageFile> file,
-                                     const ImageLimits& limits, const Stop& stop,
-                                     GuardedInput& input);
+                                     const ImageLimits& limits, ImageExtent extent,
+                                     const Stop& stop, GuardedInput& input);
 
 /// The image at hand against the limits, `channels` of it to be read, before anything is
 /// allocated from its header; and that it is flat, two-dimensional and packed in a way that

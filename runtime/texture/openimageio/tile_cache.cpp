@@ -91,7 +91,8 @@ class CachedInput final : public OIIO::ImageInput {
     auto file = ImageFile::open(origin.path, origin.limits, error);
     if (file == nullptr) return fail(error.message);
     if (file->identity() != origin.identity) return fail("the file is another than it was");
-    if (const auto problem = open_input(std::move(file), origin.limits, {}, input_)) {
+    if (const auto problem =
+            open_input(std::move(file), origin.limits, ImageExtent::whole, {}, input_)) {
       return fail(problem->found);
     }
     if (const auto problem = check_header(input_.reader->spec(), *input_.file, 1, origin.limits)) {

@@ -24,6 +24,7 @@ class ImageIo : public testing::Test {
       return {};
     }
     info_ = reader.info();
+    expect_look(path, layer);
     TestImage image{info_.width, info_.height, info_.channels, {}};
     int next = 0;
     const auto problem = reader.read([&](int y, const float* samples) {
@@ -33,6 +34,23 @@ class ImageIo : public testing::Test {
     EXPECT_FALSE(problem.has_value());
     EXPECT_EQ(next, info_.height);
     return image;
+  }
+
+  /// The header alone says the same.
+  void expect_look(const std::string& path, const std::string& layer) const {
+    ImageReader reader;
+    if (const auto problem = reader.look(path, layer, {})) {
+      ADD_FAILURE() << problem->to_string();
+      return;
+    }
+    const ImageInfo& seen = reader.info();
+    EXPECT_EQ(seen.width, info_.width) << path;
+    EXPECT_EQ(seen.height, info_.height) << path;
+    EXPECT_EQ(seen.channels, info_.channels) << path;
+    EXPECT_EQ(seen.first_channel, info_.first_channel) << path;
+    EXPECT_EQ(seen.subimage, info_.subimage) << path;
+    EXPECT_EQ(seen.samples, info_.samples) << path;
+    EXPECT_EQ(seen.file, info_.file) << path;
   }
 
   std::string code_of(const std::string& path, const std::string& layer = {},
@@ -228,6 +246,31 @@ TEST_F(ImageIo, LimitsHold) {
   EXPECT_EQ(code_of(file("a.png"), "", with(&ImageLimits::max_file_bytes, file_bytes)), "");
   EXPECT_EQ(code_of(file("a.png"), "", with(&ImageLimits::max_file_bytes, file_bytes - 1)),
             "image-too-large");
+}
+
+// What the header says is held against the limits, and known where the pixels are cut off.
+TEST_F(ImageIo, ALookEndsWithTheHeader) {
+  for (const char* name : {"a.png", "a.jpg", "a.tga", "a.bmp", "a.exr", "a.tif"}) {
+    ASSERT_TRUE(write_image(file(name), random_image(64, 48, 3, 255)));
+    const std::string whole = read_file(file(name));
+    ImageLimits small;
+    small.max_size = 63;
+    ImageReader reader;
+    auto problem = reader.look(file(name), "", small);
+    ASSERT_TRUE(problem) << name;
+    EXPECT_EQ(problem->code, "image-too-large") << name;
+    write_file(file(name), whole.substr(0, 16));
+    EXPECT_TRUE(reader.look(file(name), "", {})) << name;
+  }
+  for (const char* name : {"b.png", "b.jpg"}) {
+    ASSERT_TRUE(write_image(file(name), random_image(64, 48, 3, 255)));
+    const std::string whole = read_file(file(name));
+    write_file(file(name), whole.substr(0, whole.size() - 500));
+    ImageReader reader;
+    EXPECT_TRUE(reader.open(file(name), "", {})) << name;
+    EXPECT_FALSE(reader.look(file(name), "", {})) << name;
+    EXPECT_EQ(reader.info().width, 64) << name;
+  }
 }
 
 /// Who comes first loads what reads images, the others wait for it.
