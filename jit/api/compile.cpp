@@ -1,7 +1,12 @@
+#include <algorithm>
 #include <array>
+#include <cstring>
+#include <memory>
+#include <vector>
 
 #include "jit/api/call.h"
 #include "jit/api/handles.h"
+#include "jit/api/share.h"
 #include "jit/graph/look/look.h"
 #include "jit/tune/profile.h"
 
@@ -113,6 +118,39 @@ bool is_meant(const nacre_compile_options* given) {
          is_one_of_three(asked.prefer) && is_one_of_three(asked.compensation);
 }
 
+bool is_same(const char* a, const char* b) {
+  return std::strcmp(text_or_empty(a), text_or_empty(b)) == 0;
+}
+
+/// Whether two options lead from a document to the same graph.
+bool make_one_graph(const nacre_compile_options& a, const nacre_compile_options& b) {
+  const auto are_same = [](const auto* some, std::size_t count, const auto* others,
+                           std::size_t other_count, auto&& is_pair) {
+    if (some == nullptr || others == nullptr) return some == others || count + other_count == 0;
+    return std::equal(some, some + count, others, others + other_count, is_pair);
+  };
+  const bool has_same_names = are_same(
+      a.names, a.name_count, b.names, b.name_count, [](const auto& one, const auto& other) {
+        return is_same(one.name, other.name) && is_same(one.text, other.text);
+      });
+  const bool has_same_variants =
+      are_same(a.variants, a.variant_count, b.variants, b.variant_count,
+               [](const auto& one, const auto& other) {
+                 return is_same(one.set, other.set) && is_same(one.variant, other.variant);
+               });
+  return has_same_names && has_same_variants && is_same(a.working_space, b.working_space) &&
+         is_same(a.output_space, b.output_space) && is_same(a.distance_unit, b.distance_unit) &&
+         is_same(a.geometry, b.geometry) && a.lenient == b.lenient && a.prefer == b.prefer &&
+         a.has_frame == b.has_frame && a.frame == b.frame && a.max_nodes == b.max_nodes &&
+         a.max_inputs == b.max_inputs;
+}
+
+bool are_meant(const nacre_compile_options* const* variants, std::size_t count) {
+  return std::all_of(variants, variants + count, [&](const nacre_compile_options* each) {
+    return is_meant(each) && make_one_graph(options_of(each), options_of(variants[0]));
+  });
+}
+
 }  // namespace
 
 nacre_status nacre_compile_material(nacre_system* system, const nacre_document* document,
@@ -132,6 +170,38 @@ nacre_status nacre_compile_material(nacre_system* system, const nacre_document* 
     }
     return hand_out(system->system->compile_material(from, material, asked, said.diagnostics()),
                     said, shader);
+  });
+}
+
+nacre_status nacre_compile_variants(nacre_system* system, const nacre_document* document,
+                                    const char* material,
+                                    const nacre_compile_options* const* variants, size_t count,
+                                    nacre_report* report, nacre_shader** shaders) {
+  if (shaders == nullptr) return NACRE_WRONG_ARGUMENTS;
+  std::fill_n(shaders, count, nullptr);
+  if (system == nullptr || document == nullptr || material == nullptr || variants == nullptr ||
+      count == 0 || !are_meant(variants, count)) {
+    return NACRE_WRONG_ARGUMENTS;
+  }
+  return guarded(report, [&] {
+    Said said(report);
+    const Document& from = *document->document;
+    std::vector<ShaderOptions> asked;
+    for (std::size_t i = 0; i < count; ++i) {
+      asked.push_back(shader_options(variants[i], from));
+      if (!apply_profile_of(variants[i], {material}, true, asked.back(), said.diagnostics())) {
+        return nacre_status{NACRE_FAILED};
+      }
+    }
+    auto made = system->system->compile_variants(from, material, asked, said.diagnostics());
+    if (made.empty() || said.has_errors()) return nacre_status{NACRE_FAILED};
+    std::vector<std::unique_ptr<nacre_shader>> handles;
+    for (auto& kernels : made) {
+      handles.push_back(std::make_unique<nacre_shader>(
+          nacre_shader{std::make_shared<const ShaderData>(std::move(kernels))}));
+    }
+    for (std::size_t i = 0; i < count; ++i) shaders[i] = handles[i].release();
+    return nacre_status{NACRE_OK};
   });
 }
 
@@ -170,3 +240,5 @@ nacre_status nacre_check(nacre_system* system, const nacre_document* document,
 }
 
 void nacre_shader_destroy(nacre_shader* shader) { delete shader; }
+
+nacre_shader* nacre::api::share(const nacre_shader* shader) { return new nacre_shader(*shader); }

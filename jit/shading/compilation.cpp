@@ -49,7 +49,8 @@ Compilation::Compilation(const SystemParts& parts, ShaderOptions options, Diagno
       options_(std::move(options)),
       diagnostics_(diagnostics),
       textures_(std::make_shared<RecordedTextures>(*parts.textures, recorder_, diagnostics,
-                                                   options_.max_anisotropy)) {}
+                                                   options_.max_anisotropy)),
+      errors_before_(diagnostics.error_count()) {}
 
 std::optional<Graph> Compilation::build(const Document& document, const GraphRequest& request) {
   return Stages(&stages_).run(
@@ -74,17 +75,20 @@ std::unique_ptr<OutputKernel> Compilation::make_outputs(const Graph& graph) {
 
 std::unique_ptr<MaterialKernels> Compilation::make_material(const Graph& graph,
                                                             const SourceLocation& where) {
-  const std::size_t errors = diagnostics_.error_count();
   auto recorded = record_material(graph, where);
-  if (!recorded) return nullptr;
-  auto kernels = std::make_unique<MaterialKernels>(std::move(recorded->kernels));
-  auto compiled = compile(std::move(recorded->programs));
+  return recorded ? finish(graph, std::move(*recorded)) : nullptr;
+}
+
+std::unique_ptr<MaterialKernels> Compilation::finish(const Graph& graph,
+                                                     RecordedMaterial recorded) {
+  auto kernels = std::make_unique<MaterialKernels>(std::move(recorded.kernels));
+  auto compiled = compile(std::move(recorded.programs));
   for (std::size_t i = 0; i < compiled.size(); ++i) {
-    (*kernels).*recorded->places[i] = std::move(compiled[i]);
+    (*kernels).*recorded.places[i] = std::move(compiled[i]);
   }
   kernels->parameters = live_parameters(graph);
   kernels->stages = std::move(stages_);
-  return is_complete(errors) ? std::move(kernels) : nullptr;
+  return is_complete(errors_before_) ? std::move(kernels) : nullptr;
 }
 
 bool Compilation::is_complete(std::size_t errors_before) const {

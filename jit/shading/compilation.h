@@ -52,6 +52,9 @@ class Compilation {
   std::optional<RecordedOutputs> record_outputs(const Graph& graph);
   std::optional<RecordedMaterial> record_material(const Graph& graph, const SourceLocation& where);
 
+  /// The rest of make_material, by any thread: null, after an error, where there is no kernel.
+  std::unique_ptr<MaterialKernels> finish(const Graph& graph, RecordedMaterial recorded);
+
   /// The passes, for their diagnostics.
   void try_stages(std::vector<Program> programs);
 
@@ -86,6 +89,7 @@ class Compilation {
   std::shared_ptr<RecordedTextures> textures_;
   SourceLocation where_;  ///< Of what is compiled.
   std::vector<StageReport> stages_;
+  std::size_t errors_before_;  ///< What was wrong before there was anything to compile.
 };
 
 }  // namespace nacre

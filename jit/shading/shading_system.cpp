@@ -1,27 +1,15 @@
 #include "jit/shading/shading_system.h"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "jit/graph/find.h"
 #include "jit/shading/check.h"
 #include "jit/shading/compilation.h"
 #include "jit/shading/system_parts.h"
+#include "jit/shading/variants.h"
 #include "runtime/float_environment.h"
 
 namespace nacre {
-
-namespace {
-
-std::vector<std::string> values_of(const std::vector<std::string>& with_begin) {
-  std::vector<std::string> values;
-  std::ranges::copy_if(with_begin, std::back_inserter(values),
-                       [](const std::string& name) { return !is_point_result(name); });
-  return values;
-}
-
-}  // namespace
 
 ShadingSystem::ShadingSystem(std::unique_ptr<SystemParts> parts) : parts_(std::move(parts)) {}
 
@@ -76,6 +64,13 @@ std::unique_ptr<MaterialKernels> ShadingSystem::compile_material(const Graph& gr
                                                                  Diagnostics& diagnostics) {
   const ScopedDefaultFloatEnvironment environment;
   return Compilation(*parts_, from_now(options), diagnostics).make_material(graph, {});
+}
+
+std::vector<std::unique_ptr<MaterialKernels>> ShadingSystem::compile_variants(
+    const Document& document, const std::string& material, std::span<const ShaderOptions> variants,
+    Diagnostics& diagnostics) {
+  const ScopedDefaultFloatEnvironment environment;
+  return make_variants(document, material, *parts_, variants, diagnostics);
 }
 
 void ShadingSystem::check(const Document& document, const ShaderOptions& options,

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -213,6 +214,14 @@ class ShadingSystem {
                                                     const std::string& material,
                                                     const ShaderOptions& options,
                                                     Diagnostics& diagnostics);
+
+  /// Several sets of kernels of one material, for rays that ask different things of it: each as
+  /// compile_material would make it, to the bit, but the graph is built once, by
+  /// ShaderOptions::graph of the first, and the kernels are made side by side. None, after an
+  /// error, where one of them could not be made. Diagnostics that several have are said once.
+  std::vector<std::unique_ptr<MaterialKernels>> compile_variants(
+      const Document& document, const std::string& material,
+      std::span<const ShaderOptions> variants, Diagnostics& diagnostics);
 
   /// All diagnostics of a document. What has none compiles without any: every output
   /// that `has_kernel` and every material is recorded as for compiling, and goes through

@@ -100,6 +100,9 @@ void bind_shader(nb::module_& module) {
             });
           },
           nb::arg("system"), nb::arg("document"), nb::arg("outputs"), nb::arg("options"))
+      .def(
+          "__init__", [](Shader* self, Shader& made) { new (self) Shader(std::move(made)); },
+          nb::arg("made"), "Takes what System._compile_variants has made.")
       .def("has", &Shader::has, nb::arg("entry"),
            "Whether there is something to compute: a material that does not emit has no EMISSION.")
       .def_prop_ro("state_count", &Shader::state_count,

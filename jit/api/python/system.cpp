@@ -41,6 +41,23 @@ void bind_system(nb::module_& module) {
           nb::arg("compile_threads"), nb::arg("compile_apart"), nb::arg("texture_memory"),
           nb::arg("resolver").none())
       .def(
+          "_compile_variants",
+          [](System& self, const Document& document, const std::string& material,
+             const std::vector<CompileOptions>& variants) {
+            std::vector<Diagnostic> said;
+            std::vector<Shader> made = [&] {
+              const nb::gil_scoped_release others_run;
+              return self.compile_variants(document, material, variants, &said);
+            }();
+            warn(said);
+            nb::list shaders;
+            for (Shader& each : made) shaders.append(nb::cast(std::move(each)));
+            return shaders;
+          },
+          nb::arg("document"), nb::arg("material"), nb::arg("variants"),
+          nb::sig("def _compile_variants(self, document: Document, material: str, "
+                  "variants: list[CompileOptions]) -> list"))
+      .def(
           "_check",
           [](System& self, const Document& document, const CompileOptions& options) {
             const std::vector<Diagnostic> said = [&] {

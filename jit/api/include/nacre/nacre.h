@@ -285,6 +285,16 @@ NACRE_API nacre_status nacre_compile_outputs(nacre_system* system, const nacre_d
                                              const char* const* outputs, size_t output_count,
                                              const nacre_compile_options* options,
                                              nacre_report* report, nacre_shader** shader);
+/* Several shaders of one material, for rays that ask different things of it (a camera's, a
+   shadow's, those behind a bounce): each as nacre_compile_material makes it, with the same bits,
+   but the graph is built once, and the kernels are made side by side. All options that say what the
+   graph is (live, varying, with_begin, entries and how kernels are made do not) are the same in all
+   of them; else NACRE_WRONG_ARGUMENTS. `shaders` gets `count` of them, or NULL `count` times. */
+NACRE_API nacre_status nacre_compile_variants(nacre_system* system, const nacre_document* document,
+                                              const char* material,
+                                              const nacre_compile_options* const* variants,
+                                              size_t count, nacre_report* report,
+                                              nacre_shader** shaders);
 NACRE_API void nacre_shader_destroy(nacre_shader* shader);
 /* Says all that is wrong with a document: what has no errors compiles, every material and every
    output. `max_seconds` and others that say how kernels are made count as for compiling. */

@@ -191,6 +191,23 @@ class System {
                                         made);
         });
   }
+  /// Several of one material: as compile_material of each, with the same bits, but the graph is
+  /// built once and the kernels are made side by side. See nacre_compile_variants.
+  std::vector<Shader> compile_variants(const Document& document, const std::string& material,
+                                       const std::vector<CompileOptions>& variants,
+                                       std::vector<Diagnostic>* said = nullptr) {
+    const detail::Said report;
+    std::vector<nacre_shader*> made(variants.size());
+    std::vector<const nacre_compile_options*> asked;
+    with_each(variants, asked, [&] {
+      report.finish(nacre_compile_variants(get(), document.get(), material.c_str(), asked.data(),
+                                           asked.size(), report.get(), made.data()),
+                    said);
+    });
+    std::vector<Shader> shaders;
+    for (nacre_shader* const each : made) shaders.push_back(Shader::adopt(each));
+    return shaders;
+  }
   Shader compile_outputs(const Document& document, const std::vector<std::string>& outputs,
                          const CompileOptions& options = {},
                          std::vector<Diagnostic>* said = nullptr) {
@@ -332,6 +349,17 @@ class System {
     asked.compensation = options.compensation;
     asked.profile = options.profile.empty() ? nullptr : options.profile.c_str();
     call(asked);
+  }
+
+  /// Calls with the options of all that are left, which live as long.
+  template <class Call>
+  static void with_each(const std::vector<CompileOptions>& variants,
+                        std::vector<const nacre_compile_options*>& asked, Call&& call) {
+    if (asked.size() == variants.size()) return call();
+    with_options(variants[asked.size()], [&](const nacre_compile_options& one) {
+      asked.push_back(&one);
+      with_each(variants, asked, call);
+    });
   }
 
   template <class Make>

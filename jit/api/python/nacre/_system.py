@@ -38,6 +38,17 @@ class System(_core.System):
         """Kernels for what can be asked of a material: one of Document.materials."""
         return Shader(self, document, material, core_options(options))
 
+    def compile_variants(self, document: Document, material: str,
+                         variants: Iterable[CompileOptions]) -> list[Shader]:
+        """Several of one material, for rays that ask different things of it: as compile_material
+        of each with its options, a dict, to the bit; but the graph is built once, and the kernels
+        are made side by side.
+
+            camera, shadow = system.compile_variants(document, "M", [{}, {"entries": [Entry.SHADOW]}])
+        """
+        made = self._compile_variants(document, material, [core_options(each) for each in variants])
+        return [Shader(each) for each in made]
+
     def compile_outputs(self, document: Document, outputs: Iterable[str],
                         **options: Unpack[CompileOptions]) -> Shader:
         """One kernel for outputs of graphs: some of Document.outputs."""

@@ -65,6 +65,20 @@ def test_one_point_and_many_directions(system, documents):
     assert numpy.array_equal(alone["f"], at["f"])
 
 
+def test_variants_are_what_each_is_by_itself(system, documents):
+    document = nacre.Document.parse(documents["lambert"])
+    options = [{"no_footprints": True}, {"no_footprints": True, "entries": [Entry.ALBEDO]}]
+    camera, albedo = system.compile_variants(document, "M", options)
+    assert camera.has(Entry.SAMPLE) and not albedo.has(Entry.SAMPLE)
+    normals = hemisphere(4)
+    points = nacre.surface_points(numpy.zeros((COUNT, 3), "float32"), normals, normals)
+    alone = system.compile_material(document, "M", **options[1]).run(points, Entry.ALBEDO)
+    assert numpy.array_equal(albedo.run(points, Entry.ALBEDO)["albedo"], alone["albedo"])
+    assert numpy.array_equal(camera.run(points, Entry.ALBEDO)["albedo"], alone["albedo"])
+    with pytest.raises(nacre.Error):
+        system.compile_variants(document, "M", [{}, {"working_space": "acescg"}])
+
+
 def test_points_past_the_arrays_are_refused(system, documents):
     """A lobe that is alone has no state: what is too short then is wo."""
     shader = system.compile_material(nacre.Document.parse(documents["lambert"]), "M",
