@@ -19,6 +19,7 @@
 #include "examples/render/mesh.h"
 #include "examples/render/nested_solids.h"
 #include "examples/tool/assignment.h"
+#include "examples/tool/crop_option.h"
 #include "examples/tool/kernel_light.h"
 #include "examples/tool/kernel_shader.h"
 #include "examples/tool/missing_attributes.h"
@@ -356,6 +357,7 @@ int run(RenderOptions& options, nlohmann::ordered_json& answer) {
   options.settings.passes = pass_request(options.passes, diagnostics);
   check_passes(options, diagnostics);
   check_techniques(options.settings, diagnostics);
+  check_crop(options.settings, diagnostics);
   if (diagnostics.has_errors() || !check_request(options, diagnostics)) {
     report(diagnostics);
     return status_usage;
@@ -450,6 +452,7 @@ int run(RenderOptions& options, nlohmann::ordered_json& answer) {
       keep_promise_partly(options.out, samples_text(statistics, options.settings));
     }
     file_is_written(options.out, options.common.quiet || options.json);
+    report_crop(options.settings, options.out, diagnostics);
     answer = written_picture(options, statistics);
   }
   report_texels(*opened.system, diagnostics);

@@ -17,6 +17,9 @@ Json written_picture(const RenderOptions& options, const host::RenderStatistics&
   answer["written"] = true;
   answer["width"] = options.settings.width;
   answer["height"] = options.settings.height;
+  if (const auto& crop = options.settings.crop) {
+    answer["crop"] = {crop->x0, crop->y0, crop->x1, crop->y1};
+  }
   answer["passes"] = std::move(passes);
   answer["samples"] = {{"asked", options.settings.samples},
                        {"least", statistics.least_samples},

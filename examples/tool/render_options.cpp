@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "examples/tool/crop_option.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/scene_limit_options.h"
 #include "examples/tool/technique_options.h"
@@ -40,6 +41,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(1, 1e9))
       ->capture_default_str();
   command.add_option("--size", options.size, "Pixels")->capture_default_str()->type_name("N|WxH");
+  add_crop(command, settings);
   command.add_option("--out", options.out, "Image to write: .exr or .png")->type_name("FILE");
   command
       .add_option("--write-document", options.document,
