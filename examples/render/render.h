@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "examples/render/bvh.h"
 #include "examples/render/checkpoint.h"
 #include "examples/render/environment.h"
 #include "examples/render/film.h"
@@ -84,6 +85,8 @@ struct RenderInput {
   /// By mesh: closed, light enters it, and its shaders have an interior() and read
   /// ShadingBatch::exterior_index. Where these overlap Mesh::priority decides. Empty: none.
   std::vector<bool> solids = {};
+  /// What rays are traced against, of `scene`, for who renders it several times; null: made anew.
+  const Bvh* bvh = nullptr;
   /// By mesh, for mattes: what it is shaded by. Empty: as Mesh::material_name says.
   std::vector<std::string> material_names = {};
 };

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "examples/render/camera.h"
-#include "examples/render/area_light.h"
+#include "examples/render/builtin_scene.h"
 #include "examples/render/render.h"
 #include "tests/examples/render/test_shaders.h"
 #include "tests/support/temporary_folder.h"
