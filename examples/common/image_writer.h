@@ -29,6 +29,11 @@ struct ImageHeader {
   /// Of integers: all but a fourth channel get the codes of sRGB for linear values.
   bool codes_srgb = false;
   bool repeats = true;  ///< Beyond its edges the image is there again, else its edge.
+  /// Where it lies in a larger image, of which it is all that there is; of an .exr.
+  struct Display {
+    int x = 0, y = 0, width = 0, height = 0;
+  };
+  std::optional<Display> display = std::nullopt;
   /// x and y of red, green, blue and white, where they are known; of an .exr.
   std::optional<std::array<float, 8>> chromaticities = std::nullopt;
   /// Further attributes, by the names that OpenImageIO has for them.

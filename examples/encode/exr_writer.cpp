@@ -51,6 +51,13 @@ bool has_long_names(const ImageHeader& image) {
          std::ranges::any_of(image.texts, [](auto& text) { return text.first.size() > most; });
 }
 
+/// Its corners are pixels that it has.
+Bytes box(int x, int y, int width, int height) {
+  Bytes corners;
+  for (const int corner : {x, y, x + width - 1, y + height - 1}) append_int(corners, corner);
+  return corners;
+}
+
 void append_string(Bytes& header, std::string_view name, const std::string& text) {
   append_attribute(header, name, "string", {text.begin(), text.end()});
 }
@@ -68,6 +75,7 @@ class ExrWriter final : public ImageWriter {
  public:
   ExrWriter(const std::string& file, const ImageHeader& header)
       : width_(static_cast<std::size_t>(header.width)),
+        top_(header.display ? header.display->y : 0),
         is_half_(header.samples == SampleType::half),
         order_(header.channels.size()),
         file_(file) {
@@ -95,7 +103,7 @@ class ExrWriter final : public ImageWriter {
     const Bytes packed = compress_exr_block(std::move(raw));
     EncodedRows encoded{rows.first, rows.rows, {}, 0, 0};
     encoded.bytes.reserve(packed.size() + 8);
-    append_int(encoded.bytes, rows.first);
+    append_int(encoded.bytes, top_ + rows.first);
     append_int(encoded.bytes, static_cast<int>(packed.size()));
     encoded.bytes.insert(encoded.bytes.end(), packed.begin(), packed.end());
     return encoded;
@@ -135,10 +143,11 @@ class ExrWriter final : public ImageWriter {
       for (const float number : *image.chromaticities) append_float(points, number);
       append_attribute(bytes, "chromaticities", "chromaticities", points);
     }
-    Bytes window;
-    for (const int corner : {0, 0, image.width - 1, image.height - 1}) append_int(window, corner);
-    append_attribute(bytes, "dataWindow", "box2i", window);
-    append_attribute(bytes, "displayWindow", "box2i", window);
+    const ImageHeader::Display all =
+        image.display.value_or(ImageHeader::Display{0, 0, image.width, image.height});
+    append_attribute(bytes, "dataWindow", "box2i",
+                     box(all.x, all.y, image.width, image.height));
+    append_attribute(bytes, "displayWindow", "box2i", box(0, 0, all.width, all.height));
     append_attribute(bytes, "lineOrder", "lineOrder", {0});  // From the top.
     // Linear is what a reader takes for granted.
     if (image.colorspace != "Linear") {
@@ -175,6 +184,7 @@ class ExrWriter final : public ImageWriter {
   }
 
   std::size_t width_;
+  int top_;  ///< The first row, in the display window.
   bool is_half_;
   std::vector<std::size_t> order_;  ///< Channels as the file has them: by name.
   FileBytes file_;

@@ -40,8 +40,11 @@ class PixelSum {
 /// be added to at once.
 class Accumulation {
  public:
-  /// Like the film that is to be made of it.
-  Accumulation(const PassRequest& passes, const Film& film);
+  /// Of the pixels of `window`, for a film of some of them.
+  Accumulation(const PassRequest& passes, const Film& film, const PixelWindow& window);
+
+  /// Of a pixel of the image, for add().
+  std::size_t index(int x, int y) const { return window_.index(x, y); }
 
   void add(std::size_t pixel, Vec3 radiance, float alpha) {
     sums_[pixel].add(radiance);
@@ -55,7 +58,7 @@ class Accumulation {
   /// The root of the mean squared error of the pixels of a tile that has so many samples, relative
   /// to them (squared, and 0.01 for what is dark), as the variance of their samples says: those of
   /// a sampler that stratifies are better than that.
-  double error(const Film& film, const Tile& tile, int samples) const;
+  double error(const Tile& tile, int samples) const;
 
   /// `done`: samples by tile, at least one each.
   void develop(const std::vector<Tile>& tiles, const std::vector<int>& done, Film& film) const;
@@ -65,6 +68,7 @@ class Accumulation {
   bool assign(std::string_view bytes);
 
  private:
+  PixelWindow window_;
   std::vector<PixelSum> sums_;
   std::vector<double> alphas_;  ///< Empty where the film has none.
   PassSums passes_;

@@ -126,7 +126,7 @@ Scene make_builtin_scene() {
   const Vec3 edge_v = cross(towards, edge_u);
   scene.meshes.push_back(
       make_quad_light("key", lamp - 0.5f * (edge_u + edge_v), edge_u, edge_v, {38.f, 36.f, 33.f}));
-  scene.camera = look_at({2.4f, 2.5f, 4.6f}, middle, 0.62f);
+  scene.cameras.push_back({"camera", look_at({2.4f, 2.5f, 4.6f}, middle, 0.62f)});
   return scene;
 }
 

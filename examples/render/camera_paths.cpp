@@ -41,10 +41,10 @@ void CameraPaths::begin(const Tile& tile, int first, int last, std::vector<Path>
   if (context_.camera.has_lens()) draw(Draw::lens, lenses_);
   if (is_open(s)) draw(Draw::time, times_);
   const bool is_box = s.filter == PixelFilter::box;
-  const int width = tile.x1 - tile.x0;
+  const int width = tile.width(), pixels = static_cast<int>(tile.pixels());
   paths.clear();
   for (std::size_t k = 0; k < keys_.size(); ++k) {
-    const int i = static_cast<int>(k) % tile.pixels();
+    const int i = static_cast<int>(k) % pixels;
     const Uniform2 u = places_[k];
     const float x = static_cast<float>(tile.x0 + i % width) + (is_box ? u.x : 0.5f + tent(u.x));
     const float y = static_cast<float>(tile.y0 + i / width) + (is_box ? u.y : 0.5f + tent(u.y));

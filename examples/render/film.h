@@ -5,23 +5,32 @@
 #include <vector>
 
 #include "examples/render/pass_film.h"
+#include "examples/render/pixel_window.h"
 #include "examples/render/vec.h"
 
 namespace nacre::host {
 
-/// An image of radiance estimates, rows from the top.
+/// An image of radiance estimates, rows from the top, or a window of one: pixels are called by
+/// where they are in the whole image.
 class Film {
  public:
   /// Without alpha it is 1 everywhere.
   Film(int width, int height, bool has_alpha = false)
+      : Film(width, height, has_alpha, {0, 0, width, height}) {}
+  /// `window`: of the image's pixels, those that the film has.
+  Film(int width, int height, bool has_alpha, const PixelWindow& window)
       : width_(width),
         height_(height),
-        mean_(size()),
-        variance_(size()),
-        alpha_(has_alpha ? size() : 0, 1.f) {}
+        window_(window),
+        mean_(window.pixels()),
+        variance_(window.pixels()),
+        alpha_(has_alpha ? window.pixels() : 0, 1.f) {}
 
+  /// Of the whole image.
   int width() const { return width_; }
   int height() const { return height_; }
+  /// What there is of it.
+  const PixelWindow& window() const { return window_; }
 
   /// Mean over the samples of a pixel.
   Vec3& mean(int x, int y) { return mean_[index(x, y)]; }
@@ -38,23 +47,17 @@ class Film {
   void set_alpha(int x, int y, float alpha) { alpha_[index(x, y)] = alpha; }
 
   /// Of a pixel in all of them.
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
-  }
+  std::size_t index(int x, int y) const { return window_.index(x, y); }
 
   /// Images beside this one, of the same size.
   PassFilm passes;
 
-  /// width * height rgb triples.
+  /// An rgb triple for each of the window.
   const std::vector<Vec3>& pixels() const { return mean_; }
 
  private:
-  std::size_t size() const {
-    return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-  }
-
   int width_, height_;
+  PixelWindow window_;
   std::vector<Vec3> mean_, variance_;
   std::vector<float> alpha_;
 };

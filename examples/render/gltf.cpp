@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "examples/render/camera.h"
@@ -44,7 +45,8 @@ class GltfReader {
   Scene read() {
     const GltfValue scenes = root_["scenes"], wanted = root_["scene"];
     if (!dropped_.look_at_file(root_, looks_.materials)) return {};
-    if (!variants_.choose(looks_.variant) || !animation_.read()) return {};
+    if (!variants_.choose(looks_.variant) || !animation_.read(looks_.animation)) return {};
+    scene_.is_animated = root_["animations"].size() > 0;
     const auto chosen = wanted ? wanted.index_of(scenes) : std::optional<std::size_t>(0);
     if (!wanted && scenes.size() > 1) {
       dropped_.say("several-scenes", scenes, "the first scene is shown, for the file names none",
@@ -53,10 +55,6 @@ class GltfReader {
     if (chosen && scenes.need("an array of scenes")) read_scene(scenes[*chosen]);
     if (!has_errors() && scene_.meshes.empty()) {
       root_["scenes"].error("the scene has nothing to draw", "a node with a triangle mesh", "none");
-    }
-    if (cameras_ > 1) {
-      dropped_.say("several-cameras", root_["cameras"], "the first camera of the scene is taken",
-                   "one camera", fmt::format("{}", cameras_));
     }
     if (looks_.materials) read_materials();
     if (has_errors()) return {};
@@ -250,7 +248,19 @@ class GltfReader {
     scene_.lights.push_back(*light);
   }
 
-  /// The first perspective camera; glTF cameras look along -z with +y up.
+  /// Of a node, or else of the camera that it holds; with a number where it is taken.
+  std::string camera_name(const GltfValue& node, const GltfValue& source) {
+    std::string wanted = node.name();
+    if (wanted.empty()) wanted = source.name();
+    if (wanted.empty()) wanted = "camera";
+    std::string name = wanted;
+    for (int number = 2; !camera_names_.insert(name).second; ++number) {
+      name = fmt::format("{}_{}", wanted, number);
+    }
+    return name;
+  }
+
+  /// Perspective ones; glTF cameras look along -z with +y up.
   void add_camera(const GltfValue& node, const GltfValue& source, const Motion& world) {
     const auto type = source["type"].need("\"perspective\"").text();
     if (!type) return;
@@ -259,21 +269,21 @@ class GltfReader {
                           "this kind of camera is not supported and left out", "\"perspective\"",
                           source["type"].shown());
     }
-    if (++cameras_ > 1) return;
     const GltfValue yfov = source["perspective"]["yfov"];
     const auto fov = yfov.need("an angle in radians").number();
     if (!fov) return;
-    Camera camera;
+    SceneCamera added{camera_name(node, source), {}};
+    Camera& camera = added.camera;
     camera.vertical_fov = static_cast<float>(*fov);
     if (!(camera.vertical_fov >= smallest_fov && camera.vertical_fov <= largest_fov)) {
       return yfov.error("the field of view is out of range",
                         fmt::format("{:g} to {:g} radians", smallest_fov, largest_fov),
                         yfov.shown());
     }
-    if (!place_camera(world, camera, scene_.camera_motion)) {
+    if (!place_camera(world, camera, added.motion)) {
       return node.error("the camera looks nowhere", "a transform that keeps the z axis", "zeros");
     }
-    scene_.camera = camera;
+    scene_.cameras.push_back(std::move(added));
   }
 
   nlohmann::json json_;
@@ -294,7 +304,7 @@ class GltfReader {
   std::vector<Placed> skinned_;                        ///< For when all joints are met.
   std::map<std::size_t, GltfSkin> skins_;
   Scene scene_;
-  int cameras_ = 0;
+  std::set<std::string> camera_names_;
   bool stopped_ = false;  ///< One wrong mesh is enough: many nodes may show it.
 };
 

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <utility>
+
+#include "runtime/near_names.h"
 
 namespace nacre::host {
 
@@ -17,6 +20,17 @@ constexpr int least_steps_of_both = 16;
 
 std::array<double, 3> three(const GltfTrack::Value& v) { return {v[0], v[1], v[2]}; }
 
+/// 0 'walk', 1 'run', …
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 16;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) {
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", i);
+    if (!names[i].empty()) text += " '" + names[i] + "'";
+  }
+  return names.size() > most ? text + ", ..." : text;
+}
+
 double not_zero(double x) {
   constexpr double least = 1e-6;
   return std::abs(x) < least ? std::copysign(least, x) : x;
@@ -24,14 +38,37 @@ double not_zero(double x) {
 
 }  // namespace
 
-bool GltfAnimation::read() {
+std::optional<std::size_t> GltfAnimation::chosen(const std::string& wanted) const {
   const GltfValue animations = root_["animations"];
-  if (animations.size() == 0) return true;
-  if (animations.size() > 1) {
-    dropped_.say("several-animations", animations, "the first animation is taken", "one animation",
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < animations.size(); ++i) names.push_back(animations[i].name());
+  const auto found = std::ranges::find(names, wanted);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::size_t number = 0;
+  const char* const end = wanted.data() + wanted.size();
+  const auto parsed = std::from_chars(wanted.data(), end, number);
+  if (parsed.ec == std::errc() && parsed.ptr == end && number < names.size()) return number;
+  Diagnostics& diagnostics = root_.report().diagnostics;
+  diagnostics.error("unknown-animation", animations.location(),
+                    "the scene has no animation of that name or number",
+                    names.empty() ? "a file with animations" : listed(names), '"' + wanted + '"',
+                    near_hint(diagnostics, wanted, names));
+  return {};
+}
+
+bool GltfAnimation::read(const std::string& wanted) {
+  const GltfValue animations = root_["animations"];
+  if (animations.size() == 0 && wanted.empty()) return true;
+  if (animations.size() > 1 && wanted.empty()) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < animations.size(); ++i) names.push_back(animations[i].name());
+    dropped_.say("several-animations", animations, "the first animation is taken",
+                 "--animation NAME or its number, " + listed(names),
                  fmt::format("{}", animations.size()));
   }
-  const GltfValue animation = animations[std::size_t{0}];
+  const auto number = wanted.empty() ? std::optional<std::size_t>(0) : chosen(wanted);
+  if (!number) return false;
+  const GltfValue animation = animations[*number];
   const GltfValue channels = animation["channels"];
   if (!channels.need("an array of channels")) return false;
   for (std::size_t i = 0; i < channels.size(); ++i) {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "examples/render/gltf_accessor.h"
@@ -15,15 +17,16 @@
 
 namespace nacre::host {
 
-/// The first animation of a glTF file (2.0, 3.11): how nodes move while the shutter is open.
+/// An animation of a glTF file (2.0, 3.11): how nodes move while the shutter is open.
 class GltfAnimation {
  public:
   GltfAnimation(const GltfValue& root, GltfAccessors& accessors, SceneBudget& budget,
                 GltfDropped& dropped, const Shutter& shutter)
       : root_(root), accessors_(accessors), budget_(budget), dropped_(dropped), shutter_(shutter) {}
 
-  /// False after an error: a wrong channel, sampler or accessor.
-  bool read();
+  /// `wanted`: its name, or its number from 0; "": the first, if there is one. False after an error:
+  /// no such animation, a wrong channel, sampler or accessor.
+  bool read(const std::string& wanted);
 
   /// How a node moves within its parent. A scale counts as at least 1e-6, so that what an
   /// animation hides by it can be inverted. Nothing, with an error, where that takes too much.
@@ -39,6 +42,8 @@ class GltfAnimation {
   /// Of a node, those that there are: translation, rotation, scale.
   using Tracks = std::array<const GltfTrack*, 3>;
 
+  /// Nothing, with an error, where there is no such animation.
+  std::optional<std::size_t> chosen(const std::string& wanted) const;
   bool read_channel(const GltfValue& animation, const GltfValue& channel);
   bool read_weights(const GltfValue& animation, std::size_t sampler, const GltfValue& target);
   const GltfTrack* track(const GltfValue& samplers, std::size_t number, bool is_rotation);

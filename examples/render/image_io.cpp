@@ -45,21 +45,18 @@ void append(Planes& planes, Vec3 rgb, float alpha) {
 
 Planes developed(const Film& film, const WriteOptions& options) {
   Planes planes = planes_of(film);
-  for (int y = 0; y < film.height(); ++y) {
-    for (int x = 0; x < film.width(); ++x) {
-      const float alpha = film.alpha(x, y);
-      const Vec3 rgb = toned(alpha > 0.f ? (1.f / alpha) * film.mean(x, y) : Vec3{}, options);
-      append(planes, {rounded(rgb.x), rounded(rgb.y), rounded(rgb.z)}, rounded(alpha));
-    }
-  }
+  for_pixels(film.window(), [&](int x, int y) {
+    const float alpha = film.alpha(x, y);
+    const Vec3 rgb = toned(alpha > 0.f ? (1.f / alpha) * film.mean(x, y) : Vec3{}, options);
+    append(planes, {rounded(rgb.x), rounded(rgb.y), rounded(rgb.z)}, rounded(alpha));
+  });
   return planes;
 }
 
 Planes linear(const Film& film) {
   Planes planes = planes_of(film);
-  for (int y = 0; y < film.height(); ++y) {
-    for (int x = 0; x < film.width(); ++x) append(planes, film.mean(x, y), film.alpha(x, y));
-  }
+  for_pixels(film.window(),
+             [&](int x, int y) { append(planes, film.mean(x, y), film.alpha(x, y)); });
   return planes;
 }
 
@@ -79,13 +76,16 @@ void append_passes(const PassFilm& passes, ImageHeader& header, Planes& planes) 
 std::string write_file(const Film& film, const std::string& path, bool exr,
                        const WriteOptions& options) {
   ImageHeader header{.kind = exr ? ImageKind::exr : ImageKind::png,
-                     .width = film.width(),
-                     .height = film.height(),
+                     .width = film.window().width(),
+                     .height = film.window().height(),
                      .channels = {"R", "G", "B"},
                      .samples = SampleType::unsigned8,
                      .colorspace = exr ? "Linear" : "sRGB"};
   if (exr) header.samples = options.half ? SampleType::half : SampleType::floating;
   header.repeats = false;
+  if (exr) {
+    header.display = {film.window().x0, film.window().y0, film.width(), film.height()};
+  }
   if (film.has_alpha()) header.channels.emplace_back("A");
   Planes planes = exr ? linear(film) : developed(film, options);
   if (exr) append_passes(film.passes, header, planes);

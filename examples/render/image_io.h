@@ -20,7 +20,8 @@ struct WriteOptions {
 bool is_image_name(const std::string& path, Diagnostics& diagnostics);
 
 /// Writes .exr (linear Rec. 709 radiance, passes as layers) or .png (8 bits, tone curve, sRGB
-/// transfer, no passes). A file appears complete or not at all: it is written beside its
+/// transfer, no passes). Of a film that is a window the .exr has the data window within the display
+/// window of the whole, the .png the window alone. A file appears complete or not at all: it is written beside its
 /// place and renamed. The bytes depend on nothing but the image and options.
 /// A film with alpha gives four channels; colours are multiplied by alpha in .exr and
 /// not in .png, as is the custom of either.

@@ -26,6 +26,11 @@ Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics
                  const Shutter& shutter, const SceneLooks& looks) {
   const std::string extension = lower_extension(path);
   if (has_materials(path)) return load_gltf(path, limits, diagnostics, shutter, looks);
+  if (!looks.animation.empty()) {
+    diagnostics.error("unknown-animation", {path, 0, 0, {}}, "the scene has no animations",
+                      "a glTF file with animations", '"' + looks.animation + '"');
+    return {};
+  }
   if (!looks.variant.empty()) {
     diagnostics.error("unknown-variant", {path, 0, 0, {}}, "the scene has no variants",
                       "a glTF file with KHR_materials_variants", '"' + looks.variant + '"');

@@ -8,10 +8,11 @@
 
 namespace nacre::host {
 
-/// What is wanted of a scene's own materials.
+/// What is wanted of a scene that may be shown in several ways.
 struct SceneLooks {
   bool materials = false;    ///< Scene::materials; otherwise only their names are read.
   std::string variant = {};  ///< Of KHR_materials_variants; "": what the file shows by itself.
+  std::string animation = {};  ///< Its name, or its number from 0; "": the first.
 };
 
 /// Whether a file is of a format whose materials are read: .glb or .gltf.
@@ -29,7 +30,7 @@ Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics
 /// strips and fans, lines with an attribute _RADIUS, any component type, meshes that Draco or
 /// meshopt packed. Morph targets and skins bend vertices. glTF puts uv (0,0) at the upper left, so
 /// v becomes 1 - v. Without normals faces are flat. Buffers are only read from the folder of the
-/// file and below. Of its animations the first moves nodes.
+/// file and below. One of its animations moves nodes.
 Scene load_gltf(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
                 const Shutter& shutter, const SceneLooks& looks);
 

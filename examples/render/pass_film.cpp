@@ -25,8 +25,7 @@ std::vector<std::string> materials_of(const Scene& scene) {
 }  // namespace
 
 PassFilm::PassFilm(const PassRequest& request, const Scene& scene,
-                   const std::vector<std::string>& materials, int width, int height) {
-  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+                   const std::vector<std::string>& materials, std::size_t pixels) {
   for (const Pass& pass : request.passes) {
     for (const std::string& channel : pass.channels) channels.push_back(pass.name + '.' + channel);
   }
@@ -64,7 +63,8 @@ void PassSums::add(std::size_t pixel, int sample, const PathRecord& record) {
   }
 }
 
-void PassSums::store(std::size_t pixel, int samples, PassFilm& film) const {
+void PassSums::store(std::size_t pixel, int samples, PassFilm& film,
+                     std::size_t film_pixel) const {
   std::size_t channel = 0;
   for (const Pass& pass : request_.passes) {
     const double count = pass.mean == Pass::Mean::samples ? samples
@@ -72,15 +72,15 @@ void PassSums::store(std::size_t pixel, int samples, PassFilm& film) const {
                                                           : 1.0;
     for (std::size_t k = 0; k < pass.channels.size(); ++k, ++channel) {
       const double sum = sums_[pixel * channels_ + channel];
-      film.planes[channel][pixel] = static_cast<float>(count > 0 ? sum / count : 0.0);
+      film.planes[channel][film_pixel] = static_cast<float>(count > 0 ? sum / count : 0.0);
     }
   }
   for (std::size_t k = 0; k < mattes_.size(); ++k) {
     Mattes& mattes = film.mattes[k];
     std::size_t plane = 0;
     for (const MattePixel::Count& each : mattes_[k][pixel].ranked(Mattes::ranks)) {
-      mattes.planes[plane++][pixel] = mattes.ids[each.name];
-      mattes.planes[plane++][pixel] =
+      mattes.planes[plane++][film_pixel] = mattes.ids[each.name];
+      mattes.planes[plane++][film_pixel] =
           static_cast<float>(each.samples) / static_cast<float>(samples);
     }
   }

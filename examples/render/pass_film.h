@@ -15,7 +15,7 @@ class PassFilm {
   PassFilm() = default;
   /// `materials`: what shades each mesh of the scene; empty: as the meshes say.
   PassFilm(const PassRequest& request, const Scene& scene,
-           const std::vector<std::string>& materials, int width, int height);
+           const std::vector<std::string>& materials, std::size_t pixels);
 
   bool empty() const { return planes.empty() && mattes.empty(); }
 
@@ -30,8 +30,8 @@ class PassSums {
   PassSums(const PassRequest& request, const PassFilm& film, std::size_t pixels);
   /// Sample number `sample`, from 0, of a pixel.
   void add(std::size_t pixel, int sample, const PathRecord& record);
-  /// Puts a pixel that has so many samples into the film.
-  void store(std::size_t pixel, int samples, PassFilm& film) const;
+  /// Puts a pixel that has so many samples into that of the film.
+  void store(std::size_t pixel, int samples, PassFilm& film, std::size_t film_pixel) const;
 
   /// All of it, for a file; and back: false where it is of another image.
   void append_to(std::string& bytes) const;

@@ -41,8 +41,8 @@ struct Shared {
 int render_tile(Shared& shared, const TileWork& work, CameraPaths& camera, Wavefront& wavefront,
                 std::vector<Path>& paths) {
   const Tile& tile = shared.tiles[work.tile];
-  const int width = tile.x1 - tile.x0;
-  const int at_once = std::max(1, wave_size / tile.pixels());
+  const int width = tile.width();
+  const int pixels = static_cast<int>(tile.pixels()), at_once = std::max(1, wave_size / pixels);
   for (int first = work.first; first < work.last; first += at_once) {
     const bool ends = shared.control.stop.stop_requested() ||
                       (first > 0 && shared.control.enough.stop_requested());
@@ -51,11 +51,11 @@ int render_tile(Shared& shared, const TileWork& work, CameraPaths& camera, Wavef
     camera.begin(tile, first, last, paths);
     wavefront.trace(paths);
     for (std::size_t k = 0; k < paths.size(); ++k) {
-      const int i = static_cast<int>(k) % tile.pixels();
-      const std::size_t pixel = shared.film.index(tile.x0 + i % width, tile.y0 + i / width);
+      const int i = static_cast<int>(k) % pixels;
+      const std::size_t pixel = shared.sums.index(tile.x0 + i % width, tile.y0 + i / width);
       shared.sums.add(pixel, paths[k].radiance, paths[k].alpha);
       if (shared.film.passes.empty()) continue;
-      const int sample = first + static_cast<int>(k) / tile.pixels();
+      const int sample = first + static_cast<int>(k) / pixels;
       shared.sums.add(pixel, sample, wavefront.record(k));
     }
   }
@@ -66,7 +66,7 @@ int render_tile(Shared& shared, const TileWork& work, CameraPaths& camera, Wavef
 bool is_good(const Shared& shared, std::size_t tile, int done) {
   const RenderSettings& s = shared.context.settings;
   return s.noise > 0.0 && done >= s.least_samples && shared.queue.is_end(done) &&
-         shared.sums.error(shared.film, shared.tiles[tile], done) <= s.noise;
+         shared.sums.error(shared.tiles[tile], done) <= s.noise;
 }
 
 void save(Shared& shared) {
@@ -117,12 +117,26 @@ void count_samples(const std::vector<Tile>& tiles, const std::vector<int>& done,
                    RenderStatistics& statistics) {
   double samples = 0, pixels = 0;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    samples += static_cast<double>(done[i]) * tiles[i].pixels();
-    pixels += tiles[i].pixels();
+    const auto size = static_cast<double>(tiles[i].pixels());
+    samples += done[i] * size;
+    pixels += size;
   }
   statistics.mean_samples = samples / pixels;
   statistics.least_samples = *std::ranges::min_element(done);
   statistics.most_samples = *std::ranges::max_element(done);
+}
+
+/// What is traced. Samples that are taken until a tile is good enough are taken for all of it: it
+/// has as many then as in the whole image.
+std::vector<Tile> traced_tiles(const RenderSettings& s) {
+  std::vector<Tile> tiles = make_tiles(s.width, s.height, s.tile_size, window_of(s));
+  return s.noise > 0.0 ? tiles : cut_tiles(std::move(tiles), window_of(s));
+}
+
+/// Samples of a tile's pixels that are traced together, for TileQueue: the same for any window.
+int samples_at_once(const RenderSettings& s) {
+  const int pixels = std::min(s.tile_size, s.width) * std::min(s.tile_size, s.height);
+  return std::max(1, wave_size / pixels);
 }
 
 /// Goes on with what a checkpoint has. False with an error.
@@ -149,14 +163,14 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
   if (!check_camera(input.camera, diagnostics)) return {};
   const RenderContext context(input, settings, diagnostics);
   if (!context.bvh.ok()) return {};
-  const std::vector<Tile> tiles = make_tiles(settings.width, settings.height, settings.tile_size);
-  Film film(settings.width, settings.height, context.any_matte);
-  film.passes = PassFilm(settings.passes, *input.scene, input.material_names, settings.width,
-                         settings.height);
-  Accumulation sums(settings.passes, film);
+  const std::vector<Tile> tiles = traced_tiles(settings);
+  Film film(settings.width, settings.height, context.any_matte, window_of(settings));
+  film.passes =
+      PassFilm(settings.passes, *input.scene, input.material_names, film.window().pixels());
+  Accumulation sums(settings.passes, film, window_of(tiles));
   std::vector<int> done(tiles.size());
   if (!resume(control, done, sums, diagnostics)) return {};
-  TileQueue queue(done, settings.samples, std::max(1, wave_size / tiles.front().pixels()));
+  TileQueue queue(done, settings.samples, samples_at_once(settings));
   Shared shared{context, control, tiles, queue, sums, film, diagnostics};
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     if (is_good(shared, i, done[i])) queue.finish(i);

@@ -6,11 +6,13 @@
 #include <stop_token>
 #include <vector>
 
+#include "examples/render/bvh.h"
 #include "examples/render/checkpoint.h"
 #include "examples/render/environment.h"
 #include "examples/render/film.h"
 #include "examples/render/light_shader.h"
 #include "examples/render/passes.h"
+#include "examples/render/pixel_window.h"
 #include "examples/render/sampler.h"
 #include "examples/render/scene.h"
 #include "examples/render/shader.h"
@@ -53,11 +55,18 @@ struct RenderSettings {
   std::uint32_t batch_size = 512;  ///< Points per kernel call, at most.
   PassRequest passes = {};         ///< Images beside the picture.
   Techniques techniques = {};
+  /// What is traced and stored of the image; nothing: all. Pixels have the bits that they have in
+  /// the whole.
+  std::optional<PixelWindow> crop = {};
   /// Not 0: a tile has enough samples once its error, as Accumulation::error estimates it, is at
   /// most that; `samples` at most, least_samples at least.
   double noise = 0.0;
   int least_samples = 16;
 };
+
+inline PixelWindow window_of(const RenderSettings& s) {
+  return s.crop.value_or(PixelWindow{0, 0, s.width, s.height});
+}
 
 /// Whether rays have times of their own.
 inline bool is_open(const RenderSettings& s) { return s.shutter_close > s.shutter_open; }
@@ -76,6 +85,8 @@ struct RenderInput {
   /// By mesh: closed, light enters it, and its shaders have an interior() and read
   /// ShadingBatch::exterior_index. Where these overlap Mesh::priority decides. Empty: none.
   std::vector<bool> solids = {};
+  /// What rays are traced against, of `scene`, for who renders it several times; null: made anew.
+  const Bvh* bvh = nullptr;
   /// By mesh, for mattes: what it is shaded by. Empty: as Mesh::material_name says.
   std::vector<std::string> material_names = {};
 };

@@ -30,7 +30,7 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
              input.camera_motion),
       geometry(scene,
                {wanted.time, wanted.frame, wanted.shutter_open, wanted.shutter_close, wanted.fps}),
-      bvh(scene, diagnostics) {
+      bvh(input.bvh != nullptr ? *input.bvh : own_bvh.emplace(scene, diagnostics)) {
   assert(input.shaders.size() == scene.meshes.size());
   solids_ = input.solids;
   any_nested = !solids_.empty();

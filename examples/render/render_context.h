@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "examples/render/bvh.h"
@@ -34,7 +35,8 @@ class RenderContext {
   RenderSettings settings;
   PixelCamera camera;
   SurfaceGeometry geometry;
-  Bvh bvh;
+  std::optional<Bvh> own_bvh;  ///< Where RenderInput has none.
+  const Bvh& bvh;
   std::vector<Material> materials;
   /// By mesh, of either side: indices of `materials`.
   std::vector<std::uint32_t> front_materials, back_materials;

@@ -105,12 +105,18 @@ struct Camera {
   float focus_distance = 1.f;       ///< Along `forward`; scene units.
 };
 
+/// A camera that stands in a scene.
+struct SceneCamera {
+  std::string name;  ///< No other one of the scene has it.
+  Camera camera;
+  Motion motion = {};  ///< Takes it to where it is while the shutter is open.
+};
+
 struct Scene {
   std::vector<Mesh> meshes;
   std::vector<PunctualLight> lights;
-  std::optional<Camera> camera;  ///< Of the file; absent: see fit_camera().
-  /// Takes the camera to where it is while the shutter is open.
-  Motion camera_motion;
+  std::vector<SceneCamera> cameras;  ///< In the order of the file; none: see fit_camera().
+  bool is_animated = false;          ///< At another time it may stand otherwise.
   SceneMaterials materials;  ///< Where they were asked for.
 };
 

@@ -5,14 +5,23 @@
 
 namespace nacre::host {
 
-std::vector<Tile> make_tiles(int width, int height, int size) {
+std::vector<Tile> make_tiles(int width, int height, int size, const PixelWindow& window) {
   std::vector<Tile> tiles;
-  for (int y = 0; y < height; y += size) {
-    for (int x = 0; x < width; x += size) {
+  for (int y = window.y0 / size * size; y < window.y1; y += size) {
+    for (int x = window.x0 / size * size; x < window.x1; x += size) {
       tiles.push_back({x, y, std::min(x + size, width), std::min(y + size, height)});
     }
   }
   return tiles;
+}
+
+std::vector<Tile> cut_tiles(std::vector<Tile> tiles, const PixelWindow& window) {
+  for (Tile& tile : tiles) tile = both(tile, window);
+  return tiles;
+}
+
+PixelWindow window_of(const std::vector<Tile>& tiles) {
+  return {tiles.front().x0, tiles.front().y0, tiles.back().x1, tiles.back().y1};
 }
 
 TileQueue::TileQueue(std::vector<int> done, int most, int at_once)

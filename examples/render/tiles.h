@@ -9,24 +9,22 @@
 #include <utility>
 #include <vector>
 
+#include "examples/render/pixel_window.h"
+
 namespace nacre::host {
 
 /// Pixels that are rendered together.
-struct Tile {
-  int x0, y0, x1, y1;
-  int pixels() const { return (x1 - x0) * (y1 - y0); }
-};
+using Tile = PixelWindow;
 
-/// f(x, y) of each, rows from the top.
-template <class F>
-void for_pixels(const Tile& tile, F&& f) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) f(x, y);
-  }
-}
+/// Those of an image that a window has some pixels of, rows from the top: squares from its upper
+/// left corner on, whatever the window, cut off at the image's edges.
+std::vector<Tile> make_tiles(int width, int height, int size, const PixelWindow& window);
 
-/// Of an image, rows from the top.
-std::vector<Tile> make_tiles(int width, int height, int size);
+/// What the window has of each of them.
+std::vector<Tile> cut_tiles(std::vector<Tile> tiles, const PixelWindow& window);
+
+/// The window that such tiles make together.
+PixelWindow window_of(const std::vector<Tile>& tiles);
 
 /// Samples of a tile's pixels that are to be added.
 struct TileWork {

@@ -47,7 +47,7 @@ std::vector<Command> commands() {
       {"render",
        add_render,
        {{"--material", "--scene", "--out", "--size", "--spp", "--noise", "--time-limit",
-         "--environment", "--aov", "--frame", "--time", "--search-path", "--library", "--json",
+         "--environment", "--aov", "--camera", "--frames", "--frame", "--time", "--search-path", "--library", "--json",
          "--quiet"},
         {"nacre render gold.mtlx --material Gold --size 512 --out gold.png",
          "nacre render look.mtlx --scene vase.glb --spp 256 --out vase.exr",

@@ -6,19 +6,40 @@ namespace nacre::tool {
 
 using Json = nlohmann::ordered_json;
 
-Json unwritten_picture(const RenderOptions& options) {
-  return {{"document", options.common.file}, {"file", options.out}, {"written", false}};
+namespace {
+
+bool is_series(const RenderOptions& options) {
+  return !options.series.cameras.empty() || !options.series.frames.empty();
 }
 
-Json written_picture(const RenderOptions& options, const host::RenderStatistics& statistics) {
+}  // namespace
+
+Json unwritten_picture(const RenderOptions& options, const Picture& picture) {
+  Json answer{{"document", options.common.file}, {"file", picture.file}, {"written", false}};
+  if (!options.series.cameras.empty()) answer["camera"] = picture.camera_name;
+  if (picture.frame) answer["frame"] = *picture.frame;
+  return answer;
+}
+
+Json skipped_picture(const RenderOptions& options, const Picture& picture) {
+  Json answer = unwritten_picture(options, picture);
+  answer["skipped"] = true;
+  return answer;
+}
+
+Json written_picture(const RenderOptions& options, const host::RenderSettings& settings,
+                     const Picture& picture, const host::RenderStatistics& statistics) {
   Json passes = Json::array();
-  for (const host::Pass& pass : options.settings.passes.passes) passes.push_back(pass.name);
-  Json answer = unwritten_picture(options);
+  for (const host::Pass& pass : settings.passes.passes) passes.push_back(pass.name);
+  Json answer = unwritten_picture(options, picture);
   answer["written"] = true;
-  answer["width"] = options.settings.width;
-  answer["height"] = options.settings.height;
+  answer["width"] = settings.width;
+  answer["height"] = settings.height;
+  if (const auto& crop = settings.crop) {
+    answer["crop"] = {crop->x0, crop->y0, crop->x1, crop->y1};
+  }
   answer["passes"] = std::move(passes);
-  answer["samples"] = {{"asked", options.settings.samples},
+  answer["samples"] = {{"asked", settings.samples},
                        {"least", statistics.least_samples},
                        {"mean", statistics.mean_samples},
                        {"most", statistics.most_samples},
@@ -29,6 +50,24 @@ Json written_picture(const RenderOptions& options, const host::RenderStatistics&
   answer["shading_cpu_seconds"] = statistics.shading_seconds;
   answer["tracing_cpu_seconds"] = statistics.tracing_seconds;
   return answer;
+}
+
+Json final_answer(const RenderOptions& options, const Json& pictures) {
+  const Json& list = pictures["pictures"];
+  if (is_series(options)) return {{"document", options.common.file}, {"pictures", list}};
+  if (!list.empty()) return list.front();
+  Picture none;
+  none.file = options.out;
+  return unwritten_picture(options, none);
+}
+
+void report_skipped(const std::string& file, Diagnostics& diagnostics) {
+  Diagnostic said;
+  said.severity = Severity::note;
+  said.code = "skipped";
+  said.where.file = file;
+  said.message = "the image is there, and not rendered again";
+  diagnostics.add(said);
 }
 
 }  // namespace nacre::tool

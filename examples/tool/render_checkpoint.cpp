@@ -1,5 +1,7 @@
 #include "examples/tool/render_checkpoint.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
@@ -58,18 +60,25 @@ std::string digest_of(const host::Scene& world) {
     all.add(image.file + '\n');
     if (image.bytes != nullptr) all.add(*image.bytes);
   }
-  if (world.camera) add(all, std::vector{*world.camera});
-  add(all, world.camera_motion);
+  return to_hex(all.finish());
+}
+
+std::string digest_of(const host::Camera& camera, const host::Motion& motion) {
+  Sha256 all;
+  add(all, std::vector{camera});
+  add(all, motion);
   return to_hex(all.finish());
 }
 
 }  // namespace
 
 std::string asked_of(const CLI::App& command) {
+  // What a picture of a series is of is in its key by itself.
   constexpr std::string_view others[] = {
-      "out",      "threads",      "time-limit",        "checkpoint", "quiet",
-      "no-cache", "compile-here", "checkpoint-every",  "cache",      "wait-for-code",
-      "json",     "lenient",      "warnings-as-errors"};
+      "out",      "threads",      "time-limit",         "checkpoint", "quiet",
+      "no-cache", "compile-here", "checkpoint-every",   "cache",      "wait-for-code",
+      "json",     "lenient",      "warnings-as-errors", "camera",     "frames",
+      "time",     "frame",        "skip-existing"};
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
     if (option->count() == 0 || std::ranges::any_of(others, [&](auto name) {
@@ -85,7 +94,8 @@ std::string asked_of(const CLI::App& command) {
 }
 
 std::optional<std::string> render_key(const RenderOptions& options, const Opened& opened,
-                                      const host::Scene& world,
+                                      const host::RenderInput& input,
+                                      const host::RenderSettings& settings,
                                       const std::vector<const BoundKernel*>& kernels,
                                       Diagnostics& diagnostics) {
   BakeManifest inputs;
@@ -103,7 +113,9 @@ std::optional<std::string> render_key(const RenderOptions& options, const Opened
     }
   }
   if (!options.environment.empty()) images[options.environment] = digests.of(options.environment);
-  std::string key = options.asked + inputs.version + '\n' + digest_of(world) + '\n';
+  std::string key = options.asked + inputs.version + '\n' + digest_of(*input.scene) + '\n';
+  key += digest_of(input.camera, input.camera_motion);
+  key += fmt::format("\n{} {}\n", settings.time, settings.frame);
   // What was made of the scene is in no file.
   if (has_own_materials(options)) key += write_document(*opened.document);
   for (const Facts* facts : {&inputs.inputs, &inputs.options, &images}) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "examples/render/scene.h"
+#include "examples/render/render.h"
 #include "examples/tool/options.h"
 #include "examples/tool/render_options.h"
 
@@ -14,10 +14,11 @@ namespace nacre::tool {
 std::string asked_of(const CLI::App& command);
 
 /// Everything that a picture hangs on, as text: what was asked for, the document and all that it
-/// reads, the scene as it stands, and the images of the kernels. Nothing, with an error, where a
+/// reads, the scene as it stands with the camera, the time and frame, and the images of the kernels. Nothing, with an error, where a
 /// file cannot be read again or was written meanwhile.
 std::optional<std::string> render_key(const RenderOptions& options, const Opened& opened,
-                                      const host::Scene& world,
+                                      const host::RenderInput& input,
+                                      const host::RenderSettings& settings,
                                       const std::vector<const BoundKernel*>& kernels,
                                       Diagnostics& diagnostics);
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "examples/tool/crop_option.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/scene_limit_options.h"
 #include "examples/tool/technique_options.h"
@@ -40,6 +41,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(1, 1e9))
       ->capture_default_str();
   command.add_option("--size", options.size, "Pixels")->capture_default_str()->type_name("N|WxH");
+  add_crop(command, settings);
   command.add_option("--out", options.out, "Image to write: .exr or .png")->type_name("FILE");
   command
       .add_option("--write-document", options.document,
@@ -50,6 +52,10 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       .add_option("--variant", options.variant,
                   "Which of the scene's variants of materials (KHR_materials_variants)")
       ->type_name("NAME");
+  command
+      .add_option("--animation", options.animation,
+                  "Which of the scene's animations, by name or number from 0 (default: the first)")
+      ->type_name("NAME|N");
   command.add_option("--max-depth", settings.max_depth, "Scattering events on a path")
       ->check(number_within(0, 1e9))
       ->capture_default_str();
@@ -81,9 +87,10 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(-1e9, 1e9))
       ->type_name("SECONDS");
   command
-      .add_option("--fps", settings.fps, "Frames a second, for the frame that a ray's time is in")
+      .add_option("--fps", settings.fps, "Frames a second: when those of --frames are, and which one a ray's time is in")
       ->check(number_within(0, 1e9))
       ->capture_default_str();
+  options.series.add(command);
   command
       .add_option("--environment", options.environment,
                   "Latitude-longitude image (default: a built-in studio)")

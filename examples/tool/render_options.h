@@ -9,6 +9,7 @@
 #include "examples/tool/options.h"
 #include "examples/tool/pass_options.h"
 #include "examples/tool/progress_options.h"
+#include "examples/tool/series_options.h"
 
 namespace nacre::tool {
 
@@ -18,7 +19,9 @@ struct RenderOptions {
   CommonOptions common;
   AssignmentOptions assignment;
   std::string scene;
-  std::string variant;   ///< SceneLooks::variant
+  std::string variant;    ///< SceneLooks::variant
+  std::string animation;  ///< SceneLooks::animation
+  SeriesOptions series;
   std::string document;  ///< To write: that of the scene's own materials.
   std::string out;
   std::string size = "512";

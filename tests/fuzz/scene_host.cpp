@@ -1,5 +1,7 @@
 #include "tests/fuzz/scene_host.h"
 
+#include <algorithm>
+
 #include "examples/render/camera.h"
 #include "examples/render/load_scene.h"
 #include "examples/render/render.h"
@@ -10,15 +12,15 @@ namespace nacre::fuzz {
 
 namespace {
 
-void render_from(const host::Scene& scene, const host::Camera& camera) {
+void render_from(const host::Scene& scene, const host::SceneCamera& camera) {
   static const host::LambertShader grey({0.5f, 0.5f, 0.5f});
   static const host::Environment sky = host::Environment::constant({1.f, 1.f, 1.f});
   host::RenderInput input;
   input.scene = &scene;
   input.shaders.assign(scene.meshes.size(), &grey);
   input.environment = &sky;
-  input.camera = camera;
-  input.camera_motion = scene.camera_motion;
+  input.camera = camera.camera;
+  input.camera_motion = camera.motion;
   host::RenderSettings settings;
   settings.width = settings.height = 4;
   settings.samples = 2;
@@ -41,8 +43,11 @@ void render_scene(const std::string& path) {
     fail("a scene is refused without a reason, or read with an error");
   }
   if (scene.meshes.empty()) return;
-  if (scene.camera) render_from(scene, *scene.camera);
-  render_from(scene, host::fit_camera(host::bounds(scene), 1.f));
+  constexpr std::size_t most = 2;
+  for (std::size_t i = 0; i < std::min(most, scene.cameras.size()); ++i) {
+    render_from(scene, scene.cameras[i]);
+  }
+  render_from(scene, {"", host::fit_camera(host::bounds(scene), 1.f)});
 }
 
 }  // namespace nacre::fuzz

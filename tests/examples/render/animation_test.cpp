@@ -144,9 +144,9 @@ TEST_F(Animation, ChildrenAndCamerasGoAlong) {
   const Scene scene = load(text, {1, 2});
   ASSERT_EQ(scene.meshes.size(), 2u) << diagnostics_.to_string();
   expect_at(scene.meshes[1].instances.at(0).at(0.5f).origin, {5, 2, 0});
-  ASSERT_TRUE(scene.camera);
-  expect_at(scene.camera->position, {1, 1, 6});
-  expect_at(transform_point(scene.camera_motion.at(0.5f), scene.camera->position), {6, 1, 6});
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  expect_at(scene.cameras[0].camera.position, {1, 1, 6});
+  expect_at(transform_point(scene.cameras[0].motion.at(0.5f), scene.cameras[0].camera.position), {6, 1, 6});
 }
 
 TEST_F(Animation, WhatHidesByItsScaleDoesSo) {

@@ -18,7 +18,7 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 const float not_a_number = std::nanf("");
 
 TEST(Camera, WhatMakesNoRaysIsAnErrorBeforeTracing) {
-  const Camera good = *make_builtin_scene().camera;
+  const Camera good = make_builtin_scene().cameras[0].camera;
   Diagnostics none;
   EXPECT_TRUE(check_camera(good, none));
   EXPECT_TRUE(none.all().empty());

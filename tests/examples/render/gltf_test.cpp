@@ -58,7 +58,7 @@ TEST(Gltf, ReadsMeshNamesAndFlipsV) {
     EXPECT_EQ(mesh.tangent[i].direction.x, 1.f);
     EXPECT_EQ(mesh.tangent[i].sign, 1.f);
   }
-  EXPECT_FALSE(scene.camera);
+  EXPECT_TRUE(scene.cameras.empty());
 }
 
 TEST(Gltf, TransformsMultiplyDownTheTree) {
@@ -84,11 +84,11 @@ TEST(Gltf, TransformsMultiplyDownTheTree) {
   EXPECT_NEAR(mesh.tangent[0].direction.y, -1.f, 1e-5f);
   EXPECT_NEAR(mesh.tangent[0].sign * cross(mesh.normal[0], mesh.tangent[0].direction).x, -1.f,
               1e-5f);
-  ASSERT_TRUE(scene.camera);
-  EXPECT_NEAR(scene.camera->position.z, 6.f, 1e-5f);
-  EXPECT_NEAR(scene.camera->forward.z, -1.f, 1e-6f);
-  EXPECT_NEAR(scene.camera->up.x, -1.f, 1e-6f);
-  EXPECT_FLOAT_EQ(scene.camera->vertical_fov, 0.5f);
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_NEAR(scene.cameras[0].camera.position.z, 6.f, 1e-5f);
+  EXPECT_NEAR(scene.cameras[0].camera.forward.z, -1.f, 1e-6f);
+  EXPECT_NEAR(scene.cameras[0].camera.up.x, -1.f, 1e-6f);
+  EXPECT_FLOAT_EQ(scene.cameras[0].camera.vertical_fov, 0.5f);
 }
 
 TEST(Gltf, ReadsTextFileWithEmbeddedBuffer) {

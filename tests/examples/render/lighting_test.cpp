@@ -54,7 +54,7 @@ Scene floor_and_light() {
   scene.meshes.push_back(make_quad("floor", {-5, 0, 5}, {10, 0, 0}, {0, 0, -10}));
   scene.meshes.push_back(
       make_quad_light("lamp", {-0.5f, 1.f, -0.75f}, {1.f, 0, 0}, {0, 0, 1.5f}, {3.f, 3.f, 3.f}));
-  scene.camera = look_at({4.f, 0.7f, 0.f}, {0.f, 0.f, 0.f}, 1e-3f);
+  scene.cameras = {{"", look_at({4.f, 0.7f, 0.f}, {0.f, 0.f, 0.f}, 1e-3f)}};
   return scene;
 }
 
@@ -64,7 +64,7 @@ TEST(DirectLight, QuadGivesItsFormFactor) {
   const double form_factor = 4 * corner_form_factor(0.5, 0.75, 1.0);
   for (const Strategy strategy : strategies) {
     const Film film =
-        rendered({&scene, {&grey, nullptr}, nullptr, *scene.camera}, settings(strategy));
+        rendered({&scene, {&grey, nullptr}, nullptr, scene.cameras[0].camera}, settings(strategy));
     EXPECT_LT(z_score(estimate(film, 0), 0.6 * 3 * form_factor), 4);
     EXPECT_LT(z_score(estimate(film, 1), 0.3 * 3 * form_factor), 4);
     // A test that cannot fail proves nothing: the spread is a hundredth or less.
@@ -110,7 +110,7 @@ TEST(DirectLight, BackOfAOneSidedLightIsDark) {
   const LambertShader white({1.f, 1.f, 1.f});
   for (const Strategy strategy : strategies) {
     const Film film =
-        rendered({&scene, {&white, nullptr}, nullptr, *scene.camera}, settings(strategy));
+        rendered({&scene, {&white, nullptr}, nullptr, scene.cameras[0].camera}, settings(strategy));
     EXPECT_EQ(estimate(film, 0).mean, 0);
   }
 }
@@ -123,7 +123,7 @@ TEST(DirectLight, CameraSeesTheLightItself) {
   const Camera up = look_at({0.1f, 0.5f, 0.2f}, {0.1f, 1.f, 0.21f}, 0.01f);
   const Film film = rendered({&scene, {&white, nullptr}, nullptr, up}, s);
   EXPECT_EQ(estimate(film, 1).mean, 3);
-  const Film floor = rendered({&scene, {&white, nullptr}, nullptr, *scene.camera}, s);
+  const Film floor = rendered({&scene, {&white, nullptr}, nullptr, scene.cameras[0].camera}, s);
   EXPECT_EQ(estimate(floor, 1).mean, 0);
 }
 
@@ -135,7 +135,7 @@ TEST(DirectLight, EmissiveMaterialLightsLikeAnAreaLight) {
   const double form_factor = 4 * corner_form_factor(0.5, 0.75, 1.0);
   for (const Strategy strategy : strategies) {
     const Film film =
-        rendered({&scene, {&grey, &glowing}, nullptr, *scene.camera}, settings(strategy));
+        rendered({&scene, {&grey, &glowing}, nullptr, scene.cameras[0].camera}, settings(strategy));
     EXPECT_LT(z_score(estimate(film, 0), 0.5 * 3 * form_factor), 4);
     EXPECT_LT(z_score(estimate(film, 2), 0.5 * 0.5 * form_factor), 4);
   }

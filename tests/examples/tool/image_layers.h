@@ -14,6 +14,7 @@ namespace nacre {
 struct Layers {
   std::map<std::string, std::vector<float>> planes;
   std::map<std::string, std::string> texts;
+  OIIO::ROI window, whole;  ///< What there are pixels of, and in what: of an EXR, data and display.
 
   const std::vector<float>& operator[](const std::string& name) const { return planes.at(name); }
 };
@@ -24,6 +25,8 @@ inline Layers layers_of(const std::string& file) {
   if (in == nullptr) return {};
   Layers layers;
   const OIIO::ImageSpec& spec = in->spec();
+  layers.window = spec.roi();
+  layers.whole = spec.roi_full();
   const auto pixels = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height);
   const auto channels = static_cast<std::size_t>(spec.nchannels);
   std::vector<float> all(pixels * channels);
