@@ -145,8 +145,7 @@ class ExrWriter final : public ImageWriter {
     }
     const ImageHeader::Display all =
         image.display.value_or(ImageHeader::Display{0, 0, image.width, image.height});
-    append_attribute(bytes, "dataWindow", "box2i",
-                     box(all.x, all.y, image.width, image.height));
+    append_attribute(bytes, "dataWindow", "box2i", box(all.x, all.y, image.width, image.height));
     append_attribute(bytes, "displayWindow", "box2i", box(0, 0, all.width, all.height));
     append_attribute(bytes, "lineOrder", "lineOrder", {0});  // From the top.
     // Linear is what a reader takes for granted.

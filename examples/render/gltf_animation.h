@@ -24,8 +24,8 @@ class GltfAnimation {
                 GltfDropped& dropped, const Shutter& shutter)
       : root_(root), accessors_(accessors), budget_(budget), dropped_(dropped), shutter_(shutter) {}
 
-  /// `wanted`: its name, or its number from 0; "": the first, if there is one. False after an error:
-  /// no such animation, a wrong channel, sampler or accessor.
+  /// `wanted`: its name, or its number from 0; "": the first, if there is one. False after an
+  /// error: no such animation, a wrong channel, sampler or accessor.
   bool read(const std::string& wanted);
 
   /// How a node moves within its parent. A scale counts as at least 1e-6, so that what an

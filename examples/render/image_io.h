@@ -21,10 +21,10 @@ bool is_image_name(const std::string& path, Diagnostics& diagnostics);
 
 /// Writes .exr (linear Rec. 709 radiance, passes as layers) or .png (8 bits, tone curve, sRGB
 /// transfer, no passes). Of a film that is a window the .exr has the data window within the display
-/// window of the whole, the .png the window alone. A file appears complete or not at all: it is written beside its
-/// place and renamed. The bytes depend on nothing but the image and options.
-/// A film with alpha gives four channels; colours are multiplied by alpha in .exr and
-/// not in .png, as is the custom of either.
+/// window of the whole, the .png the window alone. A file appears complete or not at all: it is
+/// written beside its place and renamed. The bytes depend on nothing but the image and options. A
+/// film with alpha gives four channels; colours are multiplied by alpha in .exr and not in .png, as
+/// is the custom of either.
 bool write_image(const Film& film, const std::string& path, const WriteOptions& options,
                  Diagnostics& diagnostics);
 

@@ -10,8 +10,8 @@ namespace nacre::host {
 
 /// What is wanted of a scene that may be shown in several ways.
 struct SceneLooks {
-  bool materials = false;    ///< Scene::materials; otherwise only their names are read.
-  std::string variant = {};  ///< Of KHR_materials_variants; "": what the file shows by itself.
+  bool materials = false;      ///< Scene::materials; otherwise only their names are read.
+  std::string variant = {};    ///< Of KHR_materials_variants; "": what the file shows by itself.
   std::string animation = {};  ///< Its name, or its number from 0; "": the first.
 };
 

@@ -63,8 +63,7 @@ void PassSums::add(std::size_t pixel, int sample, const PathRecord& record) {
   }
 }
 
-void PassSums::store(std::size_t pixel, int samples, PassFilm& film,
-                     std::size_t film_pixel) const {
+void PassSums::store(std::size_t pixel, int samples, PassFilm& film, std::size_t film_pixel) const {
   std::size_t channel = 0;
   for (const Pass& pass : request_.passes) {
     const double count = pass.mean == Pass::Mean::samples ? samples

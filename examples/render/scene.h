@@ -117,7 +117,7 @@ struct Scene {
   std::vector<PunctualLight> lights;
   std::vector<SceneCamera> cameras;  ///< In the order of the file; none: see fit_camera().
   bool is_animated = false;          ///< At another time it may stand otherwise.
-  SceneMaterials materials;  ///< Where they were asked for.
+  SceneMaterials materials;          ///< Where they were asked for.
 };
 
 /// World bounds of all vertices that a triangle uses, lights left out; of instances those of their

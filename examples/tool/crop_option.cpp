@@ -40,9 +40,10 @@ void report_crop(const host::RenderSettings& settings, const std::string& file,
   said.severity = Severity::note;
   said.code = "crop-alone";
   said.where.file = file;
-  said.message = fmt::format("the image is the crop alone, {} by {} pixels; an .exr says where in "
-                             "the picture it is",
-                             settings.crop->width(), settings.crop->height());
+  said.message = fmt::format(
+      "the image is the crop alone, {} by {} pixels; an .exr says where in "
+      "the picture it is",
+      settings.crop->width(), settings.crop->height());
   diagnostics.add(said);
 }
 

@@ -138,8 +138,7 @@ void render_all(Run& run) {
       loaded = picture.frame;
     }
     const bool is_last = i + 1 == run.pictures.size();
-    const bool is_spare =
-        is_last || (is_animated && run.pictures[i + 1].frame != picture.frame);
+    const bool is_spare = is_last || (is_animated && run.pictures[i + 1].frame != picture.frame);
     Json answer = unwritten_picture(options, picture);
     const bool is_written =
         moment != nullptr &&

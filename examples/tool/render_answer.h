@@ -15,8 +15,7 @@ nlohmann::ordered_json skipped_picture(const RenderOptions& options, const Pictu
 
 /// and of one that is: its size, passes and samples, and what they took.
 nlohmann::ordered_json written_picture(const RenderOptions& options,
-                                       const host::RenderSettings& settings,
-                                       const Picture& picture,
+                                       const host::RenderSettings& settings, const Picture& picture,
                                        const host::RenderStatistics& statistics);
 
 /// All of it, of "pictures" as far as they were come to: the one picture, or, where frames or

@@ -14,8 +14,8 @@ namespace nacre::tool {
 std::string asked_of(const CLI::App& command);
 
 /// Everything that a picture hangs on, as text: what was asked for, the document and all that it
-/// reads, the scene as it stands with the camera, the time and frame, and the images of the kernels. Nothing, with an error, where a
-/// file cannot be read again or was written meanwhile.
+/// reads, the scene as it stands with the camera, the time and frame, and the images of the
+/// kernels. Nothing, with an error, where a file cannot be read again or was written meanwhile.
 std::optional<std::string> render_key(const RenderOptions& options, const Opened& opened,
                                       const host::RenderInput& input,
                                       const host::RenderSettings& settings,

@@ -87,7 +87,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(-1e9, 1e9))
       ->type_name("SECONDS");
   command
-      .add_option("--fps", settings.fps, "Frames a second: when those of --frames are, and which one a ray's time is in")
+      .add_option("--fps", settings.fps,
+                  "Frames a second: when those of --frames are, and which one a ray's time is in")
       ->check(number_within(0, 1e9))
       ->capture_default_str();
   options.series.add(command);

@@ -90,9 +90,10 @@ std::string listed(const std::vector<std::string>& names) {
 
 void SeriesOptions::add(CLI::App& command) {
   command
-      .add_option("--camera", cameras,
-                  "Which of the scene's cameras (default: the first), or all: scene and kernels are "
-                  "made once, and {camera} in --out is the name")
+      .add_option(
+          "--camera", cameras,
+          "Which of the scene's cameras (default: the first), or all: scene and kernels are "
+          "made once, and {camera} in --out is the name")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME,...|all");
@@ -118,7 +119,8 @@ std::optional<std::vector<int>> parse_frames(const std::string& text, Diagnostic
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string part = text.substr(begin, end - begin);
     const auto span = parse_span(part);
-    if (!span) return fail("N, FIRST-LAST or FIRST-LASTxSTEP, with commas between", '\'' + part + '\'');
+    if (!span)
+      return fail("N, FIRST-LAST or FIRST-LASTxSTEP, with commas between", '\'' + part + '\'');
     for (std::int64_t frame = span->first; frame <= span->last; frame += span->step) {
       if (met.size() > most_frames) return fail(fmt::format("at most {}", most_frames), "more");
       if (met.insert(static_cast<int>(frame)).second) frames.push_back(static_cast<int>(frame));
@@ -173,10 +175,10 @@ std::optional<std::vector<Picture>> list_pictures(const SeriesOptions& options,
   FileStems stems;
   std::vector<std::string> by_camera;
   for (const std::size_t camera : cameras) {
-    by_camera.push_back(
-        options.cameras.empty()
-            ? pattern
-            : substitute_camera(pattern, stems.stem_of(scene.cameras[camera].name, {}, diagnostics)));
+    by_camera.push_back(options.cameras.empty()
+                            ? pattern
+                            : substitute_camera(pattern, stems.stem_of(scene.cameras[camera].name,
+                                                                       {}, diagnostics)));
   }
   std::vector<Picture> pictures;
   std::set<std::string> files;

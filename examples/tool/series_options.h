@@ -42,9 +42,9 @@ std::optional<std::vector<std::size_t>> choose_cameras(const SeriesOptions& opti
                                                        Diagnostics& diagnostics);
 
 /// Every frame by every camera, frames being the slower. `pattern`: the name of a file, in which
-/// {camera} stands for a camera's name, as a file may have it, where --camera is given; and {frame},
-/// or padded with zeros to N digits {0Nframe} or N times #, for the frame, where --frames is.
-/// Nothing, with an error, where two had one name.
+/// {camera} stands for a camera's name, as a file may have it, where --camera is given; and
+/// {frame}, or padded with zeros to N digits {0Nframe} or N times #, for the frame, where --frames
+/// is. Nothing, with an error, where two had one name.
 std::optional<std::vector<Picture>> list_pictures(const SeriesOptions& options,
                                                   const std::vector<int>& frames,
                                                   const std::vector<std::size_t>& cameras,

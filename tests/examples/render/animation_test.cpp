@@ -146,7 +146,8 @@ TEST_F(Animation, ChildrenAndCamerasGoAlong) {
   expect_at(scene.meshes[1].instances.at(0).at(0.5f).origin, {5, 2, 0});
   ASSERT_EQ(scene.cameras.size(), 1u);
   expect_at(scene.cameras[0].camera.position, {1, 1, 6});
-  expect_at(transform_point(scene.cameras[0].motion.at(0.5f), scene.cameras[0].camera.position), {6, 1, 6});
+  expect_at(transform_point(scene.cameras[0].motion.at(0.5f), scene.cameras[0].camera.position),
+            {6, 1, 6});
 }
 
 TEST_F(Animation, WhatHidesByItsScaleDoesSo) {

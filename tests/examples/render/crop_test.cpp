@@ -1,8 +1,8 @@
 // A crop has the pixels of the whole picture, whatever is asked for beside it.
 #include <gtest/gtest.h>
 
-#include "examples/render/camera.h"
 #include "examples/render/builtin_scene.h"
+#include "examples/render/camera.h"
 #include "examples/render/render.h"
 #include "tests/examples/render/test_shaders.h"
 #include "tests/support/temporary_folder.h"

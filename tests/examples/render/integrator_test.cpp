@@ -64,7 +64,8 @@ TEST(Furnace, HoldsWithLightSamplingInConcaveScenes) {
   s.samples = 64;
   s.max_depth = 200;
   s.sampler = SamplerKind::independent;
-  const Film film = rendered({&b.scene, {&white, &white, &white}, &sky, b.scene.cameras[0].camera}, s);
+  const Film film =
+      rendered({&b.scene, {&white, &white, &white}, &sky, b.scene.cameras[0].camera}, s);
   // The object fills the middle of the image. 192 comparisons at 1 % together: 4.04 sigma.
   for (int y = 0; y < 32; y += 4) {
     for (int x = 0; x < 32; x += 4) {

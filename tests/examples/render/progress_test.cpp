@@ -171,8 +171,8 @@ TEST_F(Progress, TilesStopWhereTheyAreGoodEnough) {
   settings_.noise = 0;
   settings_.seed = 7;
   const auto exact = film();
-  for (const Tile& tile : make_tiles(settings_.width, settings_.height, settings_.tile_size,
-                                     window_of(settings_))) {
+  for (const Tile& tile :
+       make_tiles(settings_.width, settings_.height, settings_.tile_size, window_of(settings_))) {
     double sum = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
@@ -182,7 +182,8 @@ TEST_F(Progress, TilesStopWhereTheyAreGoodEnough) {
       }
     }
     // The other render has an error, too, and both are of random numbers.
-    EXPECT_LT(std::sqrt(sum / static_cast<double>(tile.pixels())), 1.5 * 0.02) << tile.x0 << ' ' << tile.y0;
+    EXPECT_LT(std::sqrt(sum / static_cast<double>(tile.pixels())), 1.5 * 0.02)
+        << tile.x0 << ' ' << tile.y0;
   }
 }
 

@@ -33,8 +33,9 @@ constexpr std::string_view scene = R"({
 })";
 
 std::string scene_data() {
-  const float numbers[] = {-0.5f, -0.5f, 0, 0.5f, -0.5f, 0, 0.5f, 0.5f, 0, -0.5f, -0.5f, 0, 0.5f,
-                           0.5f,  0,     -0.5f, 0.5f, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 2, 0};
+  const float numbers[] = {-0.5f, -0.5f, 0,    0.5f, -0.5f, 0,    0.5f, 0.5f, 0, -0.5f, -0.5f,
+                           0,     0.5f,  0.5f, 0,    -0.5f, 0.5f, 0,    0,    2, 0,     0,
+                           0,     2,     0,    0,    0,     0,    0,    0,    2, 0};
   std::string data(sizeof numbers, '\0');
   std::memcpy(data.data(), numbers, sizeof numbers);
   return data;
@@ -115,7 +116,8 @@ TEST_F(Series, FramesAreThoseOfTheirTime) {
 TEST_F(Series, FramesHaveTheirOwnImages) {
   for (const std::string number : {"7", "8"}) {
     ASSERT_EQ(shell(std::string("oiiotool --pattern constant:color=") +
-                    (number == "7" ? "1,0,0" : "0,0,1") + " 4x4 3 -o " + file("image." + number + ".exr")),
+                    (number == "7" ? "1,0,0" : "0,0,1") + " 4x4 3 -o " +
+                    file("image." + number + ".exr")),
               0);
   }
   write("a.mtlx", R"(<materialx version="1.39" colorspace="lin_rec709">
@@ -175,9 +177,9 @@ TEST_F(Series, KilledOnesGoOn) {
   };
   ASSERT_EQ(Process(arguments("whole.#.exr"), file("stderr")).wait(), 0) << bytes("stderr");
   auto resumed = arguments("a.#.exr");
-  for (const std::string& each : {std::string("--skip-existing"), std::string("--checkpoint"),
-                                  file("a.checkpoint"), std::string("--checkpoint-every"),
-                                  std::string("0.05")}) {
+  for (const std::string& each :
+       {std::string("--skip-existing"), std::string("--checkpoint"), file("a.checkpoint"),
+        std::string("--checkpoint-every"), std::string("0.05")}) {
     resumed.push_back(each);
   }
   int killed = 0;
@@ -195,7 +197,8 @@ TEST_F(Series, KilledOnesGoOn) {
   EXPECT_GT(killed, 0);
   ASSERT_EQ(Process(resumed, file("stderr")).wait(), 0) << bytes("stderr");
   for (const char* frame : {"1", "2", "3", "4"}) {
-    EXPECT_EQ(bytes(std::string("a.") + frame + ".exr"), bytes(std::string("whole.") + frame + ".exr"));
+    EXPECT_EQ(bytes(std::string("a.") + frame + ".exr"),
+              bytes(std::string("whole.") + frame + ".exr"));
   }
   EXPECT_FALSE(std::filesystem::exists(file("a.checkpoint")));
 }
