@@ -36,6 +36,7 @@ Distribution::Distribution(const std::vector<double>& weights) {
 }
 
 Distribution::Choice Distribution::choose(float u) const {
+  u = std::min(u, 0x1.fffffep-1f);
   const std::size_t entry = entry_of(u);
   std::size_t i = guide_[entry];
   // The product may have been rounded up to an entry that begins beyond u.
@@ -44,7 +45,7 @@ Distribution::Choice Distribution::choose(float u) const {
     // No branch depends on where it is: edges that are not beyond u.
     std::size_t passed = 0;
     for (std::size_t k = 1; k <= counted; ++k) passed += edges_[i + k] <= u ? 1 : 0;
-    i += passed;
+    i = std::min(i + passed, last_);  // Where nothing is any wide, all are passed.
   } else {
     const float* const first = edges_.data() + i;
     i += static_cast<std::size_t>(std::upper_bound(first + 1, edges_.data() + last_ + 1, u) -

@@ -19,7 +19,7 @@ class Distribution {
     int interval;
     float within;  ///< Where in it u is, in [0, 1).
   };
-  /// u in [0, 1).
+  /// u in [0, 1); 1 is taken as the last number before it, and of no width any will do.
   Choice choose(float u) const;
   /// Fetch what choose() reads first, and what it reads after that, which has to be there.
   void fetch_guide(float u) const { __builtin_prefetch(&guide_[entry_of(u)]); }

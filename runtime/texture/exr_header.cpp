@@ -6,6 +6,8 @@
 #include <array>
 #include <string_view>
 
+#include "runtime/texture/essential_image.h"
+
 namespace nacre {
 
 namespace {
@@ -76,23 +78,33 @@ std::int64_t signed_word(std::string_view bytes, std::size_t at) {
 class HeaderReader {
  public:
   HeaderReader(const ImageFile& file, const ImageLimits& limits)
-      : cursor_(file), file_bytes_(file.bytes()), limits_(limits) {}
+      : cursor_(file), file_(file), limits_(limits) {}
 
-  std::optional<std::string> run() {
+  std::optional<Diagnostic> run() {
     std::string start;
-    if (!cursor_.take(8, start)) return "the file ends inside its signature";
+    if (!cursor_.take(8, start)) {
+      return broken_image(file_.path(), "the file ends inside its signature");
+    }
     const bool is_multipart = (word(start, 4) & flag_multipart) != 0;
     bool ended = false;
     for (int parts = 0; !ended && !fault_; ++parts) {
       Part part;
       const int attributes = read_part(part);
       ended = !is_multipart || attributes == 0;
-      if (!fault_ && attributes > 0) check_part(part);
+      if (fault_) break;
+      if (attributes > 0) {
+        for (const Window& window : {part.data, part.display}) {
+          auto problem = check_image_size(file_.path(), window.width, window.height, limits_);
+          if (problem) return problem;
+        }
+        check_part(part);
+      }
       if (!fault_ && !ended && parts >= limits_.max_layers) {
         fault_ = fmt::format("there are more than {} parts", limits_.max_layers);
       }
     }
-    return fault_;
+    if (fault_) return broken_image(file_.path(), *fault_);
+    return std::nullopt;
   }
 
  private:
@@ -192,9 +204,8 @@ class HeaderReader {
       fault_ = fmt::format("there are more than {} channels", limits_.max_channels);
       return;
     }
-    if (outside(part.data) || outside(part.display) || (is_tiled && outside(part.tile))) {
-      fault_ =
-          fmt::format("a window or tile is larger than {} or smaller than 1", limits_.max_size);
+    if (is_tiled && outside(part.tile)) {
+      fault_ = fmt::format("a tile is larger than {} or smaller than 1", limits_.max_size);
       return;
     }
     const Window chunk =
@@ -204,20 +215,20 @@ class HeaderReader {
                                                    ((part.data.height - 1) / chunk.height + 1));
     if (bytes > limits_.max_bytes) {
       fault_ = "lines or tiles that are read together take too many bytes";
-    } else if (chunks * offset_bytes > file_bytes_) {
+    } else if (chunks * offset_bytes > file_.bytes()) {
       fault_ = "the header promises more lines or tiles than the file has room for";
     }
   }
 
   FileCursor cursor_;
-  std::uint64_t file_bytes_;
+  const ImageFile& file_;
   const ImageLimits& limits_;
   std::optional<std::string> fault_;
 };
 
 }  // namespace
 
-std::optional<std::string> exr_header_fault(const ImageFile& file, const ImageLimits& limits) {
+std::optional<Diagnostic> check_exr_header(const ImageFile& file, const ImageLimits& limits) {
   return HeaderReader(file, limits).run();
 }
 

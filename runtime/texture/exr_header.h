@@ -1,8 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
+#include "runtime/diagnostic.h"
 #include "runtime/texture/image_file.h"
 
 namespace nacre {
@@ -11,7 +11,7 @@ namespace nacre {
 /// allocates what an attribute claims before it reads it, so every size is held against
 /// the bytes that there are, and windows, tiles, channels and parts against the limits.
 /// (OpenEXR File Layout; of what is inside attributes only what holds sizes of its own is
-/// read.)
-std::optional<std::string> exr_header_fault(const ImageFile& file, const ImageLimits& limits);
+/// read.) Errors: broken-image; image-too-large for windows outside the limits.
+std::optional<Diagnostic> check_exr_header(const ImageFile& file, const ImageLimits& limits);
 
 }  // namespace nacre

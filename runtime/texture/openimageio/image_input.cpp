@@ -135,7 +135,7 @@ std::optional<Diagnostic> open_input(std::shared_ptr<const ImageFile> file,
   };
   TiffDirectories directories;
   if (from.format() == ImageFormat::exr) {
-    if (auto reason = exr_header_fault(from, limits)) return broken(*reason);
+    if (auto problem = check_exr_header(from, limits)) return problem;
   } else if (from.format() == ImageFormat::tiff) {
     if (auto reason = tiff_fault(from, limits, directories)) return broken(*reason);
   }

@@ -33,6 +33,7 @@ TEST(Distribution, ChoosesWhatASearchFinds) {
       for (int i = 0; i < 4000; ++i) {
         const float u = i == 0   ? 0.f
                         : i == 1 ? 0x1.fffffep-1f
+                        : i == 2 ? 1.f  // What an arithmetic that rounds may give.
                                  : static_cast<float>(random() >> 8) * 0x1p-24f;
         const auto [interval, within] = distribution.choose(u);
         const auto at = static_cast<std::size_t>(interval);
@@ -52,6 +53,7 @@ TEST(Distribution, OfNothingHasNoInterval) {
   const Distribution distribution({0.0, 0.0, 0.0});
   EXPECT_EQ(distribution.sum(), 0.0);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(distribution.probability(i), 0.f);
+  for (const float u : {0.f, 0.5f, 1.f}) EXPECT_LT(distribution.choose(u).interval, 3);
 }
 
 }  // namespace
