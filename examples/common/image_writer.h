@@ -25,7 +25,7 @@ struct ImageHeader {
   int height = 0;
   std::vector<std::string> channels;           ///< Their names.
   SampleType samples = SampleType::unsigned8;  ///< As the file has them.
-  std::string colorspace;                      ///< As OpenImageIO calls it.
+  std::string colorspace;                      ///< As OpenImageIO calls it; "": not said.
   /// Of integers: all but a fourth channel get the codes of sRGB for linear values.
   bool codes_srgb = false;
   bool repeats = true;  ///< Beyond its edges the image is there again, else its edge.

@@ -93,7 +93,7 @@ class PngWriter final : public ImageWriter {
     } else if (header_.colorspace == "Linear") {
       numbers("gAMA", {100000});
     }
-    append_text("oiio:ColorSpace", header_.colorspace);
+    if (!header_.colorspace.empty()) append_text("oiio:ColorSpace", header_.colorspace);
   }
 
   void append_text(const std::string& name, const std::string& text) {

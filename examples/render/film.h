@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "examples/render/pass_film.h"
@@ -54,6 +55,9 @@ class Film {
 
   /// An rgb triple for each of the window.
   const std::vector<Vec3>& pixels() const { return mean_; }
+  std::vector<Vec3>& pixels() { return mean_; }
+
+  std::string denoised_by;  ///< "": nothing did.
 
  private:
   int width_, height_;

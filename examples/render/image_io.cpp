@@ -19,12 +19,9 @@ float rounded(float v) {
 }
 
 /// Linear radiance as a screen shows it, 0 to 1.
-Vec3 toned(Vec3 pixel, const WriteOptions& options) {
-  Vec3 rgb = is_finite(pixel) ? std::exp2(options.exposure) * pixel : Vec3{};
+Vec3 toned(Vec3 rgb, float white) {
   const float l = luminance(rgb);
-  if (options.white > 0.f && l > 0.f) {
-    rgb = ((1.f + l / (options.white * options.white)) / (1.f + l)) * rgb;
-  }
+  if (white > 0.f && l > 0.f) rgb = ((1.f + l / (white * white)) / (1.f + l)) * rgb;
   return {srgb_encode(rgb.x), srgb_encode(rgb.y), srgb_encode(rgb.z)};
 }
 
@@ -43,12 +40,39 @@ void append(Planes& planes, Vec3 rgb, float alpha) {
   if (planes.size() == 4) planes[3].push_back(alpha);
 }
 
-Planes developed(const Film& film, const WriteOptions& options) {
-  Planes planes = planes_of(film);
+/// All pixels as the file has them, without alpha.
+std::vector<Vec3> exposed(const Film& film, float exposure) {
+  std::vector<Vec3> pixels;
+  pixels.reserve(film.pixels().size());
+  const float scale = std::exp2(exposure);
   for_pixels(film.window(), [&](int x, int y) {
     const float alpha = film.alpha(x, y);
-    const Vec3 rgb = toned(alpha > 0.f ? (1.f / alpha) * film.mean(x, y) : Vec3{}, options);
-    append(planes, {rounded(rgb.x), rounded(rgb.y), rounded(rgb.z)}, rounded(alpha));
+    const Vec3 rgb = alpha > 0.f ? (1.f / alpha) * film.mean(x, y) : Vec3{};
+    pixels.push_back(is_finite(rgb) ? scale * rgb : Vec3{});
+  });
+  return pixels;
+}
+
+/// In place: as a view has it, and 0 for what is no number.
+void apply_view(std::vector<Vec3>& pixels, const std::function<void(std::span<float>)>& view) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(float));
+  view({&pixels.data()->x, 3 * pixels.size()});
+  const auto clipped = [](float v) { return v > 0.f ? std::min(v, 1.f) : 0.f; };
+  for (Vec3& p : pixels) p = {clipped(p.x), clipped(p.y), clipped(p.z)};
+}
+
+Planes developed(const Film& film, const WriteOptions& options) {
+  std::vector<Vec3> pixels = exposed(film, options.exposure);
+  if (options.view) {
+    apply_view(pixels, options.view);
+  } else {
+    for (Vec3& p : pixels) p = toned(p, options.white);
+  }
+  Planes planes = planes_of(film);
+  const Vec3* next = pixels.data();
+  for_pixels(film.window(), [&](int x, int y) {
+    const Vec3 rgb = *next++;
+    append(planes, {rounded(rgb.x), rounded(rgb.y), rounded(rgb.z)}, rounded(film.alpha(x, y)));
   });
   return planes;
 }
@@ -89,6 +113,11 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
   if (film.has_alpha()) header.channels.emplace_back("A");
   Planes planes = exr ? linear(film) : developed(film, options);
   if (exr) append_passes(film.passes, header, planes);
+  if (!exr && options.view) {
+    header.colorspace.clear();
+    header.texts.emplace_back("view", options.view_name);
+  }
+  if (!film.denoised_by.empty()) header.texts.emplace_back("denoised", film.denoised_by);
   std::string problem;
   const auto image = open_image(path, header, problem);
   if (image == nullptr) return problem;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 
 #include "examples/render/film.h"
@@ -14,6 +16,10 @@ struct WriteOptions {
   /// keeps hue (Reinhard et al. 2002, "Photographic Tone Reproduction for
   /// Digital Images", equation 4). 0: no curve, clip at 1.
   float white = 4.f;
+  /// PNG: what takes the place of curve and sRGB; linear colours, three numbers each, become what
+  /// the display is sent, 0 to 1.
+  std::function<void(std::span<float>)> view = {};
+  std::string view_name = {};  ///< PNG: said in the file where there is a view.
 };
 
 /// Whether write_image() can write a file of that name; an error if not.

@@ -250,16 +250,6 @@ ReadOptions CommonOptions::read_options() const {
 
 namespace {
 
-/// Nothing, with a diagnostic, where the environment is asked and names no file.
-std::optional<fs::path> ocio_config(const std::string& option, Diagnostics& diagnostics) {
-  if (option != "env") return fs::path(option);
-  if (const char* file = std::getenv("OCIO"); file != nullptr && *file != '\0')
-    return fs::path(file);
-  diagnostics.error("no-color-config", {}, "--ocio env asks for the file that OCIO names",
-                    "the environment variable OCIO", "none");
-  return std::nullopt;
-}
-
 /// Beyond that it is another file.
 constexpr std::uint64_t most_profile_bytes = 64 << 20;
 
@@ -270,6 +260,15 @@ std::optional<Profile> read_profile(const std::string& file, Diagnostics& diagno
 
 /// All but the document.
 }  // namespace
+
+std::optional<fs::path> ocio_config(const std::string& option, Diagnostics& diagnostics) {
+  if (option != "env") return fs::path(option);
+  if (const char* file = std::getenv("OCIO"); file != nullptr && *file != '\0')
+    return fs::path(file);
+  diagnostics.error("no-color-config", {}, "--ocio env asks for the file that OCIO names",
+                    "the environment variable OCIO", "none");
+  return std::nullopt;
+}
 
 Opened open_system(const CommonOptions& options, const FileResolver& resolver,
                    Diagnostics& diagnostics) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -82,6 +83,11 @@ struct Opened {
   explicit operator bool() const { return system != nullptr && document != nullptr; }
 };
 Opened open(const CommonOptions& options, Diagnostics& diagnostics);
+
+/// The file that --ocio names, "" for none. Nothing, with an error, where the environment is asked
+/// and names no file.
+std::optional<std::filesystem::path> ocio_config(const std::string& option,
+                                                 Diagnostics& diagnostics);
 
 /// The system alone, for who has a document in memory; null after an error. `resolver` is asked for
 /// images before their folders are looked in.

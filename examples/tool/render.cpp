@@ -36,7 +36,8 @@ struct Run {
   ReportOnce once;
   Opened opened;
   std::optional<host::Environment> sky;
-  host::Scene world;  ///< As it stands at RenderSettings::time.
+  std::unique_ptr<host::Denoiser> denoiser;  ///< Null: nobody asks for one.
+  host::Scene world;                         ///< As it stands at RenderSettings::time.
   std::vector<Picture> pictures;
 };
 
@@ -50,8 +51,8 @@ void set_frame(RenderOptions& options, float start, int frame) {
 /// What is asked for, before anything is read. False after an error.
 bool check(Run& run, Diagnostics& diagnostics) {
   complete_request(run.options, diagnostics);
-  if (!run.options.series.frames.empty()) {
-    run.frames = parse_frames(run.options.series.frames, diagnostics).value_or(std::vector<int>{});
+  if (run.options.series.frames) {
+    run.frames = parse_frames(*run.options.series.frames, diagnostics).value_or(std::vector<int>{});
   }
   return !diagnostics.has_errors() && check_series(run.options, run.frames, diagnostics);
 }
@@ -72,6 +73,14 @@ bool open_all(Run& run, Diagnostics& diagnostics) {
   if (has_own && !diagnostics.has_errors()) {
     run.opened = open_scene_materials(options, run.world, diagnostics);
     if (!run.opened || options.out.empty()) return false;
+  }
+  if (options.denoise.is_asked) {
+    run.denoiser =
+        host::Denoiser::load(options.denoise.library, options.common.threads, diagnostics);
+  }
+  if (const auto view = load_view(options.view, options.common.ocio, diagnostics)) {
+    options.write.view = [view](std::span<float> rgb) { view->apply(rgb); };
+    options.write.view_name = view->names().display + ", " + view->names().view;
   }
   run.sky = load_environment(options, diagnostics);
   return !diagnostics.has_errors() && run.sky;
@@ -143,7 +152,8 @@ void render_all(Run& run) {
     const bool is_written =
         moment != nullptr &&
         render_picture(options, run.opened, *moment,
-                       {picture, i + 1, run.pictures.size(), is_spare}, stop, answer, said);
+                       {picture, i + 1, run.pictures.size(), is_spare, run.denoiser.get()}, stop,
+                       answer, said);
     run.answer["pictures"].push_back(std::move(answer));
     if (is_last || !is_written) report_texels(*run.opened.system, said);
     run.once.say(said);
@@ -152,7 +162,7 @@ void render_all(Run& run) {
 }
 
 int run(RenderOptions& options, Json& answer) {
-  Run run{options, answer, {}, {}, {}, {}, {}, {}};
+  Run run{options, answer, {}, {}, {}, {}, {}, {}, {}};
   Diagnostics diagnostics;
   if (!check(run, diagnostics)) {
     run.once.say(diagnostics);

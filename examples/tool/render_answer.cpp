@@ -6,14 +6,6 @@ namespace nacre::tool {
 
 using Json = nlohmann::ordered_json;
 
-namespace {
-
-bool is_series(const RenderOptions& options) {
-  return !options.series.cameras.empty() || !options.series.frames.empty();
-}
-
-}  // namespace
-
 Json unwritten_picture(const RenderOptions& options, const Picture& picture) {
   Json answer{{"document", options.common.file}, {"file", picture.file}, {"written", false}};
   if (!options.series.cameras.empty()) answer["camera"] = picture.camera_name;
@@ -54,7 +46,7 @@ Json written_picture(const RenderOptions& options, const host::RenderSettings& s
 
 Json final_answer(const RenderOptions& options, const Json& pictures) {
   const Json& list = pictures["pictures"];
-  if (is_series(options)) return {{"document", options.common.file}, {"pictures", list}};
+  if (options.series.is_series()) return {{"document", options.common.file}, {"pictures", list}};
   if (!list.empty()) return list.front();
   Picture none;
   none.file = options.out;

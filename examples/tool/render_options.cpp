@@ -113,6 +113,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   command.add_flag("--half", options.write.half, "16-bit floats in .exr");
   add_techniques(command, settings);
   options.passes.add(command);
+  options.denoise.add(command);
+  options.view.add(command);
   options.progress.add(command);
   command
       .add_option("--noise", settings.noise,

@@ -6,10 +6,12 @@
 #include "examples/render/render.h"
 #include "examples/render/scene_limits.h"
 #include "examples/tool/assignment.h"
+#include "examples/tool/denoise_options.h"
 #include "examples/tool/options.h"
 #include "examples/tool/pass_options.h"
 #include "examples/tool/progress_options.h"
 #include "examples/tool/series_options.h"
+#include "examples/tool/view_options.h"
 
 namespace nacre::tool {
 
@@ -32,6 +34,8 @@ struct RenderOptions {
   host::RenderSettings settings;
   host::WriteOptions write;
   PassOptions passes;
+  DenoiseOptions denoise;
+  ViewOptions view;
   ProgressOptions progress;
   float lens_radius = 0.0f;
   float focus_distance = 0.0f;

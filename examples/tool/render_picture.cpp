@@ -104,7 +104,7 @@ bool render_picture(const RenderOptions& options, const Opened& opened, RenderMo
                                     .pending = pending,
                                     .checkpoint = checkpoint ? &*checkpoint : nullptr};
   host::RenderStatistics statistics;
-  const auto film = host::render(input, settings, diagnostics, control, &statistics);
+  auto film = host::render(input, settings, diagnostics, control, &statistics);
   report_left_out(statistics, diagnostics);
   report_failed(opened, moment.assignments(), moment.shaders(), diagnostics);
   for (const BoundKernel* kernel : kernels) {
@@ -116,6 +116,7 @@ bool render_picture(const RenderOptions& options, const Opened& opened, RenderMo
   }
   report_samples(statistics, settings, enough, diagnostics);
   if (!is_written(options, statistics)) return false;
+  if (work.denoiser != nullptr && !work.denoiser->denoise(*film, diagnostics)) return false;
   if (!host::write_image(*film, file, options.write, diagnostics)) return false;
   if (!statistics.is_whole && !enough.is_out_of_time()) {
     keep_promise_partly(file, samples_text(statistics, settings));
@@ -123,9 +124,11 @@ bool render_picture(const RenderOptions& options, const Opened& opened, RenderMo
   file_is_written(file, options.common.quiet || options.json);
   report_crop(settings, file, diagnostics);
   answer = written_picture(options, settings, work.picture, statistics);
-  // What comes next is another render.
+  if (work.denoiser != nullptr) answer["denoised"] = film->denoised_by;
+  // What comes next, or is asked for next, is another render.
   std::error_code none;
-  if (work.of > 1 && checkpoint) std::filesystem::remove(options.progress.checkpoint, none);
+  if (options.series.is_series() && checkpoint)
+    std::filesystem::remove(options.progress.checkpoint, none);
   return true;
 }
 

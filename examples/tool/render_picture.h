@@ -12,6 +12,7 @@ struct PictureAtWork {
   const Picture& picture;
   std::size_t number = 0, of = 1;  ///< Counted from 1 among those that are to be rendered.
   bool is_last_of_world = true;    ///< The scene is not needed any more.
+  const host::Denoiser* denoiser = nullptr;  ///< Null: it stays as it is.
 };
 
 /// Renders a picture and writes it. What RenderOptions::json says of it goes to `answer`. False

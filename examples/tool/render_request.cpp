@@ -33,7 +33,9 @@ void complete_request(RenderOptions& options, Diagnostics& diagnostics) {
   if (!parse_size(options.size, settings.width, settings.height, diagnostics)) return;
   settings.threads = options.common.threads;
   settings.passes = pass_request(options.passes, diagnostics);
+  ask_for_guides(options.denoise, settings.passes);
   check_passes(options, diagnostics);
+  check_view(options.view, options.out, diagnostics);
   check_techniques(settings, diagnostics);
   check_crop(settings, diagnostics);
   if (!diagnostics.has_errors()) check_request(options, diagnostics);

@@ -15,11 +15,13 @@ namespace nacre::tool {
 
 /// Which pictures `nacre render` makes of a scene.
 struct SeriesOptions {
-  std::vector<std::string> cameras;  ///< --camera: names, or "all"; empty: the first.
-  std::string frames;                ///< --frames
-  bool skips_existing = false;       ///< --skip-existing
+  std::vector<std::string> cameras;   ///< --camera: names, or "all"; empty: the first.
+  std::optional<std::string> frames;  ///< --frames
+  bool skips_existing = false;        ///< --skip-existing
 
   void add(CLI::App& command);
+  /// Whether there may be several, however many are left to make.
+  bool is_series() const { return !cameras.empty() || frames; }
 };
 
 /// One of them.

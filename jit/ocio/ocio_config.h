@@ -16,9 +16,9 @@ namespace nacre {
 /// Transforms are those that OpenColorIO gives to graphics cards, optimised without
 /// loss: what it has no exact form for there it approximates, which is the inverse of
 /// a 1D table (by one of 4096 or, for half floats, 65536 entries) and of a 3D table (by
-/// one of 48^3). Displays, views, looks, file rules and named transforms are not used,
-/// and so not checked. Environment variables that the configuration refers to count
-/// as they are when it is read.
+/// one of 48^3). Looks, file rules and named transforms are not used here, nor displays
+/// and views (display_view.h), and so not checked. Environment variables that the configuration
+/// refers to count as they are when it is read.
 ///
 /// OpenColorIO's logging is turned off while it works for us; OCIO_LOGGING_LEVEL in the
 /// environment, which OpenColorIO puts above what programs say, turns it on again.

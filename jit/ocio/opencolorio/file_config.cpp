@@ -1,5 +1,3 @@
-#include <OpenColorIO/OpenColorIO.h>
-
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -8,42 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "jit/ocio/ocio_module.h"
+#include "jit/ocio/opencolorio/module.h"
+#include "jit/ocio/opencolorio/read_config.h"
 
 namespace nacre {
 
 namespace {
-
-namespace ocio = OCIO_NAMESPACE;
-
-/// No logging while it lives. The level belongs to the whole process, so it is lent to
-/// one of us at a time.
-class Quiet {
- public:
-  Quiet() : lock_(mutex()), level_(ocio::GetLoggingLevel()) {
-    ocio::SetLoggingLevel(ocio::LOGGING_LEVEL_NONE);
-  }
-  ~Quiet() { ocio::SetLoggingLevel(level_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
-
-  std::lock_guard<std::mutex> lock_;
-  ocio::LoggingLevel level_;
-};
-
-/// OpenColorIO's reason on one line.
-std::string reason(const std::exception& exception) {
-  std::string text = exception.what();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text.empty() ? "no reason given by OpenColorIO" : text;
-}
 
 /// Tetrahedral interpolation is worked out in the text, from texels read at their
 /// centres.
@@ -141,24 +109,16 @@ class FileConfig : public ColorConfig {
       transforms_;
 };
 
-std::shared_ptr<const ColorConfig> load(const std::string& path, std::string& fault) {
+}  // namespace
+
+std::shared_ptr<const ColorConfig> load_config(const std::string& path, std::string& fault) {
   const Quiet quiet;
   try {
-    // OpenColorIO keeps tables by their files' names, however old; one that is opened
-    // again has what its files hold now.
-    ocio::ClearAllCaches();
-    return std::make_shared<FileConfig>(path, ocio::Config::CreateFromFile(path.c_str()));
+    return std::make_shared<FileConfig>(path, read_config(path));
   } catch (const std::exception& exception) {
     fault = reason(exception);
     return nullptr;
   }
 }
 
-}  // namespace
-
 }  // namespace nacre
-
-const nacre::ModuleHead* nacre_module() {
-  static constexpr nacre::OcioModule module{{NACRE_BUILD_KEY, "nacre_colors"}, nacre::load};
-  return &module;
-}

@@ -77,7 +77,7 @@ TEST_F(Crop, HasTheBitsOfTheWholeAndTracesNothingElse) {
 // A tile that is cut is judged by all of its pixels.
 TEST_F(Crop, HasThemWhereSamplesAreTakenUntilTheyAreEnough) {
   settings_.samples = 512;
-  settings_.noise = 0.1;
+  settings_.noise = 0.03;
   const Film whole = film({});
   ASSERT_LT(statistics_.least_samples, statistics_.most_samples);
   for (const PixelWindow& window : windows) expect_part(film(window), whole, window);
