@@ -11,8 +11,9 @@ namespace nacre {
 /// enough that a kernel's registers stay in the L2 cache.
 inline constexpr int block_lanes = 64;
 
-/// One register: the bits of each lane; b1 as 0 or ~0.
-using Register = std::array<std::uint32_t, block_lanes>;
+/// One register: the bits of each lane; b1 as 0 or ~0. In whole lines of the cache: vectors that
+/// lie across two take twice as long to load.
+struct alignas(64) Register : std::array<std::uint32_t, block_lanes> {};
 
 /// d = op(a, b, c) over all lanes. Unused operands may be null.
 using LaneOp = void (*)(std::uint32_t* d, const std::uint32_t* a, const std::uint32_t* b,
