@@ -29,7 +29,8 @@ def ensure(package, folder):
     module = peer.PACKAGES[0].split("=")[0]
     if folder is not None:
         sys.path.insert(0, str(folder))
-    if importlib.util.find_spec(module) is None:
+    found = importlib.util.find_spec(module)
+    if found is None or found.origin is None:  # A folder of that name is no package.
         command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "install", "--quiet",
                    "--target", str(folder), "--no-deps", *peer.PACKAGES]
         if folder is None or subprocess.run(command, check=False).returncode != 0:
