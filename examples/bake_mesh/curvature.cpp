@@ -32,6 +32,7 @@ std::vector<std::uint32_t> joined(const std::vector<Vec3>& position,
 }  // namespace
 
 std::vector<float> mean_curvature(const Mesh& mesh, const Affine& to_world) {
+  if (mesh.normal.empty()) return std::vector<float>(mesh.position.size());  // Flat faces.
   const Affine to_object = inverse(to_world);
   std::vector<Vec3> position = mesh.position, normal = mesh.normal;
   for (Vec3& p : position) p = transform_point(to_world, p);

@@ -83,6 +83,7 @@ class Displacer {
   bool split(std::uint32_t number) {
     Mesh& mesh = scene_.meshes[number];
     const Placed placed = nearest(mesh, eye_);
+    give_flat_vertices(mesh);
     const std::size_t before = mesh.triangles.size();
     const bool is_fine = tessellate(
         mesh,

@@ -197,6 +197,11 @@ bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnosti
     return false;
   }
   const bool has_normals = mesh.normal.size() == mesh.position.size();
+  if (!has_normals && missing == MissingNormals::flat && mesh.poses.empty()) {
+    mesh.normal.clear();
+    mesh.tangent.clear();
+    return true;
+  }
   if (has_normals) {
     report_directions(mesh, "bad-normals", "normals", where, diagnostics,
                       [&](std::uint32_t v) { return mesh.normal[v]; });
@@ -217,6 +222,20 @@ bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnosti
   repair_tangents(mesh);
   finish_poses(mesh, has_normals, has_tangents, missing);
   return true;
+}
+
+void give_flat_vertices(Mesh& mesh) {
+  if (!mesh.normal.empty() || mesh.is_fibres()) return;
+  make_flat(mesh);
+  repair_normals(mesh);
+  make_tangents(mesh);
+  repair_tangents(mesh);
+}
+
+Tangent face_tangent(const Mesh& mesh, const Triangle& triangle, Vec3 n) {
+  Vec3 dPdu, dPdv;
+  surface_derivatives(mesh, triangle, dPdu, dPdv);
+  return orthogonal_tangent(n, normalize_or(dPdu, {}), dPdv);
 }
 
 void renew_frames(Mesh& mesh, const std::vector<std::uint32_t>& places) {

@@ -12,7 +12,7 @@ namespace nacre::host {
 /// What a mesh without normals looks like.
 enum class MissingNormals {
   smooth,  ///< Vertex normals are made from the triangles around.
-  flat,    ///< Each triangle has its own, and so vertices of its own.
+  flat,    ///< Each triangle has its own: the mesh has none, or, where it bends, such vertices.
 };
 
 /// Makes a mesh fit to trace and shade, in this order:
@@ -29,6 +29,13 @@ enum class MissingNormals {
 /// Returns false, with an error, when no triangle is left.
 bool finish_mesh(Mesh& mesh, const SourceLocation& where, Diagnostics& diagnostics,
                  MissingNormals missing = MissingNormals::smooth);
+
+/// Of a mesh of flat faces that has no normals: gives each triangle vertices of its own, and them
+/// its normal and tangent. Of others nothing changes.
+void give_flat_vertices(Mesh& mesh);
+
+/// Unit, orthogonal to n, along u where there is a map; the sign that of v.
+Tangent face_tangent(const Mesh& mesh, const Triangle& triangle, Vec3 n);
 
 /// Moves a mesh whose vertices are mesh-local to world space: keeps the local
 /// positions and records the map. The winding turns when the map mirrors. Fibres stay round: their

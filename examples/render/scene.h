@@ -72,8 +72,8 @@ struct Mesh {
   std::vector<float> radius;
   std::vector<Vec3> position;         ///< World, if there are no instances.
   std::vector<Vec3> position_object;  ///< Mesh-local; empty: as world.
-  std::vector<Vec3> normal;           ///< World, unit; as position.
-  std::vector<Tangent> tangent;       ///< World, unit; as position.
+  std::vector<Vec3> normal;           ///< World, unit; as position; empty: faces are flat.
+  std::vector<Tangent> tangent;       ///< World, unit; as position; empty: by uv, of flat faces.
   /// Of what bends while the shutter is open: its vertices at equal times until it closes; what is
   /// above is as it opens. In between they run straight, as Embree has it. What bends and emits is
   /// no light that light sampling knows.

@@ -50,6 +50,7 @@ Tangent tangent(const Mesh& mesh, std::uint32_t v, float time) {
 
 Vec3 shading_normal(const Mesh& mesh, const Triangle& t, const SurfacePoint& p, Vec3 ng) {
   if (mesh.is_fibres()) return p.normal;
+  if (mesh.normal.empty()) return ng;
   const Vec3 n = (1.f - p.u - p.v) * normal(mesh, t.v[0], p.time) +
                  p.u * normal(mesh, t.v[1], p.time) + p.v * normal(mesh, t.v[2], p.time);
   return normalize_or(n, ng);
@@ -264,6 +265,8 @@ void SurfaceGeometry::fill_tangents(std::span<const SurfacePoint> points, bool o
     Tangent own;
     if (mesh.is_fibres()) {
       own = {buffer.fibres[i].axis, 1.f};
+    } else if (mesh.tangent.empty()) {
+      own = face_tangent(mesh, t, own_normal(mesh, t, p));
     } else {
       const Tangent a = tangent(mesh, t.v[0], p.time);
       own = {(1.f - p.u - p.v) * a.direction + p.u * tangent(mesh, t.v[1], p.time).direction +

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "examples/render/load_scene.h"
+#include "examples/render/mesh.h"
 #include "examples/render/surface.h"
 #include "tests/examples/render/scene_samples.h"
 #include "tests/support/temporary_folder.h"
@@ -109,7 +110,10 @@ TEST_F(Dropped, WithoutNormalsFacesAreFlat) {
   Diagnostics diagnostics;
   scene_ = load_scene(folder_.file("a.gltf"), {}, diagnostics);
   ASSERT_EQ(scene_.meshes.size(), 1u) << diagnostics.to_string();
-  const Mesh& mesh = scene_.meshes[0];
+  Mesh& mesh = scene_.meshes[0];
+  EXPECT_EQ(mesh.position.size(), 4u);
+  EXPECT_TRUE(mesh.normal.empty() && mesh.tangent.empty());
+  give_flat_vertices(mesh);
   ASSERT_EQ(mesh.position.size(), 6u);
   ASSERT_EQ(mesh.primvars.at(0).values.size(), 18u);
   // (0,0,0) (1,0,0) (1,1,0) is flat; (0,0,0) (1,1,0) (0,1,h) has the normal

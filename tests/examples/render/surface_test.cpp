@@ -130,6 +130,44 @@ TEST(Surface, ObjectSpaceUndoesTheTransform) {
   }
 }
 
+// A mesh without normals has the geometry of one whose triangles share no vertex.
+TEST(Surface, FlatFacesAreThoseOfVerticesOfTheirOwn) {
+  Mesh mesh = make_sphere("ball", {}, 1.f, 32);
+  const Affine map = {{-2.f, 0.f, 0.f}, {0.f, 0.5f, 0.f}, {0.f, 0.3f, 1.f}, {5.f, 6.f, 7.f}};
+  bake_transform(mesh, map);
+  mesh.normal.clear();
+  mesh.tangent.clear();
+  Diagnostics diagnostics;
+  ASSERT_TRUE(finish_mesh(mesh, {}, diagnostics, MissingNormals::flat));
+  Scene scene;
+  scene.meshes = {mesh, mesh};
+  give_flat_vertices(scene.meshes[1]);
+  ASSERT_TRUE(scene.meshes[0].normal.empty());
+  ASSERT_EQ(scene.meshes[1].normal.size(), 3 * mesh.triangles.size());
+  const SurfaceGeometry geometry(scene);
+  const PixelCamera camera({}, 64, 64, 1.f);
+  BatchBuffer buffer(128, 0, 0);
+  std::vector<SurfacePoint> points;
+  for (std::uint32_t i = 0; i < 128; ++i) {
+    points.push_back({i % 2, 300 + 41 * (i / 2), 0.2f, 0.5f, {0.f, 0.f, 1.f}, false, 1.f, 0.01f});
+    points.back().keeps_normal = true;
+  }
+  geometry.fill(points, everything(), camera, buffer);
+  const ShadingBatch& b = buffer.batch;
+  for (std::size_t i = 0; i < b.count; i += 2) {
+    expect_near(load(b.N, i), load(b.Ng, i), 0.f);
+    EXPECT_GT(dot(load(b.P, i) - map.origin, load(b.N, i)), 0.f);
+    expect_near(load(b.N, i), load(b.N, i + 1), 1e-6f);
+    expect_near(load(b.T, i), load(b.T, i + 1), 1e-5f);
+    expect_near(load(b.B, i), load(b.B, i + 1), 1e-5f);
+    expect_near(load(b.N_object, i), load(b.N_object, i + 1), 1e-5f);
+    expect_near(load(b.P_object, i), load(b.P_object, i + 1), 0.f);
+    EXPECT_NEAR(dot(load(b.T, i), load(b.N, i)), 0.f, 1e-6f);
+    EXPECT_GT(dot(load(b.T, i), load(b.dPdu, i)), 0.f);
+    EXPECT_GT(dot(load(b.B, i), load(b.dPdv, i)), 0.f);
+  }
+}
+
 TEST(Surface, FootprintInUvSolvesForSkewedMaps) {
   Scene scene;
   scene.meshes.push_back(make_quad("skewed", {}, {2.f, 0.f, 0.f}, {1.5f, 1.f, 0.f}));
