@@ -128,9 +128,11 @@ bool GltfPrimitives::read_triangles(const GltfValue& primitive, std::size_t mode
     return false;
   }
   const std::size_t triangles = mode == mode_triangles ? corners / 3 : corners - 2;
-  // Without normals each corner is a vertex of its own.
+  // Without normals each corner of what may bend is a vertex of its own.
   const GltfValue attributes = primitive["attributes"];
-  const std::size_t kept = attributes["NORMAL"] ? vertices : vertices + 3 * triangles;
+  const bool may_bend = primitive["targets"] || attributes["JOINTS_0"];
+  const bool are_split = may_bend && !attributes["NORMAL"];
+  const std::size_t kept = vertices + (are_split ? 3 * triangles : 0);
   std::size_t other = mesh.path.size() + mesh.object_name.size() + mesh.mesh_name.size() +
                       mesh.material_name.size();
   // A primitive variable has up to four floats a vertex; the others are counted with the mesh.

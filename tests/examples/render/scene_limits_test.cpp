@@ -71,6 +71,13 @@ TEST_F(SceneLimitsTest, EveryInstanceCounts) {
   EXPECT_EQ(loaded("a.gltf", nodes(30, false, "n"), {.bytes = 60'000}), "scene-too-large");
 }
 
+// They share them as others do.
+TEST_F(SceneLimitsTest, FlatFacesTakeNoMoreVertices) {
+  std::size_t bytes = 1000;
+  while (loaded("a.gltf", card_json, {.bytes = bytes}) == "scene-too-large") bytes += 50;
+  EXPECT_EQ(loaded("a.gltf", spoiled_card(R"(, "NORMAL": 3)", ""), {.bytes = bytes}), "");
+}
+
 TEST_F(SceneLimitsTest, PathsDoNotMultiply) {
   // Each path repeats all names above it: 250 nodes of 1,000 bytes make 31 MB of paths,
   // and 250,000 that share them a thousand times as much.
