@@ -55,9 +55,13 @@ class Round {
         add(mesh_.position_object,
             0.5f * mesh_.position_object[a] + 0.5f * mesh_.position_object[b]);
       }
-      add(mesh_.normal, normalize_or(mesh_.normal[a] + mesh_.normal[b], mesh_.normal[a]));
-      const Tangent &s = mesh_.tangent[a], &t = mesh_.tangent[b];
-      add(mesh_.tangent, {normalize_or(s.direction + t.direction, s.direction), s.sign});
+      if (!mesh_.normal.empty()) {
+        add(mesh_.normal, normalize_or(mesh_.normal[a] + mesh_.normal[b], mesh_.normal[a]));
+      }
+      if (!mesh_.tangent.empty()) {
+        const Tangent &s = mesh_.tangent[a], &t = mesh_.tangent[b];
+        add(mesh_.tangent, {normalize_or(s.direction + t.direction, s.direction), s.sign});
+      }
       if (!mesh_.uv.empty())
         add(mesh_.uv,
             {0.5f * (mesh_.uv[a].x + mesh_.uv[b].x), 0.5f * (mesh_.uv[a].y + mesh_.uv[b].y)});

@@ -42,6 +42,7 @@ Mesh finished(std::vector<Vec3> corners, std::vector<Triangle> triangles) {
   mesh.triangles = std::move(triangles);
   Diagnostics diagnostics;
   EXPECT_TRUE(finish_mesh(mesh, {}, diagnostics, MissingNormals::flat)) << diagnostics.to_string();
+  give_flat_vertices(mesh);
   return mesh;
 }
 
@@ -110,6 +111,16 @@ TEST(Tessellate, DoesNotTear) {
   EXPECT_TRUE(tessellate(mesh, finer_to_the_left, 1'000'000));
   EXPECT_TRUE(is_closed(mesh));
   EXPECT_NEAR(area(mesh), 24.f, 1e-3f);
+}
+
+TEST(Tessellate, KeepsFlatFacesFlat) {
+  Mesh mesh = square();
+  mesh.normal.clear();
+  mesh.tangent.clear();
+  EXPECT_TRUE(tessellate(mesh, longer_than(0.3f), 1'000'000));
+  EXPECT_TRUE(mesh.normal.empty());
+  EXPECT_TRUE(mesh.tangent.empty());
+  EXPECT_NEAR(area(mesh), 4.f, 1e-5f);
 }
 
 TEST(Tessellate, StopsAtTheMost) {
