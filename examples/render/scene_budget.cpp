@@ -20,6 +20,8 @@ constexpr std::size_t mesh_bytes = sizeof(Mesh) + 2048;
 // Of an instance: Embree's geometry and its part of the hierarchy, and matrices, ours and Embree's.
 constexpr std::size_t segment_bytes = 2048;
 constexpr std::size_t step_bytes = 160;
+// Of one that stands still: half of a kilobyte, seen where a million are.
+constexpr std::size_t still_instance_bytes = 640;
 
 std::size_t bytes_of(std::size_t vertices, std::size_t triangles, std::size_t other) {
   // Counts are of things in files of limited size, so that no sum overflows.
@@ -44,7 +46,7 @@ bool SceneBudget::take_mesh(const SourceLocation& where) {
 bool SceneBudget::take_bytes(const SourceLocation& where, std::size_t bytes) {
   if (bytes <= limits_.bytes - bytes_) return bytes_ += bytes, true;
   diagnostics_.error(
-      "scene-too-large", where, "the motion of the scene takes too much memory",
+      "scene-too-large", where, "the scene takes too much memory",
       fmt::format("at most {} bytes with all instances (--max-scene-size)", limits_.bytes),
       fmt::format("{} before these {}", bytes_, bytes));
   return false;
@@ -52,8 +54,9 @@ bool SceneBudget::take_bytes(const SourceLocation& where, std::size_t bytes) {
 
 bool SceneBudget::take_instance(const SourceLocation& where, bool is_first, std::size_t segments,
                                 std::size_t steps) {
-  return (is_first || take_mesh(where)) &&
-         take_bytes(where, segments * segment_bytes + steps * step_bytes);
+  const std::size_t bytes =
+      steps > 1 ? segments * segment_bytes + steps * step_bytes : still_instance_bytes;
+  return (is_first || take_mesh(where)) && take_bytes(where, bytes);
 }
 
 bool SceneBudget::take(const SourceLocation& where, std::size_t vertices, std::size_t triangles,

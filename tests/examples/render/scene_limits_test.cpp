@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "examples/render/load_scene.h"
+#include "examples/render/scene_budget.h"
 #include "tests/examples/render/scene_samples.h"
 #include "tests/support/temporary_folder.h"
 
@@ -69,6 +70,14 @@ TEST_F(SceneLimitsTest, EveryInstanceCounts) {
   EXPECT_EQ(loaded("a.gltf", nodes(30, false, "n"), {.meshes = 30}), "");
   EXPECT_EQ(loaded("a.gltf", nodes(30, false, "n"), {.meshes = 29}), "scene-too-large");
   EXPECT_EQ(loaded("a.gltf", nodes(30, false, "n"), {.bytes = 60'000}), "scene-too-large");
+}
+
+TEST_F(SceneLimitsTest, AMillionInstancesThatStandAreWithinTheDefault) {
+  Diagnostics diagnostics;
+  SceneBudget budget({.meshes = 1'000'000}, diagnostics);
+  ASSERT_TRUE(budget.take({}, 8, 12, 0));
+  for (int i = 0; i < 1'000'000; ++i) ASSERT_TRUE(budget.take_instance({}, i == 0, 1, 1));
+  EXPECT_FALSE(budget.take_instance({}, false, 1, 1));
 }
 
 // They share them as others do.
