@@ -30,8 +30,10 @@ bool has_medium(const MaterialKernels& kernels) {
 }
 
 KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop,
-                           bool is_nested, const std::vector<host::GraphValue>& values)
+                           bool is_nested, const std::vector<host::GraphValue>& values,
+                           bool records)
     : kernels_(std::move(kernels)), stop_(stop) {
+  if (records) recorder_ = std::make_unique<PointRecorder>();
   capabilities_.scatters = kernels_->sample.has_value() && kernels_->evaluate.has_value();
   // Of a lightmaterial what its mesh emits.
   std::optional<BoundKernel>& emitted =
@@ -107,6 +109,7 @@ void KernelShader::bind(std::optional<BoundKernel>& kernel, Bound& bound,
     const auto [group, i] = parse_channel(channel.name);
     reads_uv_ = reads_uv_ || group == "uv0";
     bound.from_batch.back() = host::batch_channel(channel.name, capabilities_);
+    if (recorder_ != nullptr) recorder_->want(channel, bound.from_batch.back());
     // A slot named as the property says whether the mesh has it (nodes/geometric).
     if (const auto slot = i < 0 ? std::nullopt : kernel->parameter_index(group)) {
       bound.present.emplace_back(
@@ -190,6 +193,7 @@ std::vector<float> KernelShader::run_by_lobe(const Bound& bound, const LobeParts
 
 void KernelShader::begin(const ShadingBatch& batch, void* state) const {
   if (begin_.kernel == nullptr) return;
+  if (recorder_ != nullptr) recorder_->add(batch);
   std::vector<void*> outputs;
   for (const std::size_t column : columns_) {
     outputs.push_back(static_cast<float*>(state) + column * stride(batch.count));
@@ -242,6 +246,7 @@ void KernelShader::evaluate(const ShadingBatch& batch, const void* state, Lanes3
 }
 
 void KernelShader::emission(const ShadingBatch& batch, Lanes3 radiance) const {
+  if (recorder_ != nullptr && begin_.kernel == nullptr) recorder_->add(batch);
   const std::array<void*, 3> outputs{radiance.x, radiance.y, radiance.z};
   run(emission_, batch, nullptr, {}, outputs);
 }

@@ -12,6 +12,7 @@
 #include "examples/render/passes.h"
 #include "examples/render/shader.h"
 #include "examples/tool/lobe_parts.h"
+#include "examples/tool/point_recorder.h"
 #include "jit/shading/shading_system.h"
 
 namespace nacre::tool {
@@ -53,12 +54,14 @@ class KernelShader final : public host::Shader {
  public:
   /// `stop` is asked for when a kernel fails, and ends kernels; it lives as long. `is_nested`:
   /// interior() is wanted of what is clear, too. `values`: of graphs, that begin() stores for
-  /// point().
+  /// point(). `records`: recorder() keeps points that are shaded.
   KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop& stop, bool is_nested = false,
-               const std::vector<host::GraphValue>& values = {});
+               const std::vector<host::GraphValue>& values = {}, bool records = false);
 
   /// Those that a render calls.
   std::vector<const BoundKernel*> kernels() const;
+  /// Null where nothing is recorded.
+  const PointRecorder* recorder() const { return recorder_.get(); }
   /// Whether a kernel took too many steps.
   bool has_failed() const { return failed_; }
 
@@ -110,6 +113,7 @@ class KernelShader final : public host::Shader {
   std::unique_ptr<MaterialKernels> kernels_;
   RenderStop& stop_;
   mutable std::atomic<bool> failed_ = false;
+  std::unique_ptr<PointRecorder> recorder_;
   host::Capabilities capabilities_;
   bool reads_uv_ = false;
   LobeParts sample_parts_, evaluate_parts_;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "examples/common/atomic_file.h"
 #include "examples/common/image_writer.h"
 #include "examples/render/image_io.h"
 #include "examples/tool/crop_option.h"
@@ -69,6 +70,9 @@ bool open_all(Run& run, Diagnostics& diagnostics) {
   if (is_one && !options.out.empty() && !host::prepare_image(options.out, diagnostics)) {
     return false;
   }
+  if (!options.points_file.empty() && !host::prepare_output(options.points_file, diagnostics)) {
+    return false;
+  }
   run.world = load_world(options, diagnostics);
   if (has_own && !diagnostics.has_errors()) {
     run.opened = open_scene_materials(options, run.world, diagnostics);
@@ -123,6 +127,20 @@ std::unique_ptr<RenderMoment> next_moment(Run& run, std::unique_ptr<RenderMoment
                               diagnostics);
 }
 
+/// What --record-points asks for.
+void write_points(const Run& run, const RenderShaders& shaders, Diagnostics& diagnostics) {
+  const std::string& file = run.options.points_file;
+  const RecordedPoints points = shaders.recorded();
+  if (points.is_empty()) {
+    diagnostics.error("nothing-recorded", {.file = file, .path = {}},
+                      "no material was shaded anywhere",
+                      "a picture that is rendered in this run and shows one", "none");
+    return;
+  }
+  if (!host::write_text_atomically(file, points.text(), diagnostics)) return;
+  file_is_written(file, run.options.common.quiet || run.options.json);
+}
+
 /// All pictures, one after another: each is in its file before the next begins.
 void render_all(Run& run) {
   RenderOptions& options = run.options;
@@ -159,6 +177,10 @@ void render_all(Run& run) {
     run.once.say(said);
     if (!is_written) return run.once.fail();
   }
+  if (options.points_file.empty() || tool::stop().is_due()) return;
+  Diagnostics said;
+  write_points(run, shaders, said);
+  run.once.say(said);
 }
 
 int run(RenderOptions& options, Json& answer) {
@@ -168,7 +190,7 @@ int run(RenderOptions& options, Json& answer) {
     run.once.say(diagnostics);
     return status_usage;
   }
-  promise_files({options.out, options.document});
+  promise_files({options.out, options.document, options.points_file});
   const float start = options.settings.time;
   if (!run.frames.empty()) set_frame(options, start, run.frames.front());
   const bool is_ready = open_all(run, diagnostics) && list(run, diagnostics);

@@ -133,6 +133,11 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   options.common.add_compile(command);
   options.common.add_lobes(command);
   options.common.add_profile(command);
+  command
+      .add_option("--record-points", options.points_file,
+                  "Write where materials are shaded, up to 4096 points of each, for nacre tune "
+                  "--recorded")
+      ->type_name("FILE.json");
   options.common.add_waiting(command);
 }
 

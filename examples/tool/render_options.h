@@ -26,6 +26,7 @@ struct RenderOptions {
   SeriesOptions series;
   std::string document;  ///< To write: that of the scene's own materials.
   std::string out;
+  std::string points_file;  ///< To write: points that were shaded, for `nacre tune`.
   std::string size = "512";
   std::string environment;
   float environment_scale = 1.0f;

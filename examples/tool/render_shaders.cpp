@@ -159,6 +159,7 @@ const TwoShaders* RenderShaders::find(Request request, Diagnostics& diagnostics)
 /// False after an error. No shaders where light would be followed through what is not solid.
 bool RenderShaders::make(const Request& request, Made& made, Diagnostics& diagnostics) {
   const std::string& material = request.assignment.material;
+  made.material = material;
   ShaderOptions shader =
       with_profile(opened_, material, true, options_.common.shader_options(), diagnostics);
   shader.graph.frame = request.frame;
@@ -190,7 +191,8 @@ bool RenderShaders::make(const Request& request, Made& made, Diagnostics& diagno
   const bool has_back = kernels->has_back;
   const std::vector<host::GraphValue>& values = options_.settings.passes.values;
   const auto bound = [&] {
-    return std::make_unique<KernelShader>(std::move(kernels), stop_, request.is_nested, values);
+    return std::make_unique<KernelShader>(std::move(kernels), stop_, request.is_nested, values,
+                                          !options_.points_file.empty());
   };
   made.shaders.front = bound();
   if (!has_back) return true;
@@ -226,6 +228,22 @@ bool RenderShaders::compile_lights(int frame, Diagnostics& diagnostics) {
     slot->second.push_back(std::move(light));
   }
   return true;
+}
+
+RecordedPoints RenderShaders::recorded() const {
+  std::map<std::string, std::vector<PointsOfMaterial>> by_material;
+  for (const auto& [key, made] : made_) {
+    for (const KernelShader* shader : made.shaders.all()) {
+      if (shader == nullptr || shader->recorder() == nullptr) continue;
+      by_material[made.material].push_back(shader->recorder()->points(made.material));
+    }
+  }
+  RecordedPoints all;
+  for (auto& [material, points] : by_material) {
+    PointsOfMaterial whole = joined(std::move(points));
+    if (whole.count > 0) all.add(std::move(whole));
+  }
+  return all;
 }
 
 bool RenderShaders::make_neutral(Diagnostics& diagnostics) {

@@ -51,9 +51,13 @@ class RenderShaders {
                                  const std::vector<MeshAssignment>& assignments, float frame,
                                  Diagnostics& diagnostics);
 
+  /// Where materials were shaded, of those that were: RenderOptions::points_file.
+  RecordedPoints recorded() const;
+
  private:
   struct Request;
   struct Made {
+    std::string material;
     TwoShaders shaders;
     bool walks = false;  ///< Light below its surface is followed where that is around a solid.
   };

@@ -15,6 +15,7 @@
 #include "jit/graph/find.h"
 #include "jit/tune/json.h"
 #include "jit/tune/profile.h"
+#include "runtime/read_file.h"
 
 namespace nacre::tool {
 
@@ -22,11 +23,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::uint64_t most_recorded_bytes = std::uint64_t{1} << 30;
+
 struct ToolOptions {
   CommonOptions common;
   std::vector<std::string> materials;
   std::vector<std::string> outputs;
   std::string out;
+  std::string recorded;  ///< File of RecordedPoints.
   TuneOptions tune;
   bool has_times = true;
   bool json = false;
@@ -46,6 +50,7 @@ Json as_json(const TunedSubject& subject) {
   Json front = Json::array();
   for (const Candidate& each : subject.tuned.front) front.push_back(as_json(each));
   return {{subject.is_material ? "material" : "output", subject.name},
+          {"points", subject.tuned.points},
           {"front", std::move(front)},
           {"standard", as_json(subject.tuned.standard)},
           {"chosen", as_json(subject.tuned.chosen)}};
@@ -79,16 +84,17 @@ void print_tuned(const TunedSubject& subject, const TuneOptions& options) {
     fmt::print(", {:.2f} of its time", share(tuned.chosen.nanoseconds, tuned.standard.nanoseconds));
   }
   fmt::print("; at other points {:.2g}, at most {:.2g}\n", unseen.p999, unseen.maximum);
+  fmt::print("  at {}\n", tuned.points);
 }
 
 std::vector<TuneSubject> subjects(const ToolOptions& options, const Opened& opened) {
   std::vector<TuneSubject> all;
   const auto add = [&](const std::string& name, bool is_material) {
     const auto is_it = [&](const TuneSubject& each) {
-      return each.name == name && each.is_material == is_material;
+      return each.text() == name && each.is_material == is_material;
     };
     if (std::ranges::any_of(all, is_it)) return;
-    all.push_back({opened.system.get(), opened.document.get(), name, is_material});
+    all.push_back({opened.system.get(), opened.document.get(), {name}, is_material});
   };
   for (const std::string& name : options.materials) add(name, true);
   for (const std::string& name : options.outputs) add(name, false);
@@ -100,6 +106,17 @@ std::vector<TuneSubject> subjects(const ToolOptions& options, const Opened& open
   return all;
 }
 
+/// False after an error.
+bool read_recorded(ToolOptions& options, Diagnostics& diagnostics) {
+  if (options.recorded.empty()) return true;
+  const auto text = read_file(options.recorded, most_recorded_bytes, diagnostics);
+  if (!text) return false;
+  auto points = RecordedPoints::parse(*text, options.recorded, diagnostics);
+  if (!points) return false;
+  options.tune.recorded = std::make_shared<const RecordedPoints>(std::move(*points));
+  return true;
+}
+
 int run(ToolOptions& options) {
   Diagnostics diagnostics;
   if (!options.out.empty()) {
@@ -109,7 +126,8 @@ int run(ToolOptions& options) {
       return report(diagnostics);
     }
   }
-  const Opened opened = open(options.common, diagnostics);
+  Opened opened;
+  if (read_recorded(options, diagnostics)) opened = open(options.common, diagnostics);
   if (!opened) {
     if (options.json) print_json(Json::array());
     return report(diagnostics);
@@ -126,13 +144,13 @@ int run(ToolOptions& options) {
   for (const TuneSubject& subject : all) {
     std::optional<Tuned> tuned;
     {
-      ProgressLine line(subject.name, options.common.quiet);
+      ProgressLine line(subject.text(), options.common.quiet);
       tuning.progress = [&](double share) { line.update(share); };
       tuned = tune(subject, tuning, diagnostics);
     }
     if (stop().is_due()) break;
     if (!tuned) continue;
-    done.push_back({subject.name, subject.is_material, std::move(*tuned)});
+    done.push_back({subject.text(), subject.is_material, std::move(*tuned)});
     if (!options.json) print_tuned(done.back(), tuning);
   }
   if (options.json) {
@@ -183,6 +201,11 @@ void add_tune(CLI::App& app, int& status) {
   command.add_option("--points", options->tune.points, "At how many points errors are measured")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{1000000}))
       ->capture_default_str();
+  command
+      .add_option("--recorded", options->recorded,
+                  "Measure errors of materials where a scene shades them, as nacre render "
+                  "--record-points has written; nothing is promised anywhere else")
+      ->type_name("FILE.json");
   command
       .add_option("--profile", options->out,
                   "Write what was chosen, for --profile of bake, inspect and render")

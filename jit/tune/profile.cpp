@@ -155,6 +155,7 @@ std::string profile_text(const std::vector<TunedSubject>& subjects, const TuneOp
                     {"asked", asked},
                     {"error", as_json(chosen.error)},
                     {"unseen_error", as_json(chosen.unseen_error.value_or(Error()))},
+                    {"points", tuned.points},
                     {"cost", chosen.cost},
                     {"standard_cost", tuned.standard.cost}});
   }

@@ -1,5 +1,7 @@
 #include "jit/tune/trial.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -26,16 +28,18 @@ void add_direction(std::mt19937& random, float (&w)[3]) {
 
 }  // namespace
 
+std::string TuneSubject::text() const { return fmt::format("{}", fmt::join(names, ", ")); }
+
 std::unique_ptr<TuneTrial> TuneTrial::compile(const TuneSubject& subject,
                                               const ShaderOptions& options,
                                               Diagnostics& diagnostics) {
   std::unique_ptr<TuneTrial> made(new TuneTrial());
   if (subject.is_material) {
-    made->material_ =
-        subject.system->compile_material(*subject.document, subject.name, options, diagnostics);
+    made->material_ = subject.system->compile_material(*subject.document, subject.names.at(0),
+                                                       options, diagnostics);
   } else {
     made->outputs_ =
-        subject.system->compile_outputs(*subject.document, {subject.name}, options, diagnostics);
+        subject.system->compile_outputs(*subject.document, subject.names, options, diagnostics);
   }
   if (made->material_ == nullptr && made->outputs_ == nullptr) return nullptr;
   if (diagnostics.has_errors()) return nullptr;

@@ -12,12 +12,15 @@
 
 namespace nacre {
 
-/// A material, or an output of a graph.
+/// A material, or outputs of a graph that are one kernel.
 struct TuneSubject {
   ShadingSystem* system = nullptr;
   const Document* document = nullptr;
-  std::string name;
+  std::vector<std::string> names;
   bool is_material = false;
+
+  /// For people.
+  std::string text() const;
 };
 
 /// Points that kernels are run at: those of shading_points(), but for the channels that are given.

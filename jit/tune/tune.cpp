@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "jit/tune/dimension.h"
+#include "jit/tune/examination.h"
 
 namespace nacre {
 
@@ -26,12 +27,6 @@ TunePoints first_of(const TunePoints& points, std::size_t count) {
   return first;
 }
 
-/// Points, and what is right there.
-struct Examination {
-  TunePoints points;
-  Columns exact;
-};
-
 std::size_t steps(const Choices& choices) {
   return std::accumulate(choices.begin(), choices.end(), std::size_t{0});
 }
@@ -49,12 +44,13 @@ class Tuner {
       : subject_(subject), options_(options), diagnostics_(diagnostics) {}
 
   std::optional<Tuned> run() {
-    const auto oracle = compile(exact_choices(), Backend::reference);
-    if (oracle == nullptr || !examine(*oracle, 0, seen_) || !examine(*oracle, 1, unseen_) ||
+    const auto exactly = compile(exact_choices(), Backend::reference);
+    if (exactly == nullptr || !examine(*exactly, 0, seen_) || !examine(*exactly, 1, unseen_) ||
         !measure_all()) {
       return std::nullopt;
     }
     Tuned tuned;
+    tuned.points = unseen_.about;
     tuned.front = front();
     tuned.standard = *measured(standard_choices());
     if (!verify(tuned.standard) || !choose(tuned)) return std::nullopt;
@@ -79,15 +75,11 @@ class Tuner {
     return trial;
   }
 
-  bool examine(const TuneTrial& oracle, std::uint32_t number, Examination& made) {
-    made.points.set = {.count = options_.points, .number = number, .varied_footprints = true};
-    made.points.given = oracle.directions(made.points);
-    made.exact = oracle.results(made.points);
-    if (!made.exact.empty()) return true;
-    diagnostics_.error("not-tuned", {.file = {}, .path = subject_.name},
-                       "there is nothing to compare", "results at every point",
-                       "none, or a kernel that takes too many steps");
-    return false;
+  bool examine(const TuneTrial& exactly, std::uint32_t number, Examination& made) {
+    auto done = nacre::examine(subject_, exactly, options_.points, options_.recorded.get(), number,
+                               diagnostics_);
+    if (done) made = std::move(*done);
+    return done.has_value();
   }
 
   /// What a trial of these choices gives; null where it cannot be compiled.
@@ -199,7 +191,7 @@ class Tuner {
       return true;
     }
     const Error& least = measured(exact_choices())->error;
-    diagnostics_.error("no-such-error", {.file = {}, .path = subject_.name},
+    diagnostics_.error("no-such-error", {.file = {}, .path = subject_.text()},
                        "no way to compile this is so exact",
                        fmt::format("an error of {}", options_.max_error),
                        fmt::format("{:.3g}, at most {:.3g} (in {} at point {})", least.p999,

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "jit/tune/choices.h"
 #include "jit/tune/error.h"
+#include "jit/tune/recorded_points.h"
 #include "jit/tune/trial.h"
 
 namespace nacre {
@@ -16,6 +19,8 @@ struct TuneOptions {
   /// Of what may be max_error; `max_error` by this metric.
   Metric metric;
   std::size_t points = 2048;
+  /// Of materials, in place of these: where a renderer has shaded them. Null: none.
+  std::shared_ptr<const RecordedPoints> recorded;
   /// What holds whatever is chosen: limits, search paths, the graph's options.
   ShaderOptions shader;
   double seconds_a_kernel = 0.05;  ///< To time it; 0: nothing is timed.
@@ -38,6 +43,7 @@ struct Tuned {
   std::vector<Candidate> front;
   Candidate chosen;
   Candidate standard;  ///< What is compiled where nothing is said.
+  std::string points;  ///< Where errors were measured, for people.
 };
 
 /// The cheapest way to compile a subject that is no more than max_error from a computation in

@@ -33,7 +33,7 @@ std::optional<Tuned> tuned(const std::string& text, double max_error, bool is_ma
   TuneOptions options;
   options.max_error = max_error;
   options.seconds_a_kernel = 0;
-  return tune({&tune_system(), document.get(), is_material ? "M" : "out", is_material}, options,
+  return tune({&tune_system(), document.get(), {is_material ? "M" : "out"}, is_material}, options,
               diagnostics);
 }
 
@@ -144,7 +144,7 @@ TEST(Tune, SaysThatNothingIsSoExact) {
 TEST(Tune, WhatCannotBeCompiledIsSaidOnce) {
   Diagnostics diagnostics;
   const auto document = document_of(R"(<materialx version="1.39"/>)");
-  EXPECT_FALSE(tune({&tune_system(), document.get(), "M", true}, {}, diagnostics));
+  EXPECT_FALSE(tune({&tune_system(), document.get(), {"M"}, true}, {}, diagnostics));
   EXPECT_EQ(diagnostics.error_count(), 1u) << diagnostics.to_string();
 }
 
