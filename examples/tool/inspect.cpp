@@ -3,12 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "examples/tool/inspect_cost.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
+#include "examples/tool/recorded_option.h"
 #include "jit/graph/find.h"
+#include "jit/tune/json.h"
+#include "jit/tune/measure.h"
 
 namespace nacre::tool {
 
@@ -23,6 +27,8 @@ struct InspectOptions {
   std::vector<std::string> dumps;
   bool live = false;
   bool cost = false;
+  bool error = false;
+  RecordedOption recorded;
   bool json = false;
 };
 
@@ -157,6 +163,33 @@ void print_stages(const Json& stages) {
   }
 }
 
+/// How far what was compiled is off; null after a diagnostic.
+Json error_of(const TuneSubject& subject, const ShaderOptions& shader,
+              const std::shared_ptr<const RecordedPoints>& recorded, Diagnostics& diagnostics) {
+  TuneOptions tuning;
+  tuning.shader = shader;
+  tuning.recorded = recorded;
+  const auto measured = measure_error(subject, tuning, diagnostics);
+  if (!measured) return nullptr;
+  Json json = as_json(measured->error);
+  json["worst"] = measured->error.worst;
+  json["metric"] = "relative";
+  json["floor"] = tuning.metric.floor;
+  json["points"] = measured->points;
+  return json;
+}
+
+void print_error(const Json& error) {
+  const auto text = [&](const char* name) {
+    const Json& x = error[name];
+    return x.is_string() ? x.get<std::string>() : fmt::format("{:.2g}", x.get<double>());
+  };
+  fmt::print("  error: {} in the mean, {} but for one of a thousand, at most {} ({})\n",
+             text("mean"), text("p999"), text("maximum"), text("worst"));
+  fmt::print("    relative, with a floor of {} of the largest; at {}\n", text("floor"),
+             text("points"));
+}
+
 void print_text(const Json& result) {
   if (result.contains("material")) {
     fmt::print("material {}\n", result["material"].get<std::string>());
@@ -172,13 +205,16 @@ void print_text(const Json& result) {
     print_kernel("kernel", result["kernel"]);
   }
   if (result.contains("cost")) print_costs(result["cost"]);
+  if (result.contains("error") && !result["error"].is_null()) print_error(result["error"]);
   fmt::print("  stages:\n");
   print_stages(result["stages"]);
 }
 
 int run(const InspectOptions& options) {
   Diagnostics diagnostics;
-  const Opened opened = open(options.common, diagnostics);
+  std::shared_ptr<const RecordedPoints> recorded;
+  Opened opened;
+  if (options.recorded.read(recorded, diagnostics)) opened = open(options.common, diagnostics);
   if (!opened) {
     if (options.json) print_json(Json::array());
     return report(diagnostics);
@@ -199,31 +235,27 @@ int run(const InspectOptions& options) {
     if (dump == "assembly") shader.compile.dump_assembly = true;
   }
   Json results = Json::array();
-  const auto add = [&](Json result) {
-    if (!result.is_null()) results.push_back(std::move(result));
-  };
-  std::vector<std::string> materials;
-  if (!options.material.empty()) materials.push_back(options.material);
-  const bool everything = options.material.empty() && options.outputs.empty();
-  if (everything) {
-    for (const FoundMaterial& found : find_materials(*opened.document)) {
-      materials.push_back(found.name);
+  const auto add = [&](const std::string& name, bool is_material) {
+    const ShaderOptions own = with_profile(opened, name, is_material, shader, diagnostics);
+    Json result = is_material ? inspect_material(opened, name, own, for_cost.get(), diagnostics)
+                              : inspect_output(opened, name, own, for_cost.get(), diagnostics);
+    if (result.is_null()) return;
+    if (options.error) {
+      const TuneSubject subject{opened.system.get(), opened.document.get(), {name}, is_material};
+      result["error"] = error_of(subject, own, recorded, diagnostics);
     }
+    results.push_back(std::move(result));
+  };
+  const bool everything = options.material.empty() && options.outputs.empty();
+  if (!options.material.empty()) add(options.material, true);
+  if (everything) {
+    for (const FoundMaterial& found : find_materials(*opened.document)) add(found.name, true);
   }
-  for (const std::string& material : materials) {
-    add(inspect_material(opened, material,
-                         with_profile(opened, material, true, shader, diagnostics), for_cost.get(),
-                         diagnostics));
-  }
-  std::vector<std::string> outputs = options.outputs;
+  for (const std::string& output : options.outputs) add(output, false);
   if (everything) {
     for (const FoundOutput& found : find_outputs(*opened.document)) {
-      if (is_numeric(found.type)) outputs.push_back(found.name);
+      if (is_numeric(found.type)) add(found.name, false);
     }
-  }
-  for (const std::string& output : outputs) {
-    add(inspect_output(opened, output, with_profile(opened, output, false, shader, diagnostics),
-                       for_cost.get(), diagnostics));
   }
   if (options.json) {
     print_json(results);
@@ -248,6 +280,9 @@ void add_inspect(CLI::App& app, int& status) {
       ->check(CLI::IsMember({"program", "llvm", "assembly"}));
   command.add_flag("--cost", options->cost,
                    "Run the kernels and say what time each node, lobe and function takes");
+  command.add_flag("--error", options->error,
+                   "Measure how far numbers are from double precision with everything exact");
+  options->recorded.add(command);
   command.add_flag("--live", options->live, "Keep parameters changeable");
   command.add_flag("--json", options->json,
                    "For programs to read: a list with an object for each material and output");

@@ -11,11 +11,11 @@
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
+#include "examples/tool/recorded_option.h"
 #include "examples/tool/stop.h"
 #include "jit/graph/find.h"
 #include "jit/tune/json.h"
 #include "jit/tune/profile.h"
-#include "runtime/read_file.h"
 
 namespace nacre::tool {
 
@@ -23,14 +23,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t most_recorded_bytes = std::uint64_t{1} << 30;
-
 struct ToolOptions {
   CommonOptions common;
   std::vector<std::string> materials;
   std::vector<std::string> outputs;
   std::string out;
-  std::string recorded;  ///< File of RecordedPoints.
+  RecordedOption recorded;
   TuneOptions tune;
   bool has_times = true;
   bool json = false;
@@ -106,17 +104,6 @@ std::vector<TuneSubject> subjects(const ToolOptions& options, const Opened& open
   return all;
 }
 
-/// False after an error.
-bool read_recorded(ToolOptions& options, Diagnostics& diagnostics) {
-  if (options.recorded.empty()) return true;
-  const auto text = read_file(options.recorded, most_recorded_bytes, diagnostics);
-  if (!text) return false;
-  auto points = RecordedPoints::parse(*text, options.recorded, diagnostics);
-  if (!points) return false;
-  options.tune.recorded = std::make_shared<const RecordedPoints>(std::move(*points));
-  return true;
-}
-
 int run(ToolOptions& options) {
   Diagnostics diagnostics;
   if (!options.out.empty()) {
@@ -127,7 +114,9 @@ int run(ToolOptions& options) {
     }
   }
   Opened opened;
-  if (read_recorded(options, diagnostics)) opened = open(options.common, diagnostics);
+  if (options.recorded.read(options.tune.recorded, diagnostics)) {
+    opened = open(options.common, diagnostics);
+  }
   if (!opened) {
     if (options.json) print_json(Json::array());
     return report(diagnostics);
@@ -201,11 +190,7 @@ void add_tune(CLI::App& app, int& status) {
   command.add_option("--points", options->tune.points, "At how many points errors are measured")
       ->check(CLI::Range(std::size_t{1000}, std::size_t{1000000}))
       ->capture_default_str();
-  command
-      .add_option("--recorded", options->recorded,
-                  "Measure errors of materials where a scene shades them, as nacre render "
-                  "--record-points has written; nothing is promised anywhere else")
-      ->type_name("FILE.json");
+  options->recorded.add(command);
   command
       .add_option("--profile", options->out,
                   "Write what was chosen, for --profile of bake, inspect and render")

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "jit/api/call.h"
+#include "jit/api/exactness.h"
 #include "jit/api/handles.h"
 #include "jit/api/share.h"
 #include "jit/graph/look/look.h"
-#include "jit/tune/profile.h"
 
 using namespace nacre;
 using namespace nacre::api;
@@ -92,21 +92,13 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   return options;
 }
 
-/// False, said, where there is a profile that cannot be read.
-bool apply_profile_of(const nacre_compile_options* given, const std::vector<std::string>& names,
-                      bool is_material, ShaderOptions& options, Diagnostics& diagnostics) {
-  const char* const text = options_of(given).profile;
-  if (text == nullptr) return true;
-  const std::optional<Profile> profile = Profile::parse(text, "profile", diagnostics);
-  if (profile) apply_profile(*profile, names, is_material, options, diagnostics);
-  return profile.has_value();
-}
-
 template <class Kernels>
-nacre_status hand_out(std::unique_ptr<Kernels> kernels, Said& said, nacre_shader** shader) {
+nacre_status hand_out(std::unique_ptr<Kernels> kernels, std::shared_ptr<const ShaderError> error,
+                      Said& said, nacre_shader** shader) {
   // Kernels that lack an image are there, and not right.
   if (kernels == nullptr || said.has_errors()) return NACRE_FAILED;
-  *shader = new nacre_shader{std::make_shared<const ShaderData>(std::move(kernels))};
+  *shader =
+      new nacre_shader{std::make_shared<const ShaderData>(std::move(kernels)), std::move(error)};
   return NACRE_OK;
 }
 
@@ -115,7 +107,8 @@ bool is_meant(const nacre_compile_options* given) {
   const nacre_compile_options asked = options_of(given);
   const auto is_one_of_three = [](int value) { return value >= 0 && value <= 2; };
   return is_one_of_three(asked.engine) && is_one_of_three(asked.accuracy) &&
-         is_one_of_three(asked.prefer) && is_one_of_three(asked.compensation);
+         is_one_of_three(asked.prefer) && is_one_of_three(asked.compensation) &&
+         is_exactness_meant(asked);
 }
 
 bool is_same(const char* a, const char* b) {
@@ -165,11 +158,13 @@ nacre_status nacre_compile_material(nacre_system* system, const nacre_document* 
     Said said(report);
     const Document& from = *document->document;
     ShaderOptions asked = shader_options(options, from);
-    if (!apply_profile_of(options, {material}, true, asked, said.diagnostics())) {
+    std::shared_ptr<const ShaderError> error;
+    const TuneSubject subject{system->system.get(), &from, {material}, true};
+    if (!choose_exactness(options_of(options), subject, asked, error, said.diagnostics())) {
       return nacre_status{NACRE_FAILED};
     }
     return hand_out(system->system->compile_material(from, material, asked, said.diagnostics()),
-                    said, shader);
+                    std::move(error), said, shader);
   });
 }
 
@@ -186,19 +181,22 @@ nacre_status nacre_compile_variants(nacre_system* system, const nacre_document* 
   return guarded(report, [&] {
     Said said(report);
     const Document& from = *document->document;
+    const TuneSubject subject{system->system.get(), &from, {material}, true};
     std::vector<ShaderOptions> asked;
+    std::vector<std::shared_ptr<const ShaderError>> errors(count);
     for (std::size_t i = 0; i < count; ++i) {
       asked.push_back(shader_options(variants[i], from));
-      if (!apply_profile_of(variants[i], {material}, true, asked.back(), said.diagnostics())) {
+      if (!choose_exactness(options_of(variants[i]), subject, asked[i], errors[i],
+                            said.diagnostics())) {
         return nacre_status{NACRE_FAILED};
       }
     }
     auto made = system->system->compile_variants(from, material, asked, said.diagnostics());
     if (made.empty() || said.has_errors()) return nacre_status{NACRE_FAILED};
     std::vector<std::unique_ptr<nacre_shader>> handles;
-    for (auto& kernels : made) {
-      handles.push_back(std::make_unique<nacre_shader>(
-          nacre_shader{std::make_shared<const ShaderData>(std::move(kernels))}));
+    for (std::size_t i = 0; i < count; ++i) {
+      handles.push_back(std::make_unique<nacre_shader>(nacre_shader{
+          std::make_shared<const ShaderData>(std::move(made[i])), std::move(errors[i])}));
     }
     for (std::size_t i = 0; i < count; ++i) shaders[i] = handles[i].release();
     return nacre_status{NACRE_OK};
@@ -220,11 +218,13 @@ nacre_status nacre_compile_outputs(nacre_system* system, const nacre_document* d
     const Document& from = *document->document;
     const std::vector<std::string> names = texts_of(outputs, output_count);
     ShaderOptions asked = shader_options(options, from);
-    if (!apply_profile_of(options, names, false, asked, said.diagnostics())) {
+    std::shared_ptr<const ShaderError> error;
+    const TuneSubject subject{system->system.get(), &from, names, false};
+    if (!choose_exactness(options_of(options), subject, asked, error, said.diagnostics())) {
       return nacre_status{NACRE_FAILED};
     }
-    return hand_out(system->system->compile_outputs(from, names, asked, said.diagnostics()), said,
-                    shader);
+    return hand_out(system->system->compile_outputs(from, names, asked, said.diagnostics()),
+                    std::move(error), said, shader);
   });
 }
 

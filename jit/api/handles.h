@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "jit/api/element_list.h"
+#include "jit/api/exactness.h"
 #include "jit/api/look_list.h"
 #include "jit/api/nodedef_list.h"
 #include "jit/api/shader_data.h"
@@ -57,6 +58,7 @@ struct nacre_document {
 
 struct nacre_shader {
   std::shared_ptr<const nacre::api::ShaderData> data;
+  std::shared_ptr<const nacre::api::ShaderError> error = {};  ///< Null: nobody asks for it.
 };
 
 struct nacre_instance {

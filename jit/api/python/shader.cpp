@@ -112,6 +112,21 @@ void bind_shader(nb::module_& module) {
       .def_prop_ro(
           "left_out", [](const Shader& self) { return texts(self.left_out()); },
           nb::sig("def left_out(self) -> list[str]"), "What the kernels leave out, a line each.")
+      .def("_error",
+           [](const Shader& self) -> nb::object {
+             const std::optional<ShaderError> e = self.error();
+             if (!e) return nb::none();
+             return nb::make_tuple(e->mean, e->p999, e->maximum, text(e->worst), e->floor,
+                                   e->is_absolute, text(e->points));
+           })
+      .def_prop_ro(
+          "profile",
+          [](const Shader& self) -> nb::object {
+            const std::string chosen = self.profile();
+            return chosen.empty() ? nb::none() : nb::object(text(chosen));
+          },
+          nb::sig("def profile(self) -> str | None"),
+          "What max_error has chosen, for the option profile; None where it was not asked for.")
       .def_prop_ro("is_pending", &Shader::is_pending,
                    "Whether code is being made in the background, and kernels are interpreted.")
       .def("wait", &Shader::wait, nb::call_guard<nb::gil_scoped_release>(),

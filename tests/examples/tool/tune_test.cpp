@@ -1,4 +1,5 @@
 // `nacre tune`, and what other commands make of its profiles.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/examples/tool/tool_fixture.h"
@@ -69,6 +70,55 @@ TEST_F(Tune, AProfileIsWhatItsOptionsAre) {
   ASSERT_EQ(run(render + file("c.exr")), 0) << errors_;
   EXPECT_TRUE(text_of(file("a.exr")) == text_of(file("b.exr")));
   EXPECT_FALSE(text_of(file("a.exr")) == text_of(file("c.exr")));
+}
+
+// The scene without a file: a ball of radius 1 around the origin.
+TEST_F(Tune, PointsAreRecordedWhereTheSceneIs) {
+  const std::string mtlx = write("d.mtlx", document);
+  const std::string render = "render " + mtlx +
+                             " --spp 4 --size 64 --quiet --wait-for-code --out " + file("a.exr") +
+                             " --record-points ";
+  ASSERT_EQ(run(render + file("p.json") + " --threads 1"), 0) << errors_;
+  ASSERT_EQ(run(render + file("q.json") + " --threads 2"), 0) << errors_;
+  EXPECT_TRUE(text_of(file("p.json")) == text_of(file("q.json")));
+  const Json points = Json::parse(text_of(file("p.json")));
+  ASSERT_EQ(points["materials"].size(), 1u);
+  const Json& own = points["materials"][0];
+  EXPECT_EQ(own["material"], "M");
+  const auto count = own["count"].get<std::size_t>();
+  EXPECT_GT(count, 1000u);
+  const auto length_of = [&](const std::string& name, std::size_t i) {
+    double sum = 0;
+    for (const char* axis : {".x", ".y", ".z"}) {
+      const double x = own["channels"][name + axis][i].get<double>();
+      sum += x * x;
+    }
+    return std::sqrt(sum);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_NEAR(length_of("N", i), 1, 1e-5);
+    EXPECT_NEAR(length_of("wo", i), 1, 1e-5);
+  }
+  ASSERT_EQ(run("tune " + mtlx + " --no-times --recorded " + file("p.json") + " --json"), 0);
+  const Json tuned = Json::parse(printed_);
+  EXPECT_EQ(tuned[0]["points"], std::to_string(count / 2) + " points that a renderer has recorded");
+  // Of an output nothing is recorded.
+  EXPECT_NE(tuned[1]["points"].get<std::string>().find("[0, 1]^2"), std::string::npos);
+  EXPECT_TRUE(says("not-recorded")) << errors_;
+}
+
+TEST_F(Tune, InspectSaysHowFarKernelsAreOff) {
+  const std::string mtlx = write("d.mtlx", document);
+  const auto error = [&](const std::string& options) {
+    EXPECT_EQ(run("inspect " + mtlx + " --json --error --material M " + options), 0) << errors_;
+    return Json::parse(printed_)[0]["error"]["p999"].get<double>();
+  };
+  EXPECT_LT(error("--accuracy precise"), 1e-4);
+  EXPECT_GT(error("--compensation nothing"), 1e-2);
+  EXPECT_EQ(run("inspect " + mtlx + " --error --output bumps"), 0);
+  EXPECT_NE(printed_.find("of a thousand"), std::string::npos) << printed_;
+  EXPECT_EQ(run("inspect " + mtlx + " --error --recorded " + mtlx), 1);
+  EXPECT_TRUE(says("bad-points")) << errors_;
 }
 
 TEST_F(Tune, WhatAProfileDoesNotHaveIsWarnedOf) {

@@ -273,6 +273,19 @@ typedef struct nacre_compile_options {
   const char* profile; /* What `nacre tune` wrote, the text: says accuracy, compensation,
                           max_anisotropy and whether points have footprints, in place of the above,
                           of materials and outputs that it names. NULL: none. */
+  /* Greater than 0: the cheapest kernels whose numbers, but for one of a thousand, are off by no
+     more than that, and each by no more than three times that, against double precision with
+     everything exact. Found by measuring, which takes seconds, in place of what a profile says;
+     nacre_shader_error and nacre_shader_profile tell what was found. Not with a profile. */
+  double max_error;
+  double error_floor;       /* Errors are shares of a number, or of so much of the largest number of
+                               its channel where that is more. 0: 0.01. */
+  int error_is_absolute;    /* 1: they are differences. */
+  uint32_t error_points;    /* At how many points. 0: 2048. */
+  const char* error_record; /* What `nacre render --record-points` wrote, the text: of materials, to
+                               measure where a scene shades them. NULL: at points of every kind. */
+  int measure_error;        /* 1: nacre_shader_error is wanted of what is compiled as it is asked
+                               for. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;
@@ -330,6 +343,26 @@ NACRE_API nacre_status nacre_shader_lobe(const nacre_shader* shader, size_t inde
 NACRE_API size_t nacre_shader_left_out_count(const nacre_shader* shader);
 NACRE_API const char* nacre_shader_left_out(const nacre_shader* shader, size_t index,
                                             int* changes_picture);
+/* How far a shader's numbers are from double precision with everything exact: f, albedo, emission,
+   opacity and transmission, what media, displacement and lights are, or outputs. Measured at points
+   by which nothing was chosen. */
+typedef struct nacre_shader_error_info {
+  size_t size;
+  double mean;
+  double p999; /* What one number of a thousand exceeds. */
+  double maximum;
+  const char* worst;  /* The channel of the maximum, "f.x". */
+  double floor;       /* nacre_compile_options::error_floor */
+  int is_absolute;    /* nacre_compile_options::error_is_absolute */
+  const char* points; /* Where it was measured, for people. */
+} nacre_shader_error_info;
+
+/* NACRE_FAILED where neither max_error nor measure_error asked for it. */
+NACRE_API nacre_status nacre_shader_error(const nacre_shader* shader,
+                                          nacre_shader_error_info* info);
+/* What max_error has chosen, for nacre_compile_options::profile of later runs, which need not
+   measure again; NULL where it was not asked for. */
+NACRE_API const char* nacre_shader_profile(const nacre_shader* shader);
 /* 1 while code is made in the background and kernels are interpreted. */
 NACRE_API int nacre_shader_is_pending(const nacre_shader* shader);
 /* Withdraws what is pending: it stays interpreted. */

@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <memory>
 #include <nacre/diagnostic.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,15 @@ struct Channel {
 struct LobeInfo {
   std::string name, path;
   int kinds = 0;
+};
+
+/// How far a shader's numbers are off; see nacre_shader_error_info.
+struct ShaderError {
+  double mean = 0, p999 = 0, maximum = 0;
+  std::string worst;
+  double floor = 0;
+  bool is_absolute = false;
+  std::string points;
 };
 
 /// Channels of one meaning; see nacre_channel_group.
@@ -118,6 +128,19 @@ class Shader {
       if (changes_picture != 0 || !changes_picture_only) lines.emplace_back(line);
     }
     return lines;
+  }
+  /// Nothing where neither max_error nor measure_error asked for it.
+  std::optional<ShaderError> error() const {
+    nacre_shader_error_info one{};
+    one.size = sizeof one;
+    if (nacre_shader_error(get(), &one) != NACRE_OK) return std::nullopt;
+    return ShaderError{one.mean,  one.p999, one.maximum, one.worst, one.floor, one.is_absolute != 0,
+                       one.points};
+  }
+  /// What max_error has chosen, for CompileOptions::profile; "": it was not asked for.
+  std::string profile() const {
+    const char* const text = nacre_shader_profile(get());
+    return text != nullptr ? text : "";
   }
   bool is_pending() const { return nacre_shader_is_pending(get()) != 0; }
   /// What is pending stays interpreted.

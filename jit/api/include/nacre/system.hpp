@@ -128,7 +128,13 @@ struct CompileOptions {
   bool transport = false;        ///< A channel transport, of sample and evaluate.
   bool live_footprints = false;  ///< Slots footprint_scale and max_anisotropy.
   int compensation = NACRE_COMPENSATE_ALL;
-  std::string profile;  ///< The text that `nacre tune` wrote; empty: none.
+  std::string profile;     ///< The text that `nacre tune` wrote; empty: none.
+  double max_error = 0;    ///< Greater than 0: the cheapest that is no further off.
+  double error_floor = 0;  ///< 0: 0.01.
+  bool error_is_absolute = false;
+  std::uint32_t error_points = 0;  ///< 0: 2048.
+  std::string error_record;        ///< The text of `nacre render --record-points`; empty: none.
+  bool measure_error = false;      ///< Shader::error() is wanted of what is asked for.
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -347,7 +353,13 @@ class System {
     asked.transport = options.transport;
     asked.live_footprints = options.live_footprints;
     asked.compensation = options.compensation;
-    asked.profile = options.profile.empty() ? nullptr : options.profile.c_str();
+    asked.profile = detail::text_or_null(options.profile);
+    asked.max_error = options.max_error;
+    asked.error_floor = options.error_floor;
+    asked.error_is_absolute = options.error_is_absolute;
+    asked.error_points = options.error_points;
+    asked.error_record = detail::text_or_null(options.error_record);
+    asked.measure_error = options.measure_error;
     call(asked);
   }
 

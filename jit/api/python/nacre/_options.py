@@ -82,6 +82,17 @@ class CompileOptions(TypedDict, total=False):
     # The text of a file that `nacre tune` wrote: says accuracy, compensation, max_anisotropy and
     # no_footprints of the materials and outputs that it names.
     profile: str
+    # In place of all these: the cheapest kernels whose numbers, but for one of a thousand, are off
+    # by no more, and each by no more than three times that; found by measuring, which takes
+    # seconds. See Shader.error and Shader.profile.
+    max_error: float
+    error_floor: float  # Errors are shares of a number, or of so much of its channel's largest; 0.01.
+    error_is_absolute: bool  # They are differences.
+    error_points: int  # At how many points; 2048 unless set.
+    # The text that `nacre render --record-points` wrote: of materials, measure where a scene shades
+    # them.
+    error_record: str
+    measure_error: bool  # Shader.error is wanted of what is compiled as it is asked for.
     search_paths: Iterable[str]  # Of images, after the document's own folder.
     files_anywhere: bool  # Images also from outside those folders.
     missing_images_pass: bool  # An image that cannot be had is a warning and no error.

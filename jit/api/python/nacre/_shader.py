@@ -35,6 +35,19 @@ class Lobe(NamedTuple):
     kinds: LobeKind
 
 
+class ShaderError(NamedTuple):
+    """How far a shader's numbers are from double precision with everything exact, at points by
+    which nothing was chosen."""
+
+    mean: float
+    p999: float  # What one number of a thousand exceeds.
+    maximum: float
+    worst: str  # The channel of the maximum.
+    floor: float  # Errors are shares of a number, or of so much of the largest of its channel.
+    is_absolute: bool  # They are differences.
+    points: str  # Where that was measured, for people.
+
+
 class _Placed(NamedTuple):
     array: Any
     element: int
@@ -71,6 +84,12 @@ class Shader(_core.Shader):
     def results(self, entry: Entry) -> list[Channel]:
         """What an entry stores, wherever that is bound."""
         return [_channel(each) for each in self._results(entry)]
+
+    @functools.cached_property
+    def error(self) -> ShaderError | None:
+        """None where neither max_error nor measure_error asked for it."""
+        found = self._error()
+        return None if found is None else ShaderError(*found)
 
     @functools.cached_property
     def lobes(self) -> list[Lobe]:

@@ -208,6 +208,17 @@ def test_emitted_light_carries_the_power(system):
     numpy.testing.assert_array_equal(seen["pdf"], light["pdf"])
 
 
+def test_an_error_may_be_asked_for(system, documents):
+    document = nacre.Document.parse(documents["white_metal"])
+    shader = system.compile_material(document, "M", no_footprints=True, max_error=0.01)
+    assert shader.error.p999 <= 0.01 and shader.error.maximum <= 0.03
+    assert '"compensation"' in shader.profile
+    assert system.compile_material(document, "M").error is None
+    rough = system.compile_material(document, "M", no_footprints=True, compensation="nothing",
+                                    measure_error=True)
+    assert rough.error.maximum > 0.1 and rough.profile is None
+
+
 def test_a_profile_chooses_for_what_it_names(system, documents):
     document = nacre.Document.parse(documents["white_metal"])
     points = nacre.surface_points((0.0, 0.0, 0.0), N, N) | {"wi": (0.6, 0.0, 0.8)}
