@@ -54,8 +54,8 @@ std::vector<Command> commands() {
          "nacre render look.mtlx --scene vase.glb --aov albedo,normal --out vase.exr"}}},
       {"tune",
        add_tune,
-       {{"--material", "--output", "--max-error", "--metric", "--recorded", "--profile",
-         "--no-times", "--search-path", "--library", "--json", "--quiet"},
+       {{"--material", "--output", "--max-error", "--metric", "--recorded", "--profile", "--plot",
+         "--time-limit", "--no-times", "--search-path", "--library", "--json", "--quiet"},
         {"nacre tune gold.mtlx --material Gold --max-error 0.001",
          "nacre tune gold.mtlx --recorded points.json --profile gold.json"}}},
   };

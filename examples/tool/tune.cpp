@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "examples/common/atomic_file.h"
+#include "examples/tool/front_plot.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
@@ -28,6 +29,8 @@ struct ToolOptions {
   std::vector<std::string> materials;
   std::vector<std::string> outputs;
   std::string out;
+  std::string plot;
+  double time_limit = 0;
   RecordedOption recorded;
   TuneOptions tune;
   bool has_times = true;
@@ -78,7 +81,7 @@ void print_tuned(const TunedSubject& subject, const TuneOptions& options) {
   const auto share = [](double of, double whole) { return whole > 0 ? of / whole : 1; };
   fmt::print("  * for an error of {:g}: {:.2f} of the cost of standard", options.max_error,
              share(tuned.chosen.cost, tuned.standard.cost));
-  if (tuned.chosen.nanoseconds > 0) {
+  if (tuned.chosen.nanoseconds > 0 && tuned.standard.nanoseconds > 0) {
     fmt::print(", {:.2f} of its time", share(tuned.chosen.nanoseconds, tuned.standard.nanoseconds));
   }
   fmt::print("; at other points {:.2g}, at most {:.2g}\n", unseen.p999, unseen.maximum);
@@ -106,12 +109,11 @@ std::vector<TuneSubject> subjects(const ToolOptions& options, const Opened& open
 
 int run(ToolOptions& options) {
   Diagnostics diagnostics;
-  if (!options.out.empty()) {
-    promise_files({options.out});
-    if (!host::prepare_output(options.out, diagnostics)) {
-      if (options.json) print_json(Json::array());
-      return report(diagnostics);
-    }
+  promise_files({options.out, options.plot});
+  for (const std::string& file : {options.out, options.plot}) {
+    if (file.empty() || host::prepare_output(file, diagnostics)) continue;
+    if (options.json) print_json(Json::array());
+    return report(diagnostics);
   }
   Opened opened;
   if (options.recorded.read(options.tune.recorded, diagnostics)) {
@@ -124,6 +126,7 @@ int run(ToolOptions& options) {
   TuneOptions& tuning = options.tune;
   tuning.shader = options.common.shader_options();
   if (!options.has_times) tuning.seconds_a_kernel = 0;
+  if (options.time_limit > 0) tuning.enough = Stop().within(options.time_limit);
   const std::vector<TuneSubject> all = subjects(options, opened);
   if (all.empty()) {
     diagnostics.error("nothing-to-tune", {options.common.file, 0, 0, {}},
@@ -139,6 +142,12 @@ int run(ToolOptions& options) {
     }
     if (stop().is_due()) break;
     if (!tuned) continue;
+    if (tuned->is_cut_short) {
+      diagnostics.warning("cut-short", {.file = {}, .path = subject.text()},
+                          "not all ways were tried: a cheaper one may be as exact",
+                          "all within the time (--time-limit)",
+                          fmt::format("{:g} s are over", options.time_limit));
+    }
     done.push_back({subject.text(), subject.is_material, std::move(*tuned)});
     if (!options.json) print_tuned(done.back(), tuning);
   }
@@ -148,10 +157,13 @@ int run(ToolOptions& options) {
     print_json(results);
   }
   // Half a profile would leave the rest to chance.
-  if (!options.out.empty() && !diagnostics.has_errors() && !stop().is_due() &&
-      host::write_text_atomically(options.out, profile_text(done, tuning), diagnostics)) {
-    file_is_written(options.out, options.common.quiet || options.json);
-  }
+  const auto write = [&](const std::string& file, auto&& text) {
+    if (file.empty() || diagnostics.has_errors() || stop().is_due()) return;
+    if (!host::write_text_atomically(file, text(), diagnostics)) return;
+    file_is_written(file, options.common.quiet || options.json);
+  };
+  write(options.out, [&] { return profile_text(done, tuning); });
+  write(options.plot, [&] { return front_plot(done, tuning.max_error); });
   return report(diagnostics);
 }
 
@@ -195,6 +207,19 @@ void add_tune(CLI::App& app, int& status) {
       .add_option("--profile", options->out,
                   "Write what was chosen, for --profile of bake, inspect and render")
       ->type_name("OUT.json");
+  command
+      .add_option(
+          "--plot", options->plot,
+          "Draw the fronts: a line a material or output, error over time, a disc on what was "
+          "chosen, a ring on standard")
+      ->type_name("OUT.svg");
+  command
+      .add_option(
+          "--time-limit", options->time_limit,
+          "Seconds for all of them: then no more ways are tried, which is said, and what is "
+          "chosen is of those that were (default: 0, none)")
+      ->check(number_within(0, 1e9))
+      ->type_name("S");
   command.add_flag("!--no-times", options->has_times,
                    "Do not compile and run what was found to say how long it takes");
   command.add_flag("--json", options->json,

@@ -55,6 +55,7 @@ class Tuner {
     tuned.standard = *measured(standard_choices());
     if (!verify(tuned.standard) || !choose(tuned)) return std::nullopt;
     if (options_.seconds_a_kernel > 0 && !time(tuned)) return std::nullopt;
+    tuned.is_cut_short = is_cut_short_;
     report(1);
     return tuned;
   }
@@ -114,6 +115,7 @@ class Tuner {
       const Candidate* best = nullptr;
       for (const std::size_t i : useful) {
         if (at[i] + 1 == dimensions()[i].settings.size()) continue;
+        if (is_enough()) return true;
         Choices next = at;
         ++next[i];
         const Candidate* const candidate = measured(next);
@@ -129,7 +131,7 @@ class Tuner {
   /// Those that change what is computed at all.
   std::vector<std::size_t> useful_dimensions() {
     std::vector<std::size_t> useful;
-    for (std::size_t i = 0; i < dimensions().size(); ++i) {
+    for (std::size_t i = 0; i < dimensions().size() && !is_enough(); ++i) {
       if (changes(i, exact_choices()) || changes(i, standard_choices())) useful.push_back(i);
     }
     return useful;
@@ -205,7 +207,7 @@ class Tuner {
     all.push_back(&tuned.chosen);
     all.push_back(&tuned.standard);
     std::map<Digest, double> known;
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t i = 0; i < all.size() && !is_enough(); ++i) {
       report(0.8 + 0.2 * static_cast<double>(i) / static_cast<double>(all.size()));
       double& found = known[all[i]->programs];
       if (found == 0) {
@@ -218,6 +220,11 @@ class Tuner {
     return true;
   }
 
+  bool is_enough() {
+    if (options_.enough.is_due()) is_cut_short_ = true;
+    return is_cut_short_;
+  }
+
   void report(double share) const {
     if (options_.progress) options_.progress(share);
   }
@@ -226,6 +233,7 @@ class Tuner {
   const TuneOptions& options_;
   Diagnostics& diagnostics_;
   bool has_said_ = false;
+  bool is_cut_short_ = false;
   Examination seen_, unseen_;
   std::map<Choices, Candidate> candidates_;
   std::map<Digest, Candidate> of_programs_;  ///< What was measured of each; the latest choices.

@@ -10,6 +10,7 @@
 #include "jit/tune/error.h"
 #include "jit/tune/recorded_points.h"
 #include "jit/tune/trial.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -24,6 +25,9 @@ struct TuneOptions {
   /// What holds whatever is chosen: limits, search paths, the graph's options.
   ShaderOptions shader;
   double seconds_a_kernel = 0.05;  ///< To time it; 0: nothing is timed.
+  /// Due: no more ways are tried, and nothing more is timed; the cheapest is of those that were.
+  /// Then it depends on the machine.
+  Stop enough;
   std::function<void(double share)> progress;
 };
 
@@ -42,8 +46,9 @@ struct Tuned {
   /// of them.
   std::vector<Candidate> front;
   Candidate chosen;
-  Candidate standard;  ///< What is compiled where nothing is said.
-  std::string points;  ///< Where errors were measured, for people.
+  Candidate standard;         ///< What is compiled where nothing is said.
+  std::string points;         ///< Where errors were measured, for people.
+  bool is_cut_short = false;  ///< TuneOptions::enough was due before all was tried.
 };
 
 /// The cheapest way to compile a subject that is no more than max_error from a computation in

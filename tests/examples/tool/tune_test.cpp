@@ -107,6 +107,31 @@ TEST_F(Tune, PointsAreRecordedWhereTheSceneIs) {
   EXPECT_TRUE(says("not-recorded")) << errors_;
 }
 
+TEST_F(Tune, FrontsAreDrawn) {
+  const std::string mtlx = write("d.mtlx", document);
+  ASSERT_EQ(run("tune " + mtlx + " --no-times --json --plot " + file("p.svg")), 0) << errors_;
+  std::size_t steps = 0;
+  for (const Json& each : Json::parse(printed_)) steps += each["front"].size();
+  const std::string svg = text_of(file("p.svg"));
+  const auto count = [&](std::string_view tag) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find(tag); at != svg.npos; at = svg.find(tag, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("<polyline"), 2u);
+  EXPECT_EQ(count("<circle"), steps + 4);  // Two are chosen, two standard.
+  EXPECT_EQ(run("tune " + mtlx + " --plot " + file("p.svg/q.svg")), 1);
+}
+
+TEST_F(Tune, EndsInTime) {
+  const std::string mtlx = write("d.mtlx", document);
+  ASSERT_EQ(run("tune " + mtlx + " --time-limit 1e-6 --profile " + file("p.json")), 0) << errors_;
+  EXPECT_TRUE(says("cut-short")) << errors_;
+  for (const Json& subject : Json::parse(text_of(file("p.json")))["subjects"]) {
+    EXPECT_LE(subject["unseen_error"]["p999"].get<double>(), 0.01);
+  }
+}
+
 TEST_F(Tune, InspectSaysHowFarKernelsAreOff) {
   const std::string mtlx = write("d.mtlx", document);
   const auto error = [&](const std::string& options) {
