@@ -198,12 +198,13 @@ RecordedTextures::Snapshot RecordedTextures::load_tiles(const std::vector<bool>&
                                                         std::map<std::string, FileIdentity>& files,
                                                         Diagnostics& diagnostics) const {
   Snapshot now = snapshot();
+  const Stop stop(access_.stop.token());  // Its deadline was that of compiling, long ago.
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
     const auto deferred = deferred_.find(now.textures[slot]);
     if (deferred == deferred_.end() || !wanted[slot]) continue;
     const std::string& path = deferred->second.path;
     files.emplace(path, identify(path));
-    const TextureHandle texture = store_.acquire(deferred->second, diagnostics, access_.stop);
+    const TextureHandle texture = store_.acquire(deferred->second, diagnostics, stop);
     if (texture->missing()) continue;  // That is said.
     if (!is_alike(*now.textures[slot], *texture)) {
       diagnostics.error(
