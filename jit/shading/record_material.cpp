@@ -103,6 +103,7 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   MaterialKernels& kernels = recorded.kernels;
   kernels.has_surface = surface != nullptr;
   kernels.has_light = has(Type::lightshader);
+  kernels.has_volume = has(Type::volumeshader);
   kernels.has_back = sides.back != nullptr;
   kernels.lobes = surface_kernels.lobes;
   kernels.manifest = surface_kernels.manifest;

@@ -141,6 +141,7 @@ bool has_kernel(Type type);
 struct MaterialKernels {
   bool has_surface = true;  ///< The material has a surface shader.
   bool has_light = false;   ///< It has a light shader: dark, where `light` is absent.
+  bool has_volume = false;  ///< It has a volume shader: empty space, where `volume` is absent.
   /// The back shows another shader: to be compiled with ShaderOptions::side and used
   /// where dot(Ng, wo) < 0. Else these kernels are those of both sides (MaterialX PBS 1.39,
   /// "Surfaces").
