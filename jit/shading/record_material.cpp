@@ -154,6 +154,9 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
       continue;
     }
     add_entry(found->place, found->name, list, Keeps::pass);
+    if (found->type == Type::displacementshader) {
+      kernels.recorded_displacement = std::make_shared<const Program>(recorded.programs.back());
+    }
   }
   // The state has no place in a call that asks everything at once.
   if (wants(entry_shade)) {

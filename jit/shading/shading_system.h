@@ -165,6 +165,9 @@ struct MaterialKernels {
   /// @{
   std::optional<BoundKernel> displacement, volume, light;
   /// @}
+  /// What `displacement` computes as it was recorded, before any pass: what is known of its results
+  /// (jit/passes/range.h) is less of what passes make of it. Null where that is absent.
+  std::shared_ptr<const Program> recorded_displacement;
   /// Only if requested: what the surface encloses, see SurfaceKernels. Then the manifest does not
   /// say that its medium is left out.
   std::optional<BoundKernel> interior;
