@@ -244,7 +244,7 @@ std::vector<OracleCase> film_cases() {
        .width = width_of,
        .standard = {0.1, 1e-4},
        .fast = {0.16, 1e-3},
-       .albedo = 8e-2},
+       .albedo = 0.11},
       {.name = "dielectric_bsdf R, film",
        .category = "dielectric_bsdf",
        .ports = [](In in) { return filmed(in, glass(in, "R")); },
