@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -119,6 +121,16 @@ PixelCamera::PixelCamera(const Camera& camera, int width, int height, float samp
   corner_ = distance * camera.forward - 0.5f * static_cast<float>(width) * step_x_ -
             0.5f * static_cast<float>(height) * step_y_;
   angle_ = spacing_ * pixel / distance;
+}
+
+bool PixelCamera::may_see(Vec3 centre, float radius) const {
+  const Vec3 way = centre - camera_.position;
+  const float distance = length(way);
+  if (has_lens() || !motion_.is_still() || !(distance > radius)) return true;
+  const float to_corner = std::acos(std::min(dot(normalize(corner_), camera_.forward), 1.f));
+  const float to_centre = std::acos(std::clamp(dot(way, camera_.forward) / distance, -1.f, 1.f));
+  // Filters see a few samples more.
+  return to_centre <= to_corner + std::asin(radius / distance) + 8.f * angle_;
 }
 
 PixelCamera::Ray PixelCamera::ray(float x, float y, Uniform2 lens, float time) const {

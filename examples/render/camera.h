@@ -58,6 +58,10 @@ class PixelCamera {
   /// what is in front of it.
   Vec2 place(Vec3 P, float time) const;
 
+  /// Whether anything of a ball may be in the picture, or next to it; true where the camera moves
+  /// or has a lens.
+  bool may_see(Vec3 centre, float radius) const;
+
   /// Angle between neighbouring samples in the middle of the image, radians.
   float sample_angle() const { return angle_; }
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <set>
 #include <span>
+#include <utility>
 
 #include "examples/render/mesh.h"
+#include "examples/render/offset_grid.h"
 #include "examples/render/scene_limits.h"
 #include "examples/render/tessellate.h"
 
@@ -79,30 +83,48 @@ class Displacer {
         settings_(settings),
         left_(settings.most_triangles) {}
 
-  /// False where the mesh is coarser than asked.
-  bool split(std::uint32_t number) {
-    Mesh& mesh = scene_.meshes[number];
-    const Placed placed = nearest(mesh, eye_);
-    give_flat_vertices(mesh);
-    const std::size_t before = mesh.triangles.size();
-    const bool is_fine = tessellate(
-        mesh,
-        [&](Vec3 a, Vec3 b) {
-          if (settings_.stop.stop_requested()) return false;
-          const Vec3 p = transform_point(placed.to_world, a);
-          const Vec3 q = transform_point(placed.to_world, b);
-          return length(q - p) > edge_at(0.5f * (p + q));
-        },
-        before + left_);
-    left_ -= mesh.triangles.size() - before;
-    return is_fine;
+  /// By what shaders are known to do: where they move all there is away from the eye it is split
+  /// less. False where the mesh is coarser than asked.
+  bool split(std::uint32_t number, const Shader& shader, const SurfaceGeometry& geometry) {
+    const Placed placed = nearest(scene_.meshes[number], eye_);
+    if (known_.size() <= number) known_.resize(number + 1);
+    known_[number] = known_offsets(number, shader, geometry, placed);
+    return split(number, placed, [&](Vec3 own, Vec3 p, float) {
+      const Bounds& box = known_[number]->at(own);
+      const float stays = length(p - eye_);
+      return box.empty() ? stays : std::max(stays, distance_to_moved(eye_, p, box));
+    });
+  }
+
+  /// The same by what they do at its vertices. Where the box that is known is not much larger it is
+  /// taken, which is sure; else it says little of where the surface is.
+  bool refine(std::uint32_t number, const std::vector<Vec3>& offsets) {
+    const Mesh& mesh = scene_.meshes[number];
+    OffsetGrid seen(vertex_bounds(mesh));
+    for (const Triangle& t : mesh.triangles) {
+      Bounds places, moves;
+      for (const std::uint32_t v : t.v) {
+        if (!is_finite(offsets[v])) continue;
+        places.add(mesh.position[v]), moves.add(offsets[v]);
+      }
+      if (!moves.empty()) seen.add(places, moves);
+    }
+    return split(number, nearest(mesh, eye_), [&](Vec3 own, Vec3 p, float half) {
+      const Bounds &met = seen.at(own), &known = known_[number]->at(own);
+      const float stays = length(p - eye_);
+      if (met.empty()) return stays;
+      if (!may_be_seen(p, half, met, known)) return stays;
+      const bool is_tight = !known.empty() && length(known.high - known.low) <
+                                                  2.f * length(met.high - met.low) + 1e-3f * stays;
+      const float moved = distance_to_moved(eye_, p, is_tight ? known : met);
+      return std::max(moved, stays / most_times_finer);
+    });
   }
 
   /// Moves the vertices; how many stay because they went nowhere.
-  std::size_t move(std::uint32_t number, const Shader& shader, const SurfaceGeometry& geometry) {
+  std::size_t move(std::uint32_t number, std::vector<Vec3> offsets) {
     Mesh& mesh = scene_.meshes[number];
     const Placed placed = nearest(mesh, eye_);
-    std::vector<Vec3> offsets = ask(number, shader, geometry, placed);
     const Affine to_own = inverse(placed.to_world);
     std::size_t invalid = 0;
     for (std::size_t i = 0; i < offsets.size(); ++i) {
@@ -119,16 +141,11 @@ class Displacer {
     return invalid;
   }
 
- private:
-  /// Longest edge there, in the world.
-  float edge_at(Vec3 p) const {
-    return settings_.edge * camera_.sample_angle() * std::max(length(p - eye_), 1e-6f);
-  }
-
   /// What the shader says for each vertex, in the world.
-  std::vector<Vec3> ask(std::uint32_t number, const Shader& shader, const SurfaceGeometry& geometry,
-                        const Placed& placed) const {
+  std::vector<Vec3> ask(std::uint32_t number, const Shader& shader,
+                        const SurfaceGeometry& geometry) const {
     const Mesh& mesh = scene_.meshes[number];
+    const Placed placed = nearest(mesh, eye_);
     // A vertex is a corner of the last triangle that has it.
     std::vector<SurfacePoint> corners(mesh.position.size(), {.mesh = number});
     std::vector<bool> is_used(mesh.position.size());
@@ -160,7 +177,7 @@ class Displacer {
         const Vec3 p = transform_point(placed.to_world, mesh.position[asked[i]]);
         point.wo = normalize_or(eye_ - p, {0.f, 0.f, 1.f});
         point.keeps_normal = true;
-        point.width = edge_at(p);
+        point.width = edge_at(length(p - eye_));
         point.instance = placed.instance;
       }
       geometry.fill(points, needs, camera_, buffer);
@@ -170,11 +187,89 @@ class Displacer {
     return offsets;
   }
 
+ private:
+  /// A surface that comes to the eye is split no more often, times two each, than one that stays:
+  /// next to the eye itself there would be no end.
+  static constexpr float most_times_finer = 8.f;
+
+  /// Whether the picture has anything of what is so near to a place, and moved by what is in either
+  /// box. (A box is infinite where nothing is known.)
+  bool may_be_seen(Vec3 p, float near, const Bounds& met, const Bounds& known) const {
+    const auto sees = [&](const Bounds& box) {
+      const Vec3 size = box.high - box.low;
+      return !is_finite(size) ||
+             camera_.may_see(p + 0.5f * (box.low + box.high), near + 0.5f * length(size));
+    };
+    const bool is_known = !known.empty() && is_finite(known.high - known.low);
+    return sees(is_known ? known : met);
+  }
+
+  /// Longest edge so far away, in the world.
+  float edge_at(float distance) const {
+    return settings_.edge * camera_.sample_angle() * std::max(distance, 1e-6f);
+  }
+
+  /// `distance`: from the eye, of what is at a place of the mesh and of the world, and so far about
+  /// it.
+  template <class F>
+  bool split(std::uint32_t number, const Placed& placed, F&& distance) {
+    Mesh& mesh = scene_.meshes[number];
+    const std::size_t before = mesh.triangles.size();
+    const bool is_fine = tessellate(
+        mesh,
+        [&](Vec3 a, Vec3 b) {
+          if (settings_.stop.stop_requested()) return false;
+          const Vec3 p = transform_point(placed.to_world, a);
+          const Vec3 q = transform_point(placed.to_world, b);
+          const float edge = length(q - p);
+          return edge > edge_at(distance(0.5f * (a + b), 0.5f * (p + q), 0.5f * edge));
+        },
+        before + left_);
+    left_ -= mesh.triangles.size() - before;
+    return is_fine;
+  }
+
+  /// What is known before anything is split: by triangles, some together where there are many.
+  OffsetGrid known_offsets(std::uint32_t number, const Shader& shader,
+                           const SurfaceGeometry& geometry, const Placed& placed) const {
+    constexpr std::size_t most_asked = 4096;
+    const Mesh& mesh = scene_.meshes[number];
+    OffsetGrid known(vertex_bounds(mesh));
+    const std::size_t together =
+        std::clamp<std::size_t>(mesh.triangles.size() / most_asked, 1, batch_size / 3);
+    const Capabilities needs = shader.capabilities();
+    BatchBuffer buffer(batch_size, 0, needs.primvars.size());
+    std::vector<SurfacePoint> corners;
+    for (std::size_t first = 0; first < mesh.triangles.size(); first += together) {
+      if (settings_.stop.stop_requested()) break;
+      const std::size_t end = std::min(first + together, mesh.triangles.size());
+      corners.clear();
+      for (std::size_t t = first; t < end; ++t) {
+        for (int c = 0; c < 3; ++c) {
+          SurfacePoint& corner = corners.emplace_back(SurfacePoint{.mesh = number});
+          corner.triangle = static_cast<std::uint32_t>(t);
+          corner.u = c == 1 ? 1.f : 0.f, corner.v = c == 2 ? 1.f : 0.f;
+          corner.keeps_normal = true;
+          corner.instance = placed.instance;
+        }
+      }
+      geometry.fill(corners, needs, camera_, buffer);
+      const Bounds offsets = shader.displacement_box(buffer.batch);
+      for (std::size_t t = first; t < end; ++t) {
+        Bounds places;
+        for (const std::uint32_t v : mesh.triangles[t].v) places.add(mesh.position[v]);
+        known.add(places, offsets);
+      }
+    }
+    return known;
+  }
+
   Scene& scene_;
   const PixelCamera& camera_;
   Vec3 eye_;
   const DisplaceSettings& settings_;
-  std::size_t left_;  ///< Triangles that may come.
+  std::size_t left_;                              ///< Triangles that may come.
+  std::vector<std::optional<OffsetGrid>> known_;  ///< By mesh.
 };
 
 }  // namespace
@@ -187,17 +282,34 @@ DisplaceResult displace(Scene& scene, const std::vector<const Shader*>& shaders,
     return shaders[i] != nullptr && shaders[i]->capabilities().displaces &&
            !scene.meshes[i].is_fibres();
   };
+  std::vector<std::uint32_t> moved;
   for (std::uint32_t i = 0; i < shaders.size(); ++i) {
-    if (moves(i) && !scene.meshes[i].poses.empty()) {
+    if (moves(i)) moved.push_back(i);
+  }
+  for (const std::uint32_t i : moved) {
+    if (!scene.meshes[i].poses.empty()) {
       scene.meshes[i].poses.clear();
       result.stopped.push_back(i);
     }
-    if (moves(i) && !displacer.split(i)) result.coarse.push_back(i);
+    give_flat_vertices(scene.meshes[i]);
   }
   const SurfaceGeometry geometry(scene, settings.clock);
-  for (std::uint32_t i = 0; i < shaders.size(); ++i) {
-    if (moves(i)) result.invalid += displacer.move(i, *shaders[i], geometry);
+  std::set<std::uint32_t> coarse;
+  for (const std::uint32_t i : moved) {
+    if (!displacer.split(i, *shaders[i], geometry)) coarse.insert(i);
   }
+  std::vector<std::vector<Vec3>> offsets;
+  for (const std::uint32_t i : moved) {
+    offsets.push_back(displacer.ask(i, *shaders[i], geometry));
+    const std::size_t before = scene.meshes[i].triangles.size();
+    if (!displacer.refine(i, offsets.back())) coarse.insert(i);
+    if (scene.meshes[i].triangles.size() == before) continue;
+    offsets.back() = displacer.ask(i, *shaders[i], geometry);
+  }
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    result.invalid += displacer.move(moved[k], std::move(offsets[k]));
+  }
+  result.coarse.assign(coarse.begin(), coarse.end());
   return result;
 }
 

@@ -26,10 +26,14 @@ struct DisplaceResult {
 };
 
 /// Moves the surfaces of a scene before it is traced: each mesh that has a shader, which displaces,
-/// is split into triangles no larger than the picture shows, and their vertices are moved. Vertices
-/// at one place are moved together, by the mean of where they go. Normals and tangents are then
-/// those of what is there; positions in object space are where the surface was, so that patterns
-/// stay on it. Of what is drawn several times the instance next to the camera decides.
+/// is split into triangles no larger than the picture shows where they are moved to, and their
+/// vertices are moved. How far that is from the eye: of what is known to be moved away, by
+/// Shader::displacement_box(), the triangles may be larger; what the shader brings nearer at the
+/// vertices of the first splitting is split on, to an eighth of the size at most, unless what is
+/// known of it says that it is in no part of the picture: mirrors and shadows have it as it is.
+/// Vertices at one place are moved together, by the mean of where they go. Normals and tangents are
+/// then those of what is there; positions in object space are where the surface was, so that
+/// patterns stay on it. Of what is drawn several times the instance next to the camera decides.
 ///
 /// `shaders`: by mesh; null: stays as it is. Fibres stay.
 DisplaceResult displace(Scene& scene, const std::vector<const Shader*>& shaders,

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "examples/render/bounds.h"
+
 /// \file
 /// What the render host asks of a material. The host finds hits, sorts them by
 /// material and hands over batches in structure-of-arrays layout; everything
@@ -246,6 +248,13 @@ class Shader {
   /// state. Called when `displaces`.
   virtual void displacement(const ShadingBatch& batch, Lanes3 offset) const {
     (void)batch, (void)offset;
+  }
+
+  /// A box of what displacement() gives at all points of triangles whose corners are the lanes,
+  /// infinite where nothing is known. Called when `displaces`.
+  virtual Bounds displacement_box(const ShadingBatch& corners) const {
+    (void)corners;
+    return {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
   }
 
   /// What light is in below the surface, by SampleLanes::lobe. Needs no state. Called when

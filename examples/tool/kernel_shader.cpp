@@ -48,8 +48,8 @@ KernelShader::KernelShader(std::unique_ptr<MaterialKernels> kernels, RenderStop&
   bind(kernels_->opacity, opacity_, {});
   if (capabilities_.has_interior) bind(kernels_->interior, interior_, {});
   capabilities_.displaces = kernels_->displacement.has_value();
-  capabilities_.is_volume = !kernels_->has_surface && kernels_->volume.has_value();
-  if (capabilities_.is_volume) {
+  capabilities_.is_volume = !kernels_->has_surface && kernels_->has_volume;
+  if (capabilities_.is_volume && kernels_->volume) {
     capabilities_.volume_varies = !kernels_->volume->program().inputs.empty();
     bind(kernels_->volume, volume_, {});
   }
@@ -278,6 +278,11 @@ void KernelShader::volume(const ShadingBatch& batch, host::VolumeLanes out) cons
                                       medium.scattering.x, medium.scattering.y, medium.scattering.z,
                                       medium.anisotropy,   out.emission.x,      out.emission.y,
                                       out.emission.z};
+  if (volume_.kernel == nullptr) {  // Empty space.
+    for (void* const channel : outputs)
+      std::fill_n(static_cast<float*>(channel), batch.count, 0.0f);
+    return;
+  }
   run(volume_, batch, nullptr, {}, outputs);
 }
 

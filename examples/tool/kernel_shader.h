@@ -11,6 +11,7 @@
 
 #include "examples/render/passes.h"
 #include "examples/render/shader.h"
+#include "examples/tool/displacement_box.h"
 #include "examples/tool/lobe_parts.h"
 #include "examples/tool/point_recorder.h"
 #include "jit/shading/shading_system.h"
@@ -83,6 +84,9 @@ class KernelShader final : public host::Shader {
   void interior(const host::ShadingBatch& batch, host::InteriorLanes out) const override;
   void volume(const host::ShadingBatch& batch, host::VolumeLanes out) const override;
   void displacement(const host::ShadingBatch& batch, host::Lanes3 offset) const override;
+  host::Bounds displacement_box(const host::ShadingBatch& corners) const override {
+    return tool::displacement_box(*kernels_->recorded_displacement, corners);
+  }
   void subsurface(const host::ShadingBatch& batch, const std::int32_t* lobe,
                   host::SubsurfaceLanes out) const override;
 

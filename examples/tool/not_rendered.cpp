@@ -59,6 +59,11 @@ void NotRendered::look_at_material(const std::string& name, const MaterialKernel
     diagnostics_.warning("volume-not-rendered", where,
                          "the volume of a material that has a surface is not rendered");
   }
+  if (kernels.has_volume && !kernels.has_surface && !kernels.volume) {
+    diagnostics_.warning("empty-volume", where,
+                         "the volume neither absorbs, scatters nor emits: nothing is there",
+                         "a vdf with coefficients above 0, or an edf");
+  }
   if (element == nullptr) return;
   for (const std::string_view side : {"surfaceshader", "backsurfaceshader"}) {
     if (const Element* input = find_input(*element, side)) look_at_shader(*input);

@@ -48,7 +48,7 @@ bool check_material(const std::string& material, const MaterialKernels& kernels,
         "a <light>, which is where its mesh is");
     return false;
   }
-  if (!kernels.has_surface && !kernels.has_light && !kernels.volume) {
+  if (!kernels.has_surface && !kernels.has_light && !kernels.has_volume) {
     diagnostics.error("no-surface", {},
                       "material '" + material + "' has no surface, and nothing else is rendered",
                       "a surface, a volume or a light shader");

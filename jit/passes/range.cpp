@@ -79,6 +79,20 @@ Range floored(const Range& a) {
   return a.is_bounded() ? Range{std::floor(a.low), std::floor(a.high), false} : Range{};
 }
 
+/// Of x - floor(x), which rounds to 1 just below a whole number.
+Range fraction(const Range& x) { return x.is_bounded() ? Range{0, 1, false} : Range{}; }
+
+/// Of Op::exp, whose kernels need not round right.
+Range exponential(const Range& a) {
+  if (!a.is_bounded()) return {};
+  const Range exact = rounded(std::exp(a.low), std::exp(a.high));
+  return exact.is_bounded() ? rounded(exact.low, exact.high) : exact;
+}
+
+Range intersection(const Range& a, const Range& b) {
+  return {std::max(a.low, b.low), std::min(a.high, b.high), a.nan && b.nan};
+}
+
 /// Of Op::f_to_i.
 Range whole(const Range& a) {
   return a.is_bounded() ? Range{std::trunc(a.low), std::trunc(a.high), false} : Range{};
@@ -131,8 +145,8 @@ class Ranges {
       case Op::input: return inputs_.empty() ? Range{} : inputs_[x.imm];
       case Op::floor: return inputs_.empty() ? Range{} : floored(at(x, 0));
       case Op::add: return total(at(x, 0), at(x, 1));
-      case Op::sub: return total(at(x, 0), negated(at(x, 1)));
-      case Op::mul: return product(at(x, 0), at(x, 1));
+      case Op::sub: return difference(x);
+      case Op::mul: return of_product(x);
       case Op::fma: return sum(product(at(x, 0), at(x, 1)), at(x, 2));
       case Op::div: return quotient(at(x, 0), at(x, 1));
       case Op::min: return least(at(x, 0), at(x, 1));
@@ -146,8 +160,30 @@ class Ranges {
       case Op::sin:
       case Op::cos: return {-1, 1, !at(x, 0).is_bounded()};
       case Op::table: return tables_[x.imm];
+      case Op::exp: return inputs_.empty() ? Range{} : exponential(at(x, 0));
+      case Op::i_to_f: return inputs_.empty() ? Range{} : of_whole(at(x, 0));
+      case Op::u_to_f: return inputs_.empty() ? Range{} : rounded(0, 0x1p32);
       default: return {};
     }
+  }
+
+  Range difference(const Instruction& x) const {
+    const Range plain = total(at(x, 0), negated(at(x, 1)));
+    const Instruction& floor = program_.entry().code[x.operands[1]];
+    const bool is_fraction = floor.op == Op::floor && floor.operands[0] == x.operands[0];
+    if (inputs_.empty() || !is_fraction) return plain;
+    return intersection(plain, fraction(at(x, 0)));
+  }
+
+  Range of_product(const Instruction& x) const {
+    const Range plain = product(at(x, 0), at(x, 1));
+    if (inputs_.empty() || x.operands[0] != x.operands[1] || !plain.is_bounded()) return plain;
+    return {std::max(plain.low, 0.0), plain.high, false};
+  }
+
+  /// Of an i32 as a float.
+  static Range of_whole(const Range& a) {
+    return a.is_bounded() ? rounded(a.low, a.high) : rounded(-0x1p31, 0x1p31);
   }
 
   /// Numbers that are known add up to one that is: so it stays the number of a tile.
@@ -187,6 +223,16 @@ std::vector<Range> ranges_of(const Program& program) { return Ranges(program).ru
 
 std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs) {
   return Ranges(program, inputs).run();
+}
+
+std::vector<Range> output_ranges(const Program& program, std::span<const Range> inputs) {
+  const std::vector<Range> all = ranges_of(program, inputs);
+  std::vector<Range> outputs(program.outputs.size());
+  const std::vector<Instruction>& code = program.entry().code;
+  for (const Instruction& instruction : code) {
+    if (instruction.op == Op::store) outputs[instruction.imm] = all[instruction.operands[0]];
+  }
+  return outputs;
 }
 
 }  // namespace nacre

@@ -27,4 +27,7 @@ std::vector<Range> ranges_of(const Program& program);
 /// The same where so much is known of each of Program::inputs. Then i32 values have ranges, too.
 std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs);
 
+/// Of each of Program::outputs, where so much is known of each of Program::inputs.
+std::vector<Range> output_ranges(const Program& program, std::span<const Range> inputs);
+
 }  // namespace nacre

@@ -103,6 +103,7 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   MaterialKernels& kernels = recorded.kernels;
   kernels.has_surface = surface != nullptr;
   kernels.has_light = has(Type::lightshader);
+  kernels.has_volume = has(Type::volumeshader);
   kernels.has_back = sides.back != nullptr;
   kernels.lobes = surface_kernels.lobes;
   kernels.manifest = surface_kernels.manifest;
@@ -153,6 +154,9 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
       continue;
     }
     add_entry(found->place, found->name, list, Keeps::pass);
+    if (found->type == Type::displacementshader) {
+      kernels.recorded_displacement = std::make_shared<const Program>(recorded.programs.back());
+    }
   }
   // The state has no place in a call that asks everything at once.
   if (wants(entry_shade)) {

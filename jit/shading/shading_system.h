@@ -141,6 +141,7 @@ bool has_kernel(Type type);
 struct MaterialKernels {
   bool has_surface = true;  ///< The material has a surface shader.
   bool has_light = false;   ///< It has a light shader: dark, where `light` is absent.
+  bool has_volume = false;  ///< It has a volume shader: empty space, where `volume` is absent.
   /// The back shows another shader: to be compiled with ShaderOptions::side and used
   /// where dot(Ng, wo) < 0. Else these kernels are those of both sides (MaterialX PBS 1.39,
   /// "Surfaces").
@@ -164,6 +165,9 @@ struct MaterialKernels {
   /// @{
   std::optional<BoundKernel> displacement, volume, light;
   /// @}
+  /// What `displacement` computes as it was recorded, before any pass: what is known of its results
+  /// (jit/passes/range.h) is less of what passes make of it. Null where that is absent.
+  std::shared_ptr<const Program> recorded_displacement;
   /// Only if requested: what the surface encloses, see SurfaceKernels. Then the manifest does not
   /// say that its medium is left out.
   std::optional<BoundKernel> interior;

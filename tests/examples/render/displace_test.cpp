@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "examples/render/builtin_scene.h"
 #include "examples/render/mesh.h"
@@ -19,8 +20,8 @@ namespace {
 class MovingShader final : public LambertShader {
  public:
   using Offset = std::function<Vec3(Vec3 P, Vec3 N)>;
-  explicit MovingShader(Offset offset)
-      : LambertShader({1.f, 1.f, 1.f}), offset_(std::move(offset)) {}
+  explicit MovingShader(Offset offset, std::optional<Bounds> known = {})
+      : LambertShader({1.f, 1.f, 1.f}), offset_(std::move(offset)), known_(known) {}
   Capabilities capabilities() const override {
     Capabilities c;
     c.displaces = true;
@@ -31,9 +32,13 @@ class MovingShader final : public LambertShader {
       store(offset, i, offset_(load(batch.P, i), load(batch.N, i)));
     }
   }
+  Bounds displacement_box(const ShadingBatch& corners) const override {
+    return known_ ? *known_ : LambertShader::displacement_box(corners);
+  }
 
  private:
   Offset offset_;
+  std::optional<Bounds> known_;
 };
 
 Mesh finished(std::vector<Vec3> corners, std::vector<Triangle> triangles) {
@@ -165,6 +170,84 @@ Displaced displaced(Mesh mesh, const MovingShader& shader, DisplaceSettings sett
   all.result =
       displace(all.scene, {&shader}, PixelCamera(camera, 100, 100, 1.f), camera.position, settings);
   return all;
+}
+
+/// Where the surface was, over what a pixel sees from (0, 0, 5) where it is now.
+struct Edges {
+  float longest = 0.f, longest_far = 0.f;  ///< Of all; of those with x > 0.8.
+};
+Edges edges_in_pixels(const Mesh& mesh) {
+  const Camera camera = look_at({0, 0, 5}, {}, 0.6f);
+  const float angle = PixelCamera(camera, 100, 100, 1.f).sample_angle();
+  Edges edges;
+  for (const Triangle& t : mesh.triangles) {
+    for (int c = 0; c < 3; ++c) {
+      const std::uint32_t a = t.v[c], b = t.v[(c + 1) % 3];
+      const Vec3 now = 0.5f * (mesh.position[a] + mesh.position[b]);
+      const float half = 0.3f * 0.9f * (5.f - now.z);  // Of the picture there.
+      if (std::abs(now.x) > half || std::abs(now.y) > half) continue;
+      const float was = length(mesh.position_object[a] - mesh.position_object[b]);
+      const float pixels = was / (angle * length(now - Vec3{0, 0, 5}));
+      edges.longest = std::max(edges.longest, pixels);
+      if (now.x > 0.8f) edges.longest_far = std::max(edges.longest_far, pixels);
+    }
+  }
+  return edges;
+}
+
+// What displacement brings near is as fine as what is there; the box of offsets need not be known.
+TEST(Displace, WhatComesNearIsFine) {
+  const auto lift = [](Vec3, Vec3) { return Vec3{0, 0, 3.f}; };
+  const Bounds exact{{0, 0, 3.f}, {0, 0, 3.f}};
+  for (const std::optional<Bounds>& known : {std::optional<Bounds>(), std::optional(exact)}) {
+    const Displaced near = displaced(square(), MovingShader(lift, known));
+    EXPECT_TRUE(near.result.coarse.empty());
+    EXPECT_LE(edges_in_pixels(near.mesh()).longest, 1.001f);
+    EXPECT_GT(edges_in_pixels(near.mesh()).longest, 0.5f);
+  }
+  // One end comes near, and the other stays.
+  const auto ramp = [](Vec3 p, Vec3) { return Vec3{0, 0, 1.5f * (1.f - p.x)}; };
+  const Displaced slope = displaced(square(), MovingShader(ramp));
+  EXPECT_LE(edges_in_pixels(slope.mesh()).longest, 1.2f);
+  EXPECT_GT(edges_in_pixels(slope.mesh()).longest_far, 0.4f);
+  EXPECT_LT(slope.mesh().triangles.size(),
+            2 * displaced(square(), MovingShader(lift)).mesh().triangles.size() / 3);
+}
+
+// What comes near beside the picture stays as fine as it was; a corner of it is seen.
+TEST(Displace, WhatComesNearBesideThePictureIsLeft) {
+  const auto at = [](float x) { return MovingShader([x](Vec3, Vec3) { return Vec3{x, 0, 3.f}; }); };
+  const std::size_t still =
+      displaced(square(), MovingShader([](Vec3, Vec3) { return Vec3{}; })).mesh().triangles.size();
+  EXPECT_EQ(displaced(square(), at(4.f)).mesh().triangles.size(), still);
+  EXPECT_GT(displaced(square(), at(1.f)).mesh().triangles.size(), still * 3 / 2);
+  EXPECT_LT(displaced(square(), at(1.f)).mesh().triangles.size(),
+            displaced(square(), at(0.f)).mesh().triangles.size());
+}
+
+// Next to the eye there is an end.
+TEST(Displace, WhatComesToTheEyeIsNoFinerThanAnEighth) {
+  const auto lift = [](Vec3, Vec3) { return Vec3{0, 0, 4.9999f}; };
+  DisplaceSettings settings;
+  settings.edge = 4.f;
+  const Displaced near = displaced(square(), MovingShader(lift), settings);
+  EXPECT_TRUE(near.result.coarse.empty());
+  const Displaced still =
+      displaced(square(), MovingShader([](Vec3, Vec3) { return Vec3{}; }), settings);
+  EXPECT_LE(near.mesh().triangles.size(), 80 * still.mesh().triangles.size());
+}
+
+// What is known to be moved away need not be as fine; what is only so at a few points is.
+TEST(Displace, WhatIsKnownToGoAwayIsCoarse) {
+  const auto drop = [](Vec3, Vec3) { return Vec3{0, 0, -20.f}; };
+  const Bounds exact{{0, 0, -20.f}, {0, 0, -20.f}}, loose{{-30, -30, -30}, {30, 30, 30}};
+  const std::size_t still =
+      displaced(square(), MovingShader([](Vec3, Vec3) { return Vec3{}; })).mesh().triangles.size();
+  EXPECT_EQ(displaced(square(), MovingShader(drop)).mesh().triangles.size(), still);
+  EXPECT_EQ(displaced(square(), MovingShader(drop, loose)).mesh().triangles.size(), still);
+  const Displaced far = displaced(square(), MovingShader(drop, exact));
+  EXPECT_LT(far.mesh().triangles.size(), still / 16);
+  EXPECT_LE(edges_in_pixels(far.mesh()).longest, 1.001f);
 }
 
 TEST(Displace, MovesAlongTheNormal) {

@@ -32,6 +32,7 @@ const std::vector<OracleCase>& oracle_cases() {
   static const std::vector<OracleCase> cases = [] {
     std::vector<OracleCase> all = broad_cases();
     for (OracleCase& row : facet_cases()) all.push_back(std::move(row));
+    for (OracleCase& row : film_cases()) all.push_back(std::move(row));
     return all;
   }();
   return cases;

@@ -20,6 +20,7 @@ struct OracleInputs {
   T roughness{0.3f};
   T alpha_x{0.3f}, alpha_y{0.3f};
   T index{1.5f}, extinction{0.0f};
+  T film_thickness{0.0f}, film_index{1.5f};  ///< nm.
   T exponent{5.0f};
   T variance{0.1f}, scale{0.2f}, cuticle_angle{0.5f}, absorption{0.0f};  ///< Hair.
 };
@@ -29,6 +30,7 @@ void visit_inputs(Inputs& in, F&& f) {
   f("color", in.color), f("color82", in.color82), f("color90", in.color90);
   f("roughness", in.roughness), f("alpha_x", in.alpha_x), f("alpha_y", in.alpha_y);
   f("index", in.index), f("extinction", in.extinction), f("exponent", in.exponent);
+  f("film_thickness", in.film_thickness), f("film_index", in.film_index);
   f("variance", in.variance), f("scale", in.scale), f("cuticle_angle", in.cuticle_angle);
   f("absorption", in.absorption);
 }
@@ -68,8 +70,9 @@ struct OracleCase {
   /// By which a rounding of the directions counts: as the angle over which f changes, at most 1.
   double (*width)(const Values&, reference::Vec wo, reference::Vec wi, bool inside);
   OracleGate standard{1e-4, 1e-4}, fast{1e-3, 1e-3};
-  double albedo = 1e-4;     ///< Error of the albedo kernel at standard, of the light.
-  bool is_fast_too = true;  ///< Else what is narrower than `fast` knows: mirrors there.
+  double albedo = 1e-4;      ///< Error of the albedo kernel at standard, of the light.
+  bool is_fast_too = true;   ///< Else what is narrower than `fast` knows: mirrors there.
+  bool thin_walled = false;  ///< Of the surface: there is no inside.
 };
 
 const std::vector<OracleCase>& oracle_cases();

@@ -114,6 +114,7 @@ std::shared_ptr<const Kernel> oracle_kernel(const OracleCase& row, Accuracy accu
   visit_inputs(inputs, [&](const char* name, Float& x) { x = input(recorder, name); });
   Surface surface;
   surface.bsdf = microfacet_bsdf(recorder, row.category, row.ports(inputs), accuracy);
+  surface.thin_walled = row.thin_walled;
   const SurfaceKernels kernels = record_kernels(recorder, surface, accuracy, {});
   std::vector<SliceOutput> outputs = kernels.evaluate;
   outputs.insert(outputs.end(), kernels.albedo.begin(), kernels.albedo.end());

@@ -6,11 +6,12 @@
 
 namespace nacre {
 
-/// The rows of oracle_cases(), by what they are of: lobes that spread widely and fibres, and
-/// facets.
+/// The rows of oracle_cases(), by what they are of: lobes that spread widely and fibres, facets,
+/// and facets under films or of walls without an inside.
 /// @{
 std::vector<OracleCase> broad_cases();
 std::vector<OracleCase> facet_cases();
+std::vector<OracleCase> film_cases();
 /// @}
 
 /// By angles to the normal and about it, in radians.
