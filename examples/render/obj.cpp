@@ -16,6 +16,7 @@
 #include "examples/render/mesh.h"
 #include "examples/render/scene_budget.h"
 #include "examples/render/scene_file.h"
+#include "runtime/mix_bits.h"
 
 namespace nacre::host {
 
@@ -60,19 +61,14 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
-/// The finalizer of SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number
-/// Generators, 2014) after each index, from a number that no file can know: corners that
-/// were chosen to fall into one bucket do not.
+/// From a number that no file can know: corners that were chosen to fall into one bucket do not.
 struct CornerHash {
   std::uint64_t secret = (std::uint64_t{std::random_device()()} << 32) | std::random_device()();
 
   std::size_t operator()(const Corner& c) const {
     std::uint64_t h = secret;
     for (const long long index : {c.v, c.vt, c.vn}) {
-      h ^= static_cast<std::uint64_t>(index);
-      h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9u;
-      h = (h ^ h >> 27) * 0x94d049bb133111ebu;
-      h ^= h >> 31;
+      h = mix_bits(h ^ static_cast<std::uint64_t>(index));
     }
     return static_cast<std::size_t>(h);
   }

@@ -20,7 +20,7 @@ constexpr std::size_t mesh_bytes = sizeof(Mesh) + 2048;
 // Of an instance: Embree's geometry and its part of the hierarchy, and matrices, ours and Embree's.
 constexpr std::size_t segment_bytes = 2048;
 constexpr std::size_t step_bytes = 160;
-// Of one that stands still: half of a kilobyte, seen where a million are.
+// Of one that stands still: room for Embree's geometry and its matrix, and ours.
 constexpr std::size_t still_instance_bytes = 640;
 
 std::size_t bytes_of(std::size_t vertices, std::size_t triangles, std::size_t other) {

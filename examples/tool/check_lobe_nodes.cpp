@@ -13,6 +13,7 @@
 #include "examples/tool/lobe_report.h"
 #include "jit/document/definitions.h"
 #include "jit/document/document.h"
+#include "jit/document/write.h"
 #include "runtime/near_names.h"
 
 namespace nacre::tool {
@@ -25,25 +26,12 @@ using Inputs = std::vector<LobeInput>;
 
 constexpr const char* material_name = "nacre_check_lobe";
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += letter;
-    }
-  }
-  return result;
-}
-
 /// A material of that lobe alone. It includes the document, which may declare the node.
 std::string material_of(const NodeDef& def, const Inputs& inputs, const std::string& file) {
   std::string values;
   for (const LobeInput& input : inputs) {
-    values += fmt::format(R"(<input name="{}" type="{}" value="{}"/>)", escaped(input.name),
-                          escaped(input.type), escaped(input.value));
+    values += fmt::format(R"(<input name="{}" type="{}" value="{}"/>)", xml_text(input.name),
+                          xml_text(input.type), xml_text(input.value));
   }
   return fmt::format(
       R"(<materialx version="1.39"><xi:include href="{0}"/>
@@ -51,7 +39,7 @@ std::string material_of(const NodeDef& def, const Inputs& inputs, const std::str
 <surface name="{2}_s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="{2}_b"/></surface>
 <surfacematerial name="{2}" type="material">
 <input name="surfaceshader" type="surfaceshader" nodename="{2}_s"/></surfacematerial></materialx>)",
-      escaped(file), def.category, material_name, escaped(def.name), values);
+      xml_text(file), def.category, material_name, xml_text(def.name), values);
 }
 
 class LobeNodes {

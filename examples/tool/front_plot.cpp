@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "jit/document/write.h"
+
 namespace nacre::tool {
 
 namespace {
@@ -20,19 +22,6 @@ constexpr double least_error = 1e-8;
 /// Okabe and Ito's (2008), told apart by the colour-blind, too; black for the axes.
 constexpr std::array<std::string_view, 7> colors{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#7f7f00"};
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&': safe += "&amp;"; break;
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      default: safe += c;
-    }
-  }
-  return safe;
-}
 
 /// A logarithmic axis over whole decades.
 class Axis {
@@ -138,14 +127,14 @@ class Plot {
     const double y = top + line * static_cast<double>(number);
     out_ += fmt::format(R"(<rect x="{}" y="{:.1f}" width="10" height="10" fill="{}"/>)", legend, y,
                         color);
-    add_text(legend + 16, y + 9, "start", escaped(subject.name));
+    add_text(legend + 16, y + 9, "start", xml_text(subject.name));
   }
   /// `name`: what is shown where it is pointed at.
   void add_disc(const Candidate& one, double radius, std::string_view fill, std::string_view stroke,
                 const std::string& name) {
     out_ += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{}" fill="{}" stroke="{}">)"
                         R"(<title>{}</title></circle>)",
-                        x_.at(cost(one)), y_.at(error(one)), radius, fill, stroke, escaped(name));
+                        x_.at(cost(one)), y_.at(error(one)), radius, fill, stroke, xml_text(name));
   }
 
   double max_error_;

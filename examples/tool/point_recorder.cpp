@@ -5,20 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "runtime/mix_bits.h"
+
 namespace nacre::tool {
 
 namespace {
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014, figure 15 and its variant 13).
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 std::uint64_t hash_of(const std::vector<std::uint32_t>& bits) {
   std::uint64_t hash = 0;
-  for (const std::uint32_t each : bits) hash = mixed(hash + 0x9e3779b97f4a7c15u + each);
+  for (const std::uint32_t each : bits) hash = mix_bits(hash + 0x9e3779b97f4a7c15u + each);
   return hash;
 }
 

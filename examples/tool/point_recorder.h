@@ -37,7 +37,8 @@ class PointRecorder {
   std::map<std::uint64_t, std::vector<std::uint32_t>> kept_;  ///< By hash: bits of all wanted.
 };
 
-/// Of one material that several shaders were made for: what all of them have recorded.
+/// Of one material that several shaders were made for: the points of all of them, with the channels
+/// that all of them read.
 PointsOfMaterial joined(std::vector<PointsOfMaterial> points);
 
 }  // namespace nacre::tool

@@ -135,7 +135,7 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
   options.common.add_profile(command);
   command
       .add_option("--record-points", options.points_file,
-                  "Write where materials are shaded, up to 4096 points of each, for nacre tune "
+                  "Write where materials are shaded, some thousand points of each, for nacre tune "
                   "--recorded")
       ->type_name("FILE.json");
   options.common.add_waiting(command);

@@ -189,4 +189,10 @@ std::string write_document(const Document& document, const WriteOptions& options
   return Writer(document, options).write();
 }
 
+std::string xml_text(std::string_view text) {
+  std::string safe;
+  append_escaped(safe, text, true);
+  return safe;
+}
+
 }  // namespace nacre

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "jit/document/document.h"
 
@@ -21,5 +22,8 @@ struct WriteOptions {
 /// the folder of the first file gives an equal document; a local element that an
 /// include's hides is not in it.
 std::string write_document(const Document& document, const WriteOptions& options = {});
+
+/// A text as XML has it between the quotes of an attribute, or between tags.
+std::string xml_text(std::string_view text);
 
 }  // namespace nacre

@@ -4,17 +4,15 @@
 #include <bit>
 #include <string_view>
 
+#include "runtime/mix_bits.h"
+
 namespace nacre {
 
 namespace {
 
-/// SplitMix64's finaliser (Steele, Lea, Flood 2014, "Fast Splittable Pseudorandom Number
-/// Generators", figure 16: mix64variant13) of both numbers.
+/// Of both numbers, in this order.
 std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
-  std::uint64_t z = std::rotl(a, 23) + b + 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
+  return mix_bits(std::rotl(a, 23) + b + 0x9e3779b97f4a7c15u);
 }
 
 std::uint64_t digest_of(std::string_view name) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <set>
 #include <utility>
 
 #include "jit/tune/choices.h"
@@ -18,6 +19,13 @@ std::vector<float> every_second(const std::vector<T>& column, std::size_t first)
   for (std::size_t i = first; i < column.size(); i += 2)
     half.push_back(std::bit_cast<float>(column[i]));
   return half;
+}
+
+/// What is not recorded of the points that are, and so is as at points of no scene.
+std::string missing_text(const TuneTrial& exactly, const Columns& recorded) {
+  std::set<std::string> missing = exactly.point_channels();
+  std::erase_if(missing, [&](const std::string& name) { return recorded.contains(name); });
+  return missing.empty() ? "" : fmt::format(", but for {}", fmt::join(missing, ", "));
 }
 
 /// Points of a material, or null, with a warning where others are recorded.
@@ -62,7 +70,8 @@ std::optional<Examination> examine(const TuneSubject& subject, const TuneTrial& 
     for (const auto& [name, column] : own->integers) {
       made.points.given[name] = every_second(column, number);
     }
-    made.about = fmt::format("{} points that a renderer has recorded", made.points.set.count);
+    made.about = fmt::format("{} points that a renderer has recorded{}", made.points.set.count,
+                             missing_text(exactly, made.points.given));
   } else {
     made.about = fmt::format(
         "{} points: P in [-4, 4]^3, uv in [0, 1]^2, viewer above the surface, light from "

@@ -10,6 +10,7 @@
 
 #include "jit/tune/estimate.h"
 #include "runtime/channel/channel_name.h"
+#include "runtime/channel/channel_table.h"
 #include "runtime/program/digest.h"
 
 namespace nacre {
@@ -102,6 +103,19 @@ Columns TuneTrial::results(const TunePoints& points) const {
       });
   all.erase("pdf");
   return is_done ? all : Columns();
+}
+
+std::set<std::string> TuneTrial::point_channels() const {
+  std::set<std::string> found;
+  for (const auto& [name, kernel] : kernels()) {
+    for (const Channel& channel : kernel->program().inputs) {
+      const ChannelGroup* const known = find_channel_group(parse_channel(channel.name).group);
+      const bool is_asked = known != nullptr && (known->role == ChannelRole::direction ||
+                                                 known->role == ChannelRole::state);
+      if (!is_asked) found.insert(channel.name);
+    }
+  }
+  return found;
 }
 
 Columns TuneTrial::directions(const TunePoints& points) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,6 +48,9 @@ class TuneTrial {
   /// have no exact values but those that `sample` keeps. Empty where a kernel did not run to its
   /// end.
   Columns results(const TunePoints& points) const;
+
+  /// Of its kernels, what a renderer gives of each point.
+  std::set<std::string> point_channels() const;
 
   /// Directions to evaluate a material at: every second of those that it samples, where it does,
   /// the others anywhere on the sphere.

@@ -281,7 +281,7 @@ typedef struct nacre_compile_options {
   double error_floor;       /* Errors are shares of a number, or of so much of the largest number of
                                its channel where that is more. 0: 0.01. */
   int error_is_absolute;    /* 1: they are differences. */
-  uint32_t error_points;    /* At how many points. 0: 2048. */
+  uint32_t error_points;    /* At how many points, 1,000 to 1,000,000. 0: 2048. */
   const char* error_record; /* What `nacre render --record-points` wrote, the text: of materials, to
                                measure where a scene shades them. NULL: at points of every kind. */
   int measure_error;        /* 1: nacre_shader_error is wanted of what is compiled as it is asked

@@ -132,7 +132,7 @@ struct CompileOptions {
   double max_error = 0;    ///< Greater than 0: the cheapest that is no further off.
   double error_floor = 0;  ///< 0: 0.01.
   bool error_is_absolute = false;
-  std::uint32_t error_points = 0;  ///< 0: 2048.
+  std::uint32_t error_points = 0;  ///< 1,000 to 1,000,000; 0: 2048.
   std::string error_record;        ///< The text of `nacre render --record-points`; empty: none.
   bool measure_error = false;      ///< Shader::error() is wanted of what is asked for.
 };

@@ -88,7 +88,7 @@ class CompileOptions(TypedDict, total=False):
     max_error: float
     error_floor: float  # Errors are shares of a number, or of so much of its channel's largest; 0.01.
     error_is_absolute: bool  # They are differences.
-    error_points: int  # At how many points; 2048 unless set.
+    error_points: int  # At how many points, 1,000 to 1,000,000; 2048 unless set.
     # The text that `nacre render --record-points` wrote: of materials, measure where a scene shades
     # them.
     error_record: str
