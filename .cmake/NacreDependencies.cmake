@@ -2,6 +2,7 @@
 find_package(Threads REQUIRED)
 find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(fmt REQUIRED)
+find_package(JPEG REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(xsimd REQUIRED)
 find_package(ZLIB REQUIRED)

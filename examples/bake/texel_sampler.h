@@ -26,6 +26,7 @@ class TexelSampler {
   /// Texels from `begin`, of `texels_`, which are `count`; planes begin at row `first`.
   RunStatus strip(std::size_t begin, std::size_t count, std::size_t first,
                   std::vector<std::vector<float>>& planes, const std::atomic<std::uint32_t>& stop);
+  void list_texels(std::size_t begin, std::size_t all);
   void add_samples(std::size_t count);
 
   PointShader& shader_;

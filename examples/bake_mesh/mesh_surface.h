@@ -46,6 +46,7 @@ class MeshSurface : public BakeSurface {
                                            Diagnostics& diagnostics);
   ~MeshSurface() override;
 
+  const Scene& scene() const { return scene_; }
   /// ShaderOptions::varying of kernels for it: matrices, and presences of properties.
   std::vector<std::string> varying() const;
   /// Whether a mesh has a vertex attribute (PrimvarRequest) or such a transport property.

@@ -1,11 +1,16 @@
 #include "examples/encode/png_strip.h"
 
+#include <libdeflate.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <span>
+
+#include "examples/encode/deflate_blocks.h"
 
 namespace nacre::host {
 
@@ -37,16 +42,15 @@ struct Deflate {
   int memory;  ///< Its level, 1 to 9.
 };
 
-/// A piece of a stream of raw deflate, at the quickest level: a bake waits for this more than for
-/// shading.
-std::vector<unsigned char> deflated(std::vector<unsigned char>& bytes, const Deflate& how) {
+/// A piece of a stream of raw deflate by zlib, at its quickest level.
+std::vector<unsigned char> deflated(std::span<const unsigned char> bytes, const Deflate& how) {
   z_stream stream{};
   if (deflateInit2(&stream, 1, Z_DEFLATED, -MAX_WBITS, how.memory, how.strategy) != Z_OK) {
     throw std::bad_alloc();
   }
   const auto size = static_cast<uInt>(bytes.size());
   std::vector<unsigned char> out(deflateBound(&stream, size) + 16);  // And the mark of a flush.
-  stream.next_in = bytes.data();
+  stream.next_in = const_cast<Bytef*>(bytes.data());                 // It is only read.
   stream.avail_in = size;
   stream.next_out = out.data();
   stream.avail_out = static_cast<uInt>(out.size());
@@ -73,7 +77,7 @@ double coded_size(const std::vector<unsigned char>& bytes) {
 bool is_noise(const std::vector<unsigned char>& bytes) {
   constexpr std::ptrdiff_t tried = 8 << 10;
   if (bytes.size() < 4 * tried) return false;
-  std::vector<unsigned char> some(bytes.begin(), bytes.begin() + tried);
+  const std::vector<unsigned char> some(bytes.begin(), bytes.begin() + tried);
   const double coded = coded_size(some);
   if (coded < 0.375 * tried) return false;
   const std::vector<unsigned char> small =
@@ -81,19 +85,42 @@ bool is_noise(const std::vector<unsigned char>& bytes) {
   return static_cast<double>(small.size()) > 0.9 * coded;
 }
 
+/// The same of what is no noise, mostly by libdeflate: a bake waits for this more than for shading.
+std::vector<unsigned char> deflated(std::span<const unsigned char> bytes, bool is_last) {
+  DeflateBlocks blocks;
+  std::vector<unsigned char> stream;
+  std::size_t most = 2 * DeflateBlocks::block_bytes;  // Mostly one block too, and fewer begin anew.
+  while (!bytes.empty()) {
+    const auto block = bytes.first(std::min(bytes.size(), most));
+    const bool ends = is_last && block.size() == bytes.size();
+    const bool is_added = blocks.add(block, ends, stream);
+    if (!is_added && most > DeflateBlocks::block_bytes) {
+      most = DeflateBlocks::block_bytes;
+      continue;
+    }
+    bytes = bytes.subspan(block.size());
+    if (is_added) continue;
+    const std::vector<unsigned char> piece =
+        deflated(block, {.strategy = Z_DEFAULT_STRATEGY,
+                         .flush = ends ? Z_FINISH : Z_SYNC_FLUSH,
+                         .memory = MAX_MEM_LEVEL});
+    stream.insert(stream.end(), piece.begin(), piece.end());
+  }
+  return stream;
+}
+
 }  // namespace
 
 PngStrip compress_strip(const std::vector<unsigned char>& rows, std::size_t row_bytes,
                         std::size_t texel_bytes, bool is_last) {
-  std::vector<unsigned char> bytes = filtered(rows, row_bytes, texel_bytes);
+  const std::vector<unsigned char> bytes = filtered(rows, row_bytes, texel_bytes);
   PngStrip strip;
   // A flush ends at a byte, so that the next piece can follow.
-  strip.deflated =
-      deflated(bytes, {.strategy = is_noise(bytes) ? Z_HUFFMAN_ONLY : Z_DEFAULT_STRATEGY,
-                       .flush = is_last ? Z_FINISH : Z_SYNC_FLUSH,
-                       .memory = MAX_MEM_LEVEL});
-  strip.checksum = static_cast<std::uint32_t>(
-      adler32(adler32(0, nullptr, 0), bytes.data(), static_cast<uInt>(bytes.size())));
+  strip.deflated = is_noise(bytes) ? deflated(bytes, {.strategy = Z_HUFFMAN_ONLY,
+                                                      .flush = is_last ? Z_FINISH : Z_SYNC_FLUSH,
+                                                      .memory = MAX_MEM_LEVEL})
+                                   : deflated(bytes, is_last);
+  strip.checksum = libdeflate_adler32(1, bytes.data(), bytes.size());
   strip.raw_bytes = bytes.size();
   return strip;
 }
@@ -104,8 +131,7 @@ std::vector<unsigned char> png_chunk(const char* letters, const std::vector<unsi
   append_big_endian(chunk, static_cast<std::uint32_t>(data.size()));
   chunk.insert(chunk.end(), letters, letters + 4);
   chunk.insert(chunk.end(), data.begin(), data.end());
-  append_big_endian(chunk,
-                    static_cast<std::uint32_t>(crc32_z(0, chunk.data() + 4, chunk.size() - 4)));
+  append_big_endian(chunk, libdeflate_crc32(0, chunk.data() + 4, chunk.size() - 4));
   return chunk;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "examples/bake/plane_tiles.h"
 #include "examples/bake/write_texture.h"
@@ -18,12 +19,12 @@
 #include "examples/tool/mesh_options.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
+#include "examples/tool/output_compilation.h"
 #include "examples/tool/process.h"
 #include "examples/tool/sampling_request.h"
 #include "examples/tool/stop.h"
 #include "examples/tool/texture_request.h"
 #include "examples/tool/udim.h"
-#include "jit/graph/build/build.h"
 #include "jit/graph/find.h"
 #include "runtime/near_names.h"
 
@@ -132,26 +133,22 @@ std::vector<Piece> pieces(const BakeOptions& options, const Opened& opened,
 }
 
 /// Says what is known of files that are there already.
-void report_kept(const Piece& piece, const BakeLedger& ledger, BakeReport& report) {
+void report_kept(const Piece& piece, const BakeTarget& target, const BakeLedger& ledger,
+                 BakeReport& report) {
   for (std::size_t i = 0; i < piece.items.size(); ++i) {
     if (piece.steps[i] != BakeStep::keep) continue;
     report.add(kept_map(piece.items[i].path, ledger.record(piece.items[i]), piece.texture,
-                        ledger.is_merging()));
+                        target.surface() != nullptr, ledger.is_merging()));
   }
 }
 
 /// One output into its files.
 void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& piece,
                 host::BakeSettings settings, const std::vector<UdimTile>& tiles,
-                ShaderOptions shader, BakeLedger& ledger, BakeTarget& target, BakeReport& report,
-                Diagnostics& diagnostics) {
+                OutputCompilation& compilation, BakeLedger& ledger, BakeTarget& target,
+                BakeReport& report, Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.error_count();
-  shader = reproducible(with_profile(opened, piece.name, false, std::move(shader), diagnostics));
-  shader.compile.stop = stop_from_now(shader.compile);
-  const auto graph = build_graph(*opened.document, opened.system->library(),
-                                 {.outputs = {piece.name}, .material = {}},
-                                 opened.system->graph_options(shader), diagnostics);
-  const auto kernel = graph ? opened.system->compile_outputs(*graph, shader, diagnostics) : nullptr;
+  const auto [graph, kernel] = compilation.finish(diagnostics);
   if (kernel == nullptr) return;
   if (!target.prepare(*graph, kernel->kernel.program(), false, piece.where)) return;
   settings.width = piece.texture.width;
@@ -191,7 +188,7 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
     }
     if (stop().is_due()) return;
   }
-  report_code(kernel->kernel, shader, diagnostics);
+  report_code(kernel->kernel, compilation.shader(), diagnostics);
 }
 
 void bake_outputs(const BakeOptions& options, const Opened& opened,
@@ -200,18 +197,29 @@ void bake_outputs(const BakeOptions& options, const Opened& opened,
                   Diagnostics& diagnostics) {
   const std::vector<Piece> all = pieces(options, opened, settings, tiles, ledger, diagnostics);
   for (const Piece& piece : all) {
-    report_kept(piece, ledger, report);
+    report_kept(piece, target, ledger, report);
     for (std::size_t i = 0; i < piece.items.size(); ++i) {
       if (piece.steps[i] != BakeStep::bake) continue;
       promise_files({piece.items[i].path});
       if (!host::prepare_image(piece.items[i].path, diagnostics)) return;
     }
   }
+  std::vector<const Piece*> wanted;
   for (const Piece& piece : all) {
+    if (piece.has(BakeStep::bake)) wanted.push_back(&piece);
+  }
+  const auto compilation_of = [&](std::size_t i) -> std::unique_ptr<OutputCompilation> {
+    if (i >= wanted.size()) return nullptr;
+    const TextureSettings& texture = wanted[i]->texture;
+    shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
+    return std::make_unique<OutputCompilation>(opened, wanted[i]->name, shader);
+  };
+  std::unique_ptr<OutputCompilation> next = compilation_of(0);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (stop().is_due()) return;
-    if (!piece.has(BakeStep::bake)) continue;
-    shader.graph.output_space = host::output_space(piece.texture.extension, piece.texture.encoding);
-    bake_piece(options, opened, piece, settings, tiles, shader, ledger, target, report,
+    // The one after it is compiled while this one is baked.
+    const std::unique_ptr<OutputCompilation> now = std::exchange(next, compilation_of(i + 1));
+    bake_piece(options, opened, *wanted[i], settings, tiles, *now, ledger, target, report,
                diagnostics);
   }
 }
@@ -278,6 +286,9 @@ int bake_all(BakeOptions& options, host::BakeSettings& settings, BakeReport& tol
   if (options.manifest.is_asked() && !describe_inputs(options.common, opened, head, diagnostics)) {
     return report(diagnostics);
   }
+  if (options.manifest.is_asked() && target.surface() != nullptr) {
+    options.mesh.describe(*target.surface(), head);
+  }
   BakeLedger ledger(options.manifest, options.out, options.common.file, std::move(head));
   if (!ledger.open(diagnostics)) return report(diagnostics);
   if (options.document.empty()) {
@@ -307,13 +318,6 @@ int bake_all(BakeOptions& options, host::BakeSettings& settings, BakeReport& tol
 int run(BakeOptions& options) {
   Diagnostics diagnostics;
   host::BakeSettings settings;
-  if (!options.mesh.scene.empty() && options.manifest.is_asked()) {
-    diagnostics.error("no-manifest-of-meshes", {},
-                      "nothing is recorded or shared of what is baked on meshes",
-                      "--scene, or --manifest, --shard or --merge");
-    report(diagnostics);
-    return status_usage;
-  }
   if (!options.textures.check(diagnostics) || !options.manifest.check(diagnostics) ||
       !options.mesh.read(settings.dilation, diagnostics) ||
       !options.sampling.read(settings.sampling, diagnostics)) {

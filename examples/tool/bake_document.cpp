@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -14,11 +16,11 @@
 #include "examples/tool/baked_document.h"
 #include "examples/tool/file_stems.h"
 #include "examples/tool/map_plan.h"
+#include "examples/tool/output_compilation.h"
 #include "examples/tool/paths.h"
 #include "examples/tool/process.h"
 #include "examples/tool/sampling_request.h"
 #include "examples/tool/stop.h"
-#include "jit/graph/build/build.h"
 
 namespace nacre::tool {
 
@@ -65,9 +67,15 @@ class MaterialBaker {
     const std::size_t errors = diagnostics_.error_count();
     for (const std::string& material : options_.materials) baked_.add_material(material);
     baked_.finish_source();
-    for (const BakedDocument::Job& job : baked_.jobs()) {
+    const auto& jobs = baked_.jobs();
+    std::deque<Begun> begun;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+      // The one after it is compiled while this one is baked.
+      for (; next < std::min(i + 2, jobs.size()); ++next) begun.push_back(begin(jobs[next]));
       if (stop().is_due() || diagnostics_.error_count() != errors) return;
-      bake(job);
+      finish(std::move(begun.front()));
+      begun.pop_front();
     }
     const bool is_done = !stop().is_due() && diagnostics_.error_count() == errors;
     if (is_done && left_.empty() && !options_.is_shard) write();
@@ -94,18 +102,44 @@ class MaterialBaker {
     return true;
   }
 
-  void bake(const BakedDocument::Job& job) {
-    if (left_.contains(job.source)) return;
-    if (const auto known = results_.find(job.source); known != results_.end()) {
-      return finish(job, known->second);
+  /// A job that others may begin before it is finished.
+  struct Begun {
+    std::string source;
+    Diagnostics said;
+    std::function<void()> rest = {};  ///< What is left to do, if anything.
+  };
+
+  Begun begin(const BakedDocument::Job& job) {
+    Begun begun{.source = job.source, .said = {}};
+    // What another has begun is known only once that is finished.
+    if (unfinished_.contains(job.source)) {
+      begun.rest = [this, &job] { finish(begin(job)); };
+      return begun;
     }
+    if (left_.contains(job.source)) return begun;
+    if (const auto known = results_.find(job.source); known != results_.end()) {
+      begun.rest = [this, &job, result = known->second] { finish(job, result); };
+      return begun;
+    }
+    unfinished_.insert(job.source);
+    begin_map(job, begun);
+    return begun;
+  }
+
+  void finish(Begun begun) {
+    for (const Diagnostic& one : begun.said.all()) diagnostics_.add(one);
+    unfinished_.erase(begun.source);
+    if (begun.rest) begun.rest();
+  }
+
+  void begin_map(const BakedDocument::Job& job, Begun& begun) {
     TextureSettings texture;
-    if (!texture_settings(options_.textures, job.output, texture, diagnostics_)) return;
+    if (!texture_settings(options_.textures, job.output, texture, begun.said)) return;
     texture.encoding.is_direction = !job.frame.empty();
     texture.encoding.encodes_vectors = false;  // The document reads them as they are.
     texture.encoding.is_tile = !options_.tiles.empty();
     texture.encoding.output = job.stem;
-    const std::string stem = stems_.stem_of(job.stem, where_of(job), diagnostics_);
+    const std::string stem = stems_.stem_of(job.stem, where_of(job), begun.said);
     MapPlan plan =
         plan_map(job.stem, job.type, stem, texture, options_.settings, options_.tiles,
                  {absolute_path(options_.folder), folder_, options_.textures.name}, ledger_);
@@ -113,26 +147,25 @@ class MaterialBaker {
     if (options_.average) {
       for (PlannedImage& image : plan.images) image.item.settings["average"] = "yes";
     }
+    const std::string space = host::output_space(texture.extension, texture.encoding);
     if (const BakedRecord* const known = ledger_.value(plan.images.front().item)) {
-      return set_value(job, known->value, host::output_space(texture.extension, texture.encoding));
+      begun.rest = [this, &job, value = known->value, space] { set_value(job, value, space); };
+      return;
     }
-    for (PlannedImage& image : plan.images) image.step = ledger_.step(image.item, diagnostics_);
-    if (plan.has(BakeStep::bake)) return compile(job, plan);
-    conclude(job, plan, {});
+    for (PlannedImage& image : plan.images) image.step = ledger_.step(image.item, begun.said);
+    if (!plan.has(BakeStep::bake)) {
+      begun.rest = [this, &job, plan] { conclude(job, plan, {}); };
+      return;
+    }
+    ShaderOptions shader = options_.shader;
+    shader.graph.output_space = space;
+    const auto compilation = std::make_shared<OutputCompilation>(opened_, job.request, shader);
+    begun.rest = [this, &job, plan, compilation] { bake(job, plan, *compilation); };
   }
 
-  void compile(const BakedDocument::Job& job, const MapPlan& plan) {
-    const TextureSettings& texture = plan.texture;
+  void bake(const BakedDocument::Job& job, const MapPlan& plan, OutputCompilation& compilation) {
     const std::size_t errors = diagnostics_.error_count();
-    ShaderOptions shader =
-        reproducible(with_profile(opened_, job.request, false, options_.shader, diagnostics_));
-    shader.graph.output_space = host::output_space(texture.extension, texture.encoding);
-    shader.compile.stop = stop_from_now(shader.compile);
-    const auto graph = build_graph(*opened_.document, opened_.system->library(),
-                                   {.outputs = {job.request}, .material = {}},
-                                   opened_.system->graph_options(shader), diagnostics_);
-    const auto kernel =
-        graph ? opened_.system->compile_outputs(*graph, shader, diagnostics_) : nullptr;
+    const auto [graph, kernel] = compilation.finish(diagnostics_);
     if (kernel == nullptr) return;
     // Without an image, say, there is to be no document: nothing is finished then.
     const bool is_right = is_sound(*opened_.system, errors, diagnostics_);
@@ -156,10 +189,10 @@ class MaterialBaker {
       if (is_sound(*opened_.system, errors, diagnostics_)) {
         ledger_.add_value(plan.images.front().item, record, loaded.kernel, diagnostics_);
       }
-      return set_value(job, texel, shader.graph.output_space);
+      return set_value(job, texel, compilation.shader().graph.output_space);
     }
     bake_map(job, *kernel, plan);
-    report_code(kernel->kernel, shader, diagnostics_);
+    report_code(kernel->kernel, compilation.shader(), diagnostics_);
   }
 
   /// Of each image what is not there yet.
@@ -222,7 +255,8 @@ class MaterialBaker {
         maps.push_back((next++)->map);
       } else if (image.step == BakeStep::keep) {
         maps.push_back(kept_map(shown(image.item.path), ledger_.record(image.item),
-                                plan.texture_of(image.row), ledger_.is_merging()));
+                                plan.texture_of(image.row), target_.surface() != nullptr,
+                                ledger_.is_merging()));
       }
     }
     return maps;
@@ -359,7 +393,8 @@ class MaterialBaker {
   Diagnostics& diagnostics_;
   FileStems stems_;
   std::map<std::string, Result> results_;  ///< By Job::source.
-  std::set<std::string> left_;             ///< The same of what other shards have to bake, too.
+  std::set<std::string> left_;             ///< The same of what other shards have to bake, too,
+  std::set<std::string> unfinished_;       ///< and of what was begun.
   fs::path folder_;
   BakedDocument baked_;
 };

@@ -124,14 +124,14 @@ std::string coverage(const BakedMap& map) {
 }  // namespace
 
 BakedMap kept_map(const std::string& file, const BakedRecord& record,
-                  const TextureSettings& texture, bool is_merged) {
+                  const TextureSettings& texture, bool has_islands, bool is_merged) {
   return {file,
           record.output,
           parse_type(record.type).value_or(Type::none),
           texture,
           record.statistics,
           record.seconds,
-          false,
+          has_islands,
           is_merged ? BakedMap::State::merged : BakedMap::State::skipped};
 }
 

@@ -34,9 +34,9 @@ struct BakedMap {
   enum class State { written, skipped, merged } state = State::written;
 };
 
-/// Of an image that another run has baked: one found there, or merged.
+/// Of an image that another run has baked: one found there, or merged. `has_islands`: see above.
 BakedMap kept_map(const std::string& file, const BakedRecord& record,
-                  const TextureSettings& texture, bool is_merged);
+                  const TextureSettings& texture, bool has_islands, bool is_merged);
 /// What a manifest has of an image, but for what BakeLedger adds.
 BakedRecord record_of(const BakedMap& map);
 

@@ -9,6 +9,7 @@
 #include "examples/render/builtin_scene.h"
 #include "examples/render/load_scene.h"
 #include "examples/tool/number_range.h"
+#include "examples/tool/scene_digest.h"
 #include "examples/tool/scene_limit_options.h"
 
 namespace nacre::tool {
@@ -82,6 +83,18 @@ std::unique_ptr<host::MeshSurface> MeshOptions::open(float time, Diagnostics& di
   return host::MeshSurface::make(
       std::move(loaded),
       {.file = scene, .meshes = meshes, .uv_set = uv_set, .transport = transport}, diagnostics);
+}
+
+void MeshOptions::describe(const host::MeshSurface& surface, BakeManifest& manifest) const {
+  manifest.inputs["scene"] = digest_of(surface.scene());
+  std::string names;
+  for (const std::string& name : meshes) names += (names.empty() ? "" : ", ") + name;
+  manifest.options["mesh"] = names;
+  manifest.options["uv-set"] = fmt::format("{}", uv_set);
+  manifest.options["dilate"] = dilate;
+  manifest.options["view"] = view;
+  manifest.options["rays"] = fmt::format("{}", transport.rays);
+  manifest.options["distance"] = fmt::format("{}", transport.distance);
 }
 
 std::vector<UdimTile> read_tiles(std::string_view text, const host::MeshSurface& surface,

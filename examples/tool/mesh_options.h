@@ -7,6 +7,7 @@
 #include "examples/bake/dilate.h"
 #include "examples/bake_mesh/mesh_surface.h"
 #include "examples/render/scene_limits.h"
+#include "examples/tool/bake_manifest.h"
 #include "examples/tool/udim.h"
 #include "runtime/diagnostic.h"
 
@@ -35,6 +36,8 @@ struct MeshOptions {
   bool read(host::Dilation& dilation, Diagnostics& diagnostics) const;
   /// As it stands at a time, in seconds. Null for the plane, and after an error.
   std::unique_ptr<host::MeshSurface> open(float time, Diagnostics& diagnostics) const;
+  /// Adds to a manifest what maps of that surface depend on.
+  void describe(const host::MeshSurface& surface, BakeManifest& manifest) const;
 };
 
 /// What --udim says, see read_tiles, of meshes: "auto" are the tiles that they are in; of others

@@ -61,6 +61,18 @@ bool put(std::string_view pattern, std::uint8_t group, const host::Scene& scene,
   return any;
 }
 
+/// What a pattern could have named.
+std::vector<std::string> names_of(const host::Scene& scene, std::vector<std::string> lights) {
+  std::vector<std::string> names = std::move(lights);
+  names.emplace_back(environment_name);
+  for (const host::Mesh& mesh : scene.meshes) {
+    for (const auto& name : {mesh.path, mesh.object_name, mesh.mesh_name, mesh.material_name}) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 void PassOptions::add(CLI::App& command) {
@@ -175,7 +187,8 @@ void complete_groups(const PassOptions& options, const host::Scene& scene,
       if (put(pattern, static_cast<std::uint8_t>(k), scene, lights, groups)) continue;
       diagnostics.error("unmatched-light", {}, "--light-group names nothing of the scene",
                         "an object, mesh, material or light, or environment",
-                        fmt::format("'{}' of '{}'", pattern, groups.names[k]));
+                        fmt::format("'{}' of '{}'", pattern, groups.names[k]),
+                        near_hint(diagnostics, pattern, names_of(scene, lights)));
     }
   }
   for (std::size_t k = 0; k <= groups.names.size(); ++k) {

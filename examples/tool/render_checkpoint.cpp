@@ -5,72 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
-#include <type_traits>
 
 #include "examples/tool/bake_inputs.h"
+#include "examples/tool/scene_digest.h"
 #include "examples/tool/scene_materials.h"
 #include "jit/document/write.h"
-#include "runtime/digest.h"
 
 namespace nacre::tool {
-
-namespace {
-
-template <class T>
-void add(Sha256& all, const std::vector<T>& numbers) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  all.add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(T)});
-}
-
-void add(Sha256& all, const host::Motion& motion) {
-  add(all, std::vector{motion.still()});
-  for (const host::Motion::Segment& segment : motion.segments()) {
-    add(all, std::vector{segment.begin, segment.end});
-    add(all, segment.steps);
-  }
-}
-
-/// Of all that is drawn: buffers of glTF files, say, are files of their own.
-std::string digest_of(const host::Scene& world) {
-  Sha256 all;
-  for (const host::Mesh& mesh : world.meshes) {
-    for (const std::string& name : {mesh.path, mesh.object_name, mesh.material_name}) {
-      all.add(name + '\n');
-    }
-    add(all, std::vector{mesh.two_sided ? 2 : 1});
-    add(all, mesh.triangles);
-    add(all, mesh.position);
-    add(all, mesh.normal);
-    add(all, mesh.tangent);
-    for (const host::MeshPose& pose : mesh.poses) {
-      add(all, pose.position);
-      add(all, pose.normal);
-      add(all, pose.tangent);
-    }
-    add(all, mesh.uv);
-    add(all, mesh.radius);
-    for (const host::Primvar& primvar : mesh.primvars) add(all, primvar.values);
-    for (const host::Motion& instance : mesh.instances) add(all, instance);
-  }
-  for (const host::PunctualLight& light : world.lights) {
-    add(all, std::vector{light.color, light.position, light.direction,
-                         host::Vec3{light.range, light.inner_cos, light.outer_cos}});
-  }
-  for (const host::SceneImage& image : world.materials.images) {
-    all.add(image.file + '\n');
-    if (image.bytes != nullptr) all.add(*image.bytes);
-  }
-  return to_hex(all.finish());
-}
-
-std::string digest_of(const host::Camera& camera, const host::Motion& motion) {
-  Sha256 all;
-  add(all, std::vector{camera});
-  add(all, motion);
-  return to_hex(all.finish());
-}
-
-}  // namespace
 
 std::string asked_of(const CLI::App& command) {
   // What a picture of a series is of is in its key by itself.

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "examples/tool/report.h"
@@ -29,6 +30,24 @@ std::vector<std::string> command_names(const CLI::App& app) {
     if (!command->get_group().empty()) names.push_back(command->get_name());
   }
   return names;
+}
+
+/// Of a value that is none of those that CLI11 lists: "--format: pgn not in {exr,png,tx}".
+std::string value_hint(std::string_view message) {
+  constexpr std::string_view between = " not in {";
+  const std::size_t list = message.rfind(between);
+  const std::size_t option = message.find(": ");
+  if (list == message.npos || option == message.npos || option > list) return {};
+  const std::string_view value = message.substr(option + 2, list - option - 2);
+  NearNames near(value.substr(0, value.find(':')));
+  std::string_view known = message.substr(list + between.size());
+  known = known.substr(0, known.find('}'));
+  while (!known.empty()) {
+    const std::size_t comma = known.find(',');
+    near.offer(known.substr(0, comma));
+    known = comma == known.npos ? std::string_view() : known.substr(comma + 1);
+  }
+  return near.hint();
 }
 
 Diagnostic fault(std::string message) {
@@ -75,7 +94,11 @@ Diagnostic usage_fault(const CLI::App& app, const CLI::ParseError& error) {
   if (!extras.empty() && dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     return unexpected(app, command, extras.front());
   }
-  if (&command != &app) return fault(error.what());
+  if (&command != &app) {
+    Diagnostic said = fault(error.what());
+    said.hint = value_hint(said.message);
+    return said;
+  }
   Diagnostic said = fault("a command is missing");
   said.expected = fmt::format("one of {}", fmt::join(command_names(app), ", "));
   return said;

@@ -7,6 +7,7 @@
 
 #include "jit/tune/dimension.h"
 #include "jit/tune/json.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -124,6 +125,14 @@ const Choices* Profile::find(std::string_view name, bool is_material) const {
   return found == subjects_.end() ? nullptr : &found->choices;
 }
 
+std::vector<std::string> Profile::names(bool is_material) const {
+  std::vector<std::string> all;
+  for (const Subject& each : subjects_) {
+    if (each.is_material == is_material) all.push_back(each.name);
+  }
+  return all;
+}
+
 void apply_profile(const Profile& profile, const std::vector<std::string>& names, bool is_material,
                    ShaderOptions& options, Diagnostics& diagnostics) {
   std::optional<Choices> all;
@@ -133,7 +142,7 @@ void apply_profile(const Profile& profile, const std::vector<std::string>& names
       diagnostics.warning("not-in-profile", {.file = {}, .path = name},
                           "the profile says nothing of this, which is compiled as standard",
                           is_material ? "a material of the profile" : "an output of the profile",
-                          name);
+                          name, near_hint(diagnostics, name, profile.names(is_material)));
     }
     const Choices choices = found != nullptr ? *found : standard_choices();
     if (!all) all = choices;

@@ -31,6 +31,8 @@ class Profile {
 
   /// Null where the profile says nothing of it.
   const Choices* find(std::string_view name, bool is_material) const;
+  /// Of those that it says something of.
+  std::vector<std::string> names(bool is_material) const;
 
  private:
   std::vector<Subject> subjects_;

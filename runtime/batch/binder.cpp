@@ -7,6 +7,7 @@
 
 #include "runtime/channel/channel_name.h"
 #include "runtime/channel/channel_table.h"
+#include "runtime/near_names.h"
 
 namespace nacre {
 
@@ -40,6 +41,13 @@ const Binder::Place* Binder::find(const std::string& name, std::string_view grou
   }
   found = places_.find(group);
   return found != places_.end() ? &found->second : nullptr;
+}
+
+/// What is bound under a name that is nearly the channel's, or its group's.
+std::string Binder::near_place(const std::string& channel, const Diagnostics& diagnostics) const {
+  const auto name_of = [](const auto& place) { return std::string_view(place.first); };
+  const std::string hint = near_hint(diagnostics, parse_channel(channel).group, places_, name_of);
+  return hint.empty() ? near_hint(diagnostics, channel, places_, name_of) : hint;
 }
 
 std::optional<Binding> Binder::finish(const Program& program, std::span<const std::uint32_t> state,
@@ -92,7 +100,7 @@ std::optional<Binding> Binder::finish(const Program& program, std::span<const st
     diagnostics.error(
         "unbound-channel", {},
         fmt::format("{} reads '{}', which is bound to nothing", program.name, input.name),
-        expected_of(parse_channel(input.name).group));
+        expected_of(parse_channel(input.name).group), {}, near_place(input.name, diagnostics));
   }
   for (const Channel& output : program.outputs) {
     const auto layout = layout_of(output);

@@ -76,6 +76,7 @@ class Binder {
     std::ptrdiff_t component_stride = 4;
     std::vector<std::uint32_t> bits;  ///< Of a constant.
   };
+  std::string near_place(const std::string& channel, const Diagnostics& diagnostics) const;
   const Place* find(const std::string& name, std::string_view group, int& component) const;
 
   std::map<std::string, Place, std::less<>> places_;

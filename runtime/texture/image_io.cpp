@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "runtime/texture/image_module.h"
+#include "runtime/texture/jpeg/jpeg_decoder.h"
 
 namespace nacre {
 
@@ -54,9 +55,14 @@ std::optional<Diagnostic> ImageReader::open_image(const std::string& layer,
   Diagnostic error;
   auto file = ImageFile::open(path_, limits, error);
   if (file == nullptr) return error;
+  info_.file = file->identity();
+  if (file->format() == ImageFormat::jpeg) {
+    std::optional<Diagnostic> problem;
+    decoder_ = open_jpeg(file, layer, limits, extent, stop_, info_, problem);
+    if (decoder_ != nullptr || problem) return problem;
+  }
   const ImageModule* const module = image_module(path_, error);
   if (module == nullptr) return error;
-  info_.file = file->identity();
   decoder_ = module->make_decoder();
   return decoder_->open(std::move(file), layer, limits, extent, stop_, info_);
 }

@@ -30,9 +30,9 @@ struct ImageInfo {
 };
 
 /// One image of a file, decoded row by row: the only reader of images there is, for
-/// textures, environments and whatever else. The first one loads OpenImageIO. Values are the file's
-/// own: integers become value / largest, alpha is not multiplied in (where the format says whether
-/// it was).
+/// textures, environments and whatever else. The first one that is no JPEG loads OpenImageIO.
+/// Values are the file's own: integers become value / largest, alpha is not multiplied in (where
+/// the format says whether it was).
 ///
 /// `layer` names a subimage (a part of an EXR, or a number for the pages of a TIFF), or
 /// else the channels "layer.*". Empty: the first subimage, its first channels. A depth

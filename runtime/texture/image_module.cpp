@@ -6,7 +6,7 @@ namespace nacre {
 
 const ImageModule* image_module(const std::string& path, Diagnostic& error) {
   if (!NACRE_WITH_OPENIMAGEIO) {
-    error = image_error("no-image-reader", path, "this build of Nacre reads no images",
+    error = image_error("no-image-reader", path, "this build of Nacre reads no images but JPEG",
                         "one with OpenImageIO", "NACRE_WITH_OPENIMAGEIO=OFF");
     return nullptr;
   }

@@ -12,7 +12,6 @@ namespace {
 
 using texture_layout::level_extent;
 using texture_layout::Plan;
-using texture_layout::texel_index;
 
 /// The at most three neighbours `first`, `first + 1`, ... that a coarser texel covers.
 struct Cover {
@@ -69,12 +68,6 @@ void average_row(std::span<const Rgba* const> rows, const Cover& down,
   }
 }
 
-void decode_row(const Plan& plan, std::span<const std::uint32_t> words, int y, Rgba* out) {
-  for (int x = 0; x < plan.width; ++x) {
-    out[x] = decode_texel(plan.format, &words[texel_index(plan, 0, x, y)]);
-  }
-}
-
 }  // namespace
 
 void build_pyramid(const Plan& plan, std::span<std::uint32_t> words) {
@@ -97,7 +90,8 @@ void build_pyramid(const Plan& plan, std::span<std::uint32_t> words) {
       for (int k = 0; k < down.count; ++k) {
         const auto slot = static_cast<std::size_t>(k);
         if (level == 0) {
-          decode_row(plan, words, down.first + k, &decoded[slot * fine_row]);
+          decode_row(plan, 0, down.first + k, words.data(),
+                     std::span(decoded).subspan(slot * fine_row, fine_row));
           rows[slot] = &decoded[slot * fine_row];
         } else {
           rows[slot] = &fine[static_cast<std::size_t>(down.first + k) * fine_row];
@@ -105,9 +99,7 @@ void build_pyramid(const Plan& plan, std::span<std::uint32_t> words) {
       }
       Rgba* out = &coarse[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
       average_row(rows, down, across, column, out);
-      for (int x = 0; x < width; ++x) {
-        encode_texel(plan.format, out[x], &words[texel_index(plan, level + 1, x, y)]);
-      }
+      encode_row(plan, level + 1, y, {out, static_cast<std::size_t>(width)}, words.data());
     }
     std::swap(fine, coarse);
   }

@@ -31,24 +31,27 @@ namespace {
 class RowEncoder {
  public:
   RowEncoder(const Plan& plan, AlignedWords& words, std::uint64_t& replaced)
-      : plan_(plan), words_(words.span().data()), replaced_(replaced) {
+      : plan_(plan),
+        words_(words.span().data()),
+        replaced_(replaced),
+        row_(static_cast<std::size_t>(plan.width), Rgba{0.f, 0.f, 0.f, 1.f}) {
     write_header(plan, 0, words.span());
   }
 
   void add(int from_top, const float* samples) {
     const auto channels = static_cast<std::size_t>(plan_.channels);
-    const int y = plan_.height - 1 - from_top;
-    for (int x = 0; x < plan_.width; ++x, samples += channels) {
-      Rgba texel{0.f, 0.f, 0.f, 1.f};
+    for (Rgba& texel : row_) {
       for (std::size_t c = 0; c < channels; ++c) texel[c] = sanitised(samples[c], replaced_);
-      encode_texel(plan_.format, texel, words_ + texel_index(plan_, 0, x, y));
+      samples += channels;
     }
+    encode_row(plan_, 0, plan_.height - 1 - from_top, row_, words_);
   }
 
  private:
   const Plan& plan_;
   std::uint32_t* words_;
   std::uint64_t& replaced_;
+  std::vector<Rgba> row_;  ///< Channels that there are not keep what they have.
 };
 
 }  // namespace

@@ -111,7 +111,12 @@ class Modules(unittest.TestCase):
         if not tool.exists():
             self.skipTest("there is no tool in this build")
         graph = ["--output", "NG_marble/base_color", "--size", "8", "--out", self.folder / "out"]
-        for command, loads in ((["--version"], False), (["check", MARBLE], False),
+        wood = self.folder / "wood.mtlx"
+        wood.write_text(documents.IMAGE_DOCUMENT.replace("grey.tga", "grey.jpg"), encoding="utf-8")
+        documents.write_jpeg(self.folder / "grey.jpg")
+        image = ["--output", "NG_image/out", "--size", "8", "--out", self.folder / "out"]
+        for command, loads in ((["--version"], False), (["bake", wood, *image], False),
+                               (["bake", self.document, *image], True), (["check", MARBLE], False),
                                (["inspect", MARBLE], False), (["bake", MARBLE, *graph], False),
                                (["bake", MARBLE, *graph, "--format", "tx"], True)):
             done = subprocess.run([tool, *command], env=os.environ | {"LD_DEBUG": "files"},

@@ -38,6 +38,7 @@ QUARANTINE = {
     "embree": ("examples",),
     "gtest/": ("tests",),
     "gmock/": ("tests",),
+    "jpeglib": ("runtime/texture/jpeg",),
     "libdeflate": ("examples/encode",),
     "llvm-c/": ("jit/llvm",),
     "llvm/": ("jit/llvm", "tests/jit/llvm", "tests/jit/worker"),

@@ -36,6 +36,8 @@ class ColorConfig {
   /// The space of that name, alias or role. Asked for by us, not by documents, are
   /// "lin_rec709", "scene_linear" and "aces_interchange", which is to be ACES 2065-1.
   virtual std::optional<Space> find(std::string_view name) const = 0;
+  /// Names of spaces, for hints; none where they are not known.
+  virtual std::vector<std::string> names() const { return {}; }
   /// Between two spaces' own names. Null, with the reason in `fault`, where there is
   /// none or it cannot be had.
   virtual std::shared_ptr<const ColorTransform> transform(const std::string& from,

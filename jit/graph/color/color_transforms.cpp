@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
 #include "jit/document/read.h"
 #include "jit/graph/color/colorspace.h"
 #include "runtime/near_names.h"
@@ -73,11 +77,21 @@ void ColorTransforms::report_none(std::string_view from, std::string_view to, co
       "unknown-colorspace", user, "there is no transform between these colour spaces",
       fmt::format("two of {}, two built in, or one of each and its role aces_interchange",
                   config_->name()),
-      fmt::format("'{}' to '{}'", from, to));
+      fmt::format("'{}' to '{}'", from, to), near_space(is_known(from) ? to : from));
+}
+
+bool ColorTransforms::is_known(std::string_view space) const {
+  const auto built_in = colorspace_names();
+  return std::ranges::find(built_in, canonical_colorspace(space)) != built_in.end() ||
+         (config_ != nullptr && config_->find(space).has_value());
 }
 
 std::string ColorTransforms::near_space(std::string_view name) const {
-  return near_hint(complaints_.diagnostics(), name, colorspace_names());
+  if (is_known(name)) return {};
+  std::vector<std::string> known;
+  for (const std::string_view each : colorspace_names()) known.emplace_back(each);
+  if (config_ != nullptr) std::ranges::copy(config_->names(), std::back_inserter(known));
+  return near_hint(complaints_.diagnostics(), name, known);
 }
 
 const Definitions* ColorTransforms::definitions_of(const Element& element) const {

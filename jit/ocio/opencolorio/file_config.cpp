@@ -66,6 +66,19 @@ class FileConfig : public ColorConfig {
     return Space{space->getName(), space->isData()};
   }
 
+  /// Of all spaces, and their other names.
+  std::vector<std::string> names() const override {
+    std::vector<std::string> all;
+    for (int i = 0; i < config_->getNumColorSpaces(); ++i) {
+      const auto space = config_->getColorSpace(config_->getColorSpaceNameByIndex(i));
+      if (space == nullptr) continue;
+      all.emplace_back(space->getName());
+      for (std::size_t k = 0; k < space->getNumAliases(); ++k) all.emplace_back(space->getAlias(k));
+    }
+    for (int i = 0; i < config_->getNumRoles(); ++i) all.emplace_back(config_->getRoleName(i));
+    return all;
+  }
+
   std::shared_ptr<const ColorTransform> transform(const std::string& from, const std::string& to,
                                                   std::string& fault) const override {
     const std::lock_guard lock(mutex_);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/near_names.h"
 #include "runtime/texture/openimageio/image_input.h"
 
 namespace nacre {
@@ -84,6 +85,17 @@ bool select_layer(GuardedInput& input, const std::string& layer, int max_layers,
   return found && input.seek(info.subimage, 0);
 }
 
+/// The layers that there are and are called nearly so.
+std::string near_layer(GuardedInput& input, const std::string& layer, int max_layers) {
+  NearNames near(layer);
+  for (int i = 0; i < max_layers && input.seek(i, 0); ++i) {
+    near.offer(subimage_name(input.reader->spec()));
+    for (const std::string& name : input.reader->spec().channelnames) near.offer(layer_of(name));
+  }
+  input.reader->geterror();
+  return near.hint();
+}
+
 /// Rows that are decoded together: a row of tiles, or as many as is worth it.
 int row_step(const OIIO::ImageSpec& spec) {
   if (spec.tile_width > 0) return spec.tile_height;
@@ -115,8 +127,11 @@ std::optional<Diagnostic> Decoder::open(std::shared_ptr<const ImageFile> file,
   OIIO::ImageInput& input = *input_.reader;
   if (!select_layer(input_, layer, limits.max_layers, info)) {
     if (layer.empty()) return broken_image(input_.file->path(), input.geterror());
-    return image_error("unknown-image-layer", input_.file->path(), "the image has no such layer",
-                       "the name of a subimage, of a group of channels, or a page number", layer);
+    Diagnostic problem =
+        image_error("unknown-image-layer", input_.file->path(), "the image has no such layer",
+                    "the name of a subimage, of a group of channels, or a page number", layer);
+    problem.hint = near_layer(input_, layer, limits.max_layers);
+    return problem;
   }
   spec_ = input.spec();
   info.width = spec_.full_width;

@@ -153,6 +153,8 @@ TEST_F(PassesOfTool, WhatThereIsNotIsAnError) {
   EXPECT_TRUE(says("mattes-need-floats")) << errors_;
   EXPECT_EQ(run(asked + file("a.exr") + " --light-group fill=nobody"), 1);
   EXPECT_TRUE(says("unmatched-light") && says("'nobody'")) << errors_;
+  EXPECT_EQ(run(asked + file("a.exr") + " --light-group fill=enviroment"), 1);
+  EXPECT_TRUE(says("unmatched-light") && says("did you mean 'environment'?")) << errors_;
   EXPECT_EQ(run(asked + file("a.exr") + " --aov NG_brushed/nothing"), 1);
   EXPECT_TRUE(says("NG_brushed/nothing")) << errors_;
   EXPECT_FALSE(std::filesystem::exists(file("a.exr")));

@@ -177,6 +177,8 @@ TEST_F(Report, CommandLinesThatMeanNothing) {
   // Not that the one that was meant is missing.
   EXPECT_EQ(run("convert a.mtlx --uot b.mtlx"), 2);
   EXPECT_TRUE(says("nacre convert has no option --uot; did you mean '--out'?")) << errors_;
+  EXPECT_EQ(run("bake a.mtlx --format pgn"), 2);
+  EXPECT_TRUE(says("pgn not in") && says("did you mean 'png'?")) << errors_;
   EXPECT_EQ(run("check a.mtlx b.mtlx"), 2);
   EXPECT_TRUE(says("nacre check takes no further 'b.mtlx'")) << errors_;
   EXPECT_EQ(run(""), 2);

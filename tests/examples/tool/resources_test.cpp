@@ -151,6 +151,13 @@ TEST_F(Resources, Memory) {
         << kilobytes << '\n'
         << errors_;
     EXPECT_TRUE(names_in(file("out")).empty());
+    // Programs are told the same.
+    std::filesystem::remove_all(file("out"));
+    const int told = shell("(ulimit -c 0; ulimit -v " + std::to_string(kilobytes) + "; $NACRE" +
+                           bake("--size 2048 --threads 3 --json") + ")");
+    if (told == 0 || says("GnuTLS")) continue;
+    EXPECT_EQ(told, 1) << kilobytes << '\n' << errors_;
+    EXPECT_EQ(errors_.find("{\"severity\":"), 0u) << kilobytes << '\n' << errors_;
   }
   EXPECT_GT(failed, 0);
 }

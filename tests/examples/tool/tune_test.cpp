@@ -151,6 +151,9 @@ TEST_F(Tune, WhatAProfileDoesNotHaveIsWarnedOf) {
   write("p.json", R"({"nacre_profile": 1, "subjects": []})");
   EXPECT_EQ(run("inspect " + mtlx + " --material M --profile " + file("p.json")), 0);
   EXPECT_TRUE(says("not-in-profile")) << errors_;
+  write("q.json", R"({"nacre_profile": 1, "subjects": [{"material": "m", "choices": {}}]})");
+  EXPECT_EQ(run("inspect " + mtlx + " --material M --profile " + file("q.json")), 0);
+  EXPECT_TRUE(says("not-in-profile") && says("it differs only in case from 'm'")) << errors_;
 }
 
 TEST_F(Tune, BadUseIsRefused) {

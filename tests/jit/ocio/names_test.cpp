@@ -121,6 +121,10 @@ TEST_F(Names, OneEndInEachIsAnError) {
   expect_complaint("unknown-colorspace", {"test.mtlx:3:", "'wide'", "'lin_rec2020'"});
   EXPECT_TRUE(value("nowhere", "reference").empty());
   expect_complaint("unknown-colorspace", {"'nowhere'"});
+  EXPECT_TRUE(value("refrence", "lin_rec709").empty());
+  expect_complaint("unknown-colorspace", {"'refrence'", "did you mean 'reference'?"});
+  EXPECT_TRUE(value("reference", "lin_rec79").empty());
+  expect_complaint("unknown-colorspace", {"'lin_rec79'", "did you mean 'lin_rec709'?"});
 }
 
 /// "reference" said to be ACES 2065-1: what is built in is converted to that and on.

@@ -222,12 +222,14 @@ TEST_F(RunBound, SaysWhatIsBoundToNothing) {
   Binder binder;
   binder.bind("P", {.array = 0}, 4);
   binder.bind("color0.w", {.array = 0});
+  binder.bind("UV0", {.array = 0}, 4);
   EXPECT_FALSE(binder.finish(kernel->program(), {}, diagnostics));
   ASSERT_EQ(diagnostics.error_count(), 1u) << diagnostics.to_string();
   const Diagnostic& said = diagnostics.all().front();
   EXPECT_EQ(said.code, "unbound-channel");
   EXPECT_NE(said.message.find("uv0.x"), std::string::npos) << said.message;
   EXPECT_NE(said.expected.find("texture coordinates"), std::string::npos) << said.expected;
+  EXPECT_EQ(said.hint, "it differs only in case from 'UV0'");
 }
 
 TEST_F(RunBound, RefusesBatchesThatLackArraysOrInstances) {

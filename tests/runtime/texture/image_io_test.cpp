@@ -167,6 +167,10 @@ TEST_F(ImageIo, LayerIsASubimageByName) {
   EXPECT_EQ(read(file("a.exr"), "1").samples, parts[1].samples);
   EXPECT_EQ(code_of(file("a.exr"), "normal"), "unknown-image-layer");
   EXPECT_EQ(code_of(file("a.exr"), "2"), "unknown-image-layer");
+  ImageReader reader;
+  const auto problem = reader.open(file("a.exr"), "albdeo", {});
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->hint, "did you mean 'albedo'?");
 }
 
 TEST_F(ImageIo, LayerIsAPageByNumber) {
