@@ -4,9 +4,10 @@
     bench/adaptive.py --tool build/bin/nacre --out bench/results/adaptive.md FILE.mtlx ...
 
 Every map of the documents' materials is baked with many samples, which is taken for right; by
---samples auto for a texel error; and with 1, 4, 16, ... samples everywhere. A texel is wrong where
-some channel of it is off by more than that error, of its own value where that is above 1. The fixed
-grid that leaves as few texels wrong as auto does is read off between two grids, log against log.
+--samples auto for a texel error; and with 1, 4, 16, ... samples everywhere. The error is the root
+of the mean square over the texels, of the channel that is worst, relative to values above 1. The
+fixed grid of the error that auto has is read off between two grids, log against log. Beside it:
+texels that are off by more than was asked.
 """
 
 import argparse
@@ -53,8 +54,13 @@ def wrong(found: numpy.ndarray, right: numpy.ndarray, error: float) -> float:
     return float(numpy.mean(numpy.max(off, axis=1) > error))
 
 
+def rms(found: numpy.ndarray, right: numpy.ndarray) -> float:
+    off = (found - right) / numpy.maximum(1.0, numpy.abs(right))
+    return float(numpy.max(numpy.sqrt(numpy.mean(off * off, axis=0))))
+
+
 def samples_for(share: float, grids: list) -> float:
-    """Of a fixed grid that leaves such a share wrong; infinite where none of these does."""
+    """Of a fixed grid that has such an error; infinite where none of these does."""
     for (few, high), (many, low) in zip(grids, grids[1:]):
         if share > high:
             return few
@@ -80,15 +86,17 @@ def rows_of(arguments: argparse.Namespace, document: pathlib.Path) -> list:
         rows = []
         for map_name in maps:
             right = texels(folders["right"] / map_name)
-            share = wrong(texels(folders["auto"] / map_name), right, arguments.error)
-            grids = [(n, wrong(texels(folders[str(n)] / map_name), right, arguments.error))
-                     for n in GRIDS]
+            auto = texels(folders["auto"] / map_name)
+            error = rms(auto, right)
+            fixed = {n: texels(folders[str(n)] / map_name) for n in GRIDS}
+            grids = [(n, rms(fixed[n], right)) for n in GRIDS]
             taken = found[map_name]["samples_per_texel"]
-            needed = samples_for(share, grids)
+            needed = samples_for(error, grids)
             gain = min(needed, GRIDS[-1]) / taken  # At least.
-            shares = ", ".join(f"{100 * each:.2g}" for _, each in grids)
+            errors = ", ".join(f"{each:.2g}" for _, each in grids)
+            share = 100 * wrong(auto, right, arguments.error)
             rows.append([document.stem, map_name.removesuffix(".exr"), f"{taken:.1f}",
-                         f"{100 * share:.2g}", shares,
+                         f"{error:.2g}", f"{share:.2g}", errors,
                          f"{needed:.0f}" if needed < math.inf else f"> {GRIDS[-1]}",
                          f"{gain:.1f}" if needed < math.inf else f"> {gain:.1f}",
                          "yes" if gain >= LEAST_GAIN else "**no**"])
@@ -106,14 +114,14 @@ def main() -> None:
     parser.add_argument("--error", type=float, default=1 / 510)
     arguments = parser.parse_args()
     rows = [row for document in arguments.documents for row in rows_of(arguments, document)]
-    head = ["document", "map", "samples of auto", "wrong, %",
-            "of grids of " + ", ".join(map(str, GRIDS)) + ": wrong, %", "grid as good", "gain",
+    head = ["document", "map", "samples of auto", "error", "texels above, %",
+            "error of grids of " + ", ".join(map(str, GRIDS)), "grid as good", "gain",
             f"≥ {LEAST_GAIN:g}"]
     arguments.out.write_text(
         f"# Samples where they are needed\n\nRun {time.strftime('%Y-%m-%d')}, {arguments.size}², by "
         f"bench/adaptive.py. `--samples auto --texel-error {arguments.error:.3g}` beside as many "
-        f"samples everywhere, against {arguments.right} samples. Wrong: texels off by more than that error. "
-        "The grid as good leaves as many wrong, between two of those measured.\n\n"
+        f"samples everywhere, against {arguments.right} samples. Error: the root of the mean square over "
+        "texels. The grid as good has that of auto, between two of those measured.\n\n"
         + report.table(head, rows), encoding="utf-8")
     print(arguments.out.read_text(encoding="utf-8"))
 

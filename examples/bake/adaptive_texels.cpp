@@ -7,7 +7,44 @@ namespace nacre::host {
 
 namespace {
 
-int set_size(std::size_t set) { return 4 << (2 * set); }
+constexpr std::size_t first_samples = 4;
+/// What the error at edges falls by with four times the samples: these sets' is n^-3/4.
+constexpr float quarter_of_all = 0.35f;
+/// What is left of a blur, of what it fell by with twice the samples, whose footprints are smaller:
+/// it falls as fast as they do, so by 1 - sqrt(1/2), and both halves have their part of it.
+constexpr float left_of_gap = 2.0f;
+/// What an error is at least, with twice the samples, of what it was.
+constexpr float least_left = 0.35f;
+/// The same where the surface's edge is in the texel: quarters of few samples that count say
+/// little, and errors at edges fall by 2^-3/4.
+constexpr float least_left_of_cut = 0.6f;
+
+/// By how much the two of the first four samples on the right exceed those on the left, and the two
+/// below those above.
+/// @{
+float right_of_left(const float* values) {
+  return 0.5f * ((values[1] + values[3]) - (values[0] + values[2]));
+}
+float below_of_above(const float* values) {
+  return 0.5f * ((values[1] + values[2]) - (values[0] + values[3]));
+}
+/// @}
+
+double area(const SamplePlace& a, const SamplePlace& b, const SamplePlace& c) {
+  return double(b.x - a.x) * double(c.y - a.y) - double(b.y - a.y) * double(c.x - a.x);
+}
+
+/// Factors of the first four samples, whose sum is 0 for values of a plane; their sizes add up
+/// to 1.
+std::array<float, first_samples> off_plane(const std::vector<SamplePlace>& p) {
+  const std::array areas{area(p[1], p[2], p[3]), -area(p[0], p[2], p[3]), area(p[0], p[1], p[3]),
+                         -area(p[0], p[1], p[2])};
+  double all = 0.0;
+  for (const double one : areas) all += std::abs(one);
+  std::array<float, first_samples> factors;
+  for (std::size_t k = 0; k < factors.size(); ++k) factors[k] = float(areas[k] / all);
+  return factors;
+}
 
 }  // namespace
 
@@ -15,10 +52,20 @@ AdaptiveTexels::AdaptiveTexels(PointShader& shader, float error)
     : shader_(shader),
       error_(error),
       width_(static_cast<std::size_t>(shader.width())),
+      places_(sample_sequence(most_samples)),
       means_(static_cast<std::size_t>(shader.components())),
+      first_half_(means_.size()),
+      second_half_(means_.size()),
       along_(means_.size()),
       across_(means_.size()) {
-  for (std::size_t set = 0; set < sets; ++set) places_[set] = sample_places(set_size(set));
+  std::array<float, first_samples> x, y;
+  for (std::size_t k = 0; k < first_samples; ++k) {
+    x[k] = places_[k].x;
+    y[k] = places_[k].y;
+  }
+  along_step_ = {right_of_left(x.data()), right_of_left(y.data())};
+  across_step_ = {below_of_above(x.data()), below_of_above(y.data())};
+  off_plane_ = off_plane(places_);
 }
 
 RunStatus AdaptiveTexels::rows(int first, int rows, std::vector<std::vector<float>>& planes,
@@ -33,12 +80,14 @@ RunStatus AdaptiveTexels::rows(int first, int rows, std::vector<std::vector<floa
   look_around();
   std::vector<std::size_t> texels;
   for (std::size_t i = begin; i < begin + count; ++i) {
-    if (covered_[i] != 0 && (is_near_error(i) || wants_more(i, 0))) texels.push_back(i);
+    if (covered_[i] == 0) continue;
+    if (is_near_error(i) || wants_more(i, first_samples)) texels.push_back(i);
   }
-  for (std::size_t set = 1; set < sets && !texels.empty(); ++set) {
-    status = next_set(set, first - above, texels, stop, counts);
+  for (std::size_t total = 2 * first_samples; total <= std::size_t{most_samples} && !texels.empty();
+       total *= 2) {
+    status = add_samples(total, first - above, texels, stop, counts);
     if (status != RunStatus::done) return status;
-    std::erase_if(texels, [&](std::size_t i) { return !wants_more(i, set); });
+    std::erase_if(texels, [&](std::size_t i) { return !wants_more(i, total); });
   }
   counts.unfinished += texels.size();
   for (std::size_t c = 0; c < planes.size(); ++c) {
@@ -52,7 +101,7 @@ RunStatus AdaptiveTexels::first_set(int first, int rows, const std::atomic<std::
                                     BakeCounts& counts) {
   const std::size_t count = static_cast<std::size_t>(rows) * width_;
   errors_.assign(count, 0.0f);
-  for (auto* planes : {&means_, &along_, &across_}) {
+  for (auto* planes : {&means_, &first_half_, &second_half_, &along_, &across_}) {
     for (std::vector<float>& plane : *planes) plane.assign(count, 0.0f);
   }
   hits_.assign(count, 0);
@@ -62,15 +111,15 @@ RunStatus AdaptiveTexels::first_set(int first, int rows, const std::atomic<std::
     covered_[i] = shader_.covers(static_cast<std::size_t>(first) * width_ + i) ? 1 : 0;
     if (covered_[i] != 0) texels.push_back(i);
   }
-  return next_set(0, first, texels, stop, counts);
+  return add_samples(first_samples, first, texels, stop, counts);
 }
 
-RunStatus AdaptiveTexels::next_set(std::size_t set, int first,
-                                   const std::vector<std::size_t>& texels,
-                                   const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
-  const std::vector<SamplePlace>& places = places_[set];
-  const std::size_t samples = places.size();
-  points_.footprint = 1.0f / std::sqrt(static_cast<float>(samples));
+RunStatus AdaptiveTexels::add_samples(std::size_t total, int first,
+                                      const std::vector<std::size_t>& texels,
+                                      const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
+  const std::size_t from = total == first_samples ? 0 : total / 2;
+  const std::size_t samples = total - from;
+  points_.footprint = 1.0f / std::sqrt(static_cast<float>(total));
   const std::size_t step = std::max<std::size_t>(1, shader_.points_of_a_run() / samples);
   for (std::size_t begin = 0; begin < texels.size(); begin += step) {
     const std::size_t count = std::min(step, texels.size() - begin);
@@ -80,9 +129,9 @@ RunStatus AdaptiveTexels::next_set(std::size_t set, int first,
     for (std::size_t i = begin; i < begin + count; ++i) {
       const auto column = static_cast<float>(texels[i] % width_);
       const auto row = static_cast<float>(static_cast<std::size_t>(first) + texels[i] / width_);
-      for (const SamplePlace& place : places) {
-        points_.x.push_back(column + place.x);
-        points_.y.push_back(row + place.y);
+      for (std::size_t k = from; k < total; ++k) {
+        points_.x.push_back(column + places_[k].x);
+        points_.y.push_back(row + places_[k].y);
         points_.texel.push_back(static_cast<std::size_t>(first) * width_ + texels[i]);
       }
     }
@@ -90,39 +139,72 @@ RunStatus AdaptiveTexels::next_set(std::size_t set, int first,
     if (status != RunStatus::done) return status;
     counts.samples += points_.x.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t texel = texels[begin + i];
-      float error = set == 0 ? 0.0f : errors_[texel] / 3.0f;
-      const std::size_t before = hits_[texel];  // What earlier sets count for.
-      std::size_t hits = 0;
-      for (std::size_t k = 0; k < samples; ++k) hits += shader_.counts(i * samples + k) ? 1 : 0;
-      hits_[texel] += static_cast<std::uint32_t>(hits);
-      for (std::size_t c = 0; c < means_.size(); ++c) {
-        const float* values = shader_.result(c).data() + i * samples;
-        double sum = 0.0;
-        for (std::size_t k = 0; k < samples; ++k) {
-          if (shader_.counts(i * samples + k)) sum += static_cast<double>(values[k]);
-        }
-        const float old = means_[c][texel];
-        if (set > 0) sum += static_cast<double>(old) * static_cast<double>(before);
-        // Where none counts all are the same point, which stands for the texel until one does.
-        means_[c][texel] = before + hits == 0
-                               ? values[0]
-                               : static_cast<float>(sum / static_cast<double>(before + hits));
-        if (set == 0) {
-          along_[c][texel] = 0.5f * ((values[2] + values[3]) - (values[0] + values[1]));
-          across_[c][texel] = 0.5f * ((values[1] + values[3]) - (values[0] + values[2]));
-        }
-        // The four places of the first set are those of a plane if 0 and 3 are as 1 and 2.
-        const float difference = set == 0
-                                     ? 0.5f * ((values[0] + values[3]) - (values[1] + values[2]))
-                                     : means_[c][texel] - old;
-        error = std::max(error, relative(0.5f * difference, c, texel));
-      }
-      if (set == 0 && hits < samples) error = std::max(error, spread(i * samples, samples, texel));
-      errors_[texel] = error;
+      add_result(texels[begin + i], i * samples, samples, from == 0);
     }
   }
   return RunStatus::done;
+}
+
+/// Of the last run the `count` samples from `begin` on.
+void AdaptiveTexels::add_result(std::size_t texel, std::size_t begin, std::size_t count,
+                                bool is_first) {
+  const std::size_t before = hits_[texel];  // What earlier samples count for.
+  std::array<std::size_t, 2> hits{};        // Of the halves.
+  for (std::size_t k = 0; k < count; ++k) {
+    if (shader_.counts(begin + k)) ++hits[2 * k / count];
+  }
+  const std::size_t added = hits[0] + hits[1];
+  hits_[texel] += static_cast<std::uint32_t>(added);
+  const bool is_cut = hits_[texel] < (is_first ? count : 2 * count);
+  float error = is_first ? 0.0f : (is_cut ? least_left_of_cut : least_left) * errors_[texel];
+  for (std::size_t c = 0; c < means_.size(); ++c) {
+    const float* values = shader_.result(c).data() + begin;
+    std::array<double, 2> sums{};
+    for (std::size_t k = 0; k < count; ++k) {
+      if (shader_.counts(begin + k)) sums[2 * k / count] += static_cast<double>(values[k]);
+    }
+    const double sum = static_cast<double>(means_[c][texel]) * static_cast<double>(before);
+    // Where none counts all are the same point, which stands for the texel until one does.
+    const float mean =
+        before + added == 0
+            ? values[0]
+            : static_cast<float>((sum + sums[0] + sums[1]) / static_cast<double>(before + added));
+    means_[c][texel] = mean;
+    std::array<float, 2> halves{mean, mean};
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (hits[k] > 0) halves[k] = static_cast<float>(sums[k] / static_cast<double>(hits[k]));
+    }
+    error = std::max(
+        error, is_first ? error_of_four(c, texel, begin) : error_of_quarters(c, texel, halves));
+    first_half_[c][texel] =
+        is_first ? halves[0] : 0.5f * (first_half_[c][texel] + second_half_[c][texel]);
+    second_half_[c][texel] = is_first ? halves[1] : 0.5f * (halves[0] + halves[1]);
+  }
+  if (is_first && added < count) error = std::max(error, spread(begin, count, texel));
+  errors_[texel] = error;
+}
+
+float AdaptiveTexels::error_of_four(std::size_t component, std::size_t texel, std::size_t begin) {
+  const float* values = shader_.result(component).data() + begin;
+  along_[component][texel] = right_of_left(values);
+  across_[component][texel] = below_of_above(values);
+  float difference = 0.0f;
+  for (std::size_t k = 0; k < first_samples; ++k) difference += off_plane_[k] * values[k];
+  return relative(difference, component, texel);
+}
+
+float AdaptiveTexels::error_of_quarters(std::size_t component, std::size_t texel,
+                                        const std::array<float, 2>& added) {
+  const std::array<float, 4> quarters{first_half_[component][texel], second_half_[component][texel],
+                                      added[0], added[1]};
+  const float mean = 0.25f * (quarters[0] + quarters[1] + quarters[2] + quarters[3]);
+  float squares = 0.0f;
+  for (const float quarter : quarters) squares += (quarter - mean) * (quarter - mean);
+  const auto [low_old, high_old] = std::minmax(quarters[0], quarters[1]);
+  const auto [low_new, high_new] = std::minmax(quarters[2], quarters[3]);
+  const float gap = std::max({0.0f, low_new - high_old, low_old - high_new});
+  const float error = std::max(quarter_of_all * std::sqrt(squares / 3.0f), left_of_gap * gap);
+  return relative(error, component, texel);
 }
 
 /// Where few of the first samples are on the surface: as if another one was as far from the mean.
@@ -164,18 +246,18 @@ void AdaptiveTexels::look_around() {
   }
 }
 
-/// Those of the first set's samples with those of the neighbours' means. Of the samples' pairs the
-/// middles are half a texel from each other along one axis, a quarter along the other.
+/// Those of the first four samples with those of the neighbours' means.
 void AdaptiveTexels::compare_slopes(std::size_t component, std::size_t texel, float along,
                                     float across) {
-  const float of_columns = along_[component][texel] - (0.5f * along + 0.25f * across);
-  const float of_rows = across_[component][texel] - (0.25f * along + 0.5f * across);
+  const auto of_plane = [&](const SamplePlace& step) { return along * step.x + across * step.y; };
+  const float of_columns = along_[component][texel] - of_plane(along_step_);
+  const float of_rows = across_[component][texel] - of_plane(across_step_);
   errors_[texel] = std::max({errors_[texel], relative(0.25f * of_columns, component, texel),
                              relative(0.25f * of_rows, component, texel)});
 }
 
-bool AdaptiveTexels::wants_more(std::size_t texel, std::size_t set) const {
-  const float unseen = edges_[texel] / static_cast<float>(2 * set_size(set));
+bool AdaptiveTexels::wants_more(std::size_t texel, std::size_t total) const {
+  const float unseen = edges_[texel] / static_cast<float>(2 * total);
   return errors_[texel] > error_ || unseen > 4.0f * error_;
 }
 

@@ -11,24 +11,26 @@
 
 namespace nacre::host {
 
-/// Texels with as many samples as each needs: sets of 4, 16, 64, 256 and 1024 places
-/// (sample_places) are shaded one after another, all samples of a texel count alike, and a texel
-/// gets the next set while
+/// Texels with as many samples as each needs: 4, 8, 16 and so on up to 1024 places of a sequence
+/// (sample_sequence). A texel's are doubled while
 ///
-/// * its error is above the one asked for. After the first set that is what its samples differ
-///   from a plane by, one as steep as the neighbours say; after others half of what the set
-///   changed the mean by, but at least a third of what it was before: so slowly the errors of edges
-///   fall with four times the samples, and sets may agree by chance;
-/// * or, after the first set, a neighbour's is;
+/// * its error is above the one asked for. After the first four that is what they differ from a
+///   plane by, one as steep as the neighbours say; later it comes from the means of four quarters
+///   of the samples, each of which is as evenly spread as all: the deviation of one of them from
+///   the others, and less by what errors at edges fall by with four times the samples; twice the
+///   gap between the older half and the newer where there is one, for that is a blur which falls
+///   with the footprints; and at least a certain part of what it was before, since quarters may
+///   agree by chance;
+/// * or, after the first four, a neighbour's is;
 /// * or its neighbours say that an edge may have passed by all samples: an edge as high as a second
 ///   difference of texels, d, is worth d / 2n of a texel where n samples do not see it; more than
 ///   four times the error asked for is looked into.
 ///
 /// Samples beside the surface are no samples; see TexelSampler. What it gives does not depend on
-/// the rows it is asked for together: a row above and below are looked at with the first set.
+/// the rows it is asked for together: a row above and below are looked at with the first four.
 class AdaptiveTexels {
  public:
-  static constexpr int most_samples = 4 + 16 + 64 + 256 + 1024;
+  static constexpr int most_samples = 1024;
 
   AdaptiveTexels(PointShader& shader, float error);
 
@@ -37,16 +39,19 @@ class AdaptiveTexels {
                  const std::atomic<std::uint32_t>& stop, BakeCounts& counts);
 
  private:
-  static constexpr std::size_t sets = 5;
-
   RunStatus first_set(int first, int rows, const std::atomic<std::uint32_t>& stop,
                       BakeCounts& counts);
-  RunStatus next_set(std::size_t set, int first, const std::vector<std::size_t>& texels,
-                     const std::atomic<std::uint32_t>& stop, BakeCounts& counts);
-  /// What the neighbours' means say of the first set.
+  /// Adds samples up to as many a texel, for texels that have half of them, or none and it is four.
+  RunStatus add_samples(std::size_t total, int first, const std::vector<std::size_t>& texels,
+                        const std::atomic<std::uint32_t>& stop, BakeCounts& counts);
+  void add_result(std::size_t texel, std::size_t begin, std::size_t count, bool is_first);
+  float error_of_four(std::size_t component, std::size_t texel, std::size_t begin);
+  float error_of_quarters(std::size_t component, std::size_t texel,
+                          const std::array<float, 2>& added);
+  /// What the neighbours' means say of the first four.
   void look_around();
   void compare_slopes(std::size_t component, std::size_t texel, float along, float across);
-  bool wants_more(std::size_t texel, std::size_t set) const;
+  bool wants_more(std::size_t texel, std::size_t total) const;
   /// Whether a texel or one of the eight around it is not exact enough.
   bool is_near_error(std::size_t texel) const;
   float spread(std::size_t first, std::size_t samples, std::size_t texel) const;
@@ -55,14 +60,17 @@ class AdaptiveTexels {
   PointShader& shader_;
   float error_;
   std::size_t width_;
-  std::array<std::vector<SamplePlace>, sets> places_;
+  std::vector<SamplePlace> places_;
   TexelPoints points_;
   std::vector<std::vector<float>> means_;  ///< By component; also of the rows around those asked.
-  /// By component: by how much the samples on the right of the first set exceed those on the
+  std::vector<std::vector<float>> first_half_, second_half_;  ///< Means of so many of the samples.
+  /// By component: by how much the samples on the right of the first four exceed those on the
   /// left, and those below those above.
   std::vector<std::vector<float>> along_, across_;
-  std::vector<std::uint8_t> covered_;  ///< Texels that have some of the surface.
-  std::vector<std::uint32_t> hits_;    ///< Samples of each that count.
+  SamplePlace along_step_, across_step_;  ///< The same of the places.
+  std::array<float, 4> off_plane_;        ///< Factors of the first four, 0 together for a plane.
+  std::vector<std::uint8_t> covered_;     ///< Texels that have some of the surface.
+  std::vector<std::uint32_t> hits_;       ///< Samples of each that count.
   std::vector<float> errors_;
   std::vector<float> edges_;  ///< The highest edge that may be in a texel.
 };

@@ -18,7 +18,37 @@ double radical_inverse(std::uint32_t i) {
   return value;
 }
 
+/// Digits of a binary fraction.
+constexpr int digits = 16;
+constexpr std::uint32_t one = 1u << digits;
+
+/// Sobol's second dimension.
+std::uint32_t sobol(std::uint32_t i) {
+  std::uint32_t value = 0;
+  for (std::uint32_t v = one / 2; i != 0; i >>= 1, v ^= v >> 1) {
+    if ((i & 1u) != 0) value ^= v;
+  }
+  return value;
+}
+
+/// Each of the first two digits that is one inverts those behind it; the shift is by a sixth.
+float scrambled(std::uint32_t value) {
+  for (const std::uint32_t digit : {one / 2, one / 4}) {
+    if ((value & digit) != 0) value ^= digit - 1;
+  }
+  return (static_cast<float>(value ^ one / 6) + 0.5f) * (1.0f / static_cast<float>(one));
+}
+
 }  // namespace
+
+std::vector<SamplePlace> sample_sequence(int count) {
+  std::vector<SamplePlace> places;
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
+    const auto x = static_cast<std::uint32_t>(radical_inverse(i) * one);
+    places.push_back({scrambled(x), scrambled(sobol(i))});
+  }
+  return places;
+}
 
 std::vector<SamplePlace> sample_places(int count) {
   std::vector<SamplePlace> places;

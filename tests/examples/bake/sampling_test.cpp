@@ -1,8 +1,13 @@
 // Texels as means of samples: what they converge to, and what that takes.
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <set>
+#include <span>
+#include <utility>
 
+#include "examples/bake/sample_set.h"
 #include "tests/examples/bake/bake_fixture.h"
 #include "tests/examples/bake/independent/polygon.h"
 
@@ -105,6 +110,51 @@ TEST_F(Samples, OfACheckerConvergeToItsCoverage) {
     }
   }
   EXPECT_LT(last, 1e-3);
+}
+
+/// Niederreiter's (0, m, 2)-nets: of 2^m places each dyadic rectangle of area 2^-m has one.
+bool is_net(std::span<const host::SamplePlace> places) {
+  const int m = std::countr_zero(places.size());
+  for (int a = 0; a <= m; ++a) {
+    std::set<std::pair<int, int>> cells;
+    for (const host::SamplePlace& place : places) {
+      cells.emplace(static_cast<int>(std::ldexp(place.x, a)),
+                    static_cast<int>(std::ldexp(place.y, m - a)));
+    }
+    if (cells.size() != places.size()) return false;
+  }
+  return true;
+}
+
+TEST(SampleSequence, PowersOfTwoAreNetsAndFourAreInTheMiddle) {
+  const std::vector<host::SamplePlace> places = host::sample_sequence(1024);
+  for (std::size_t count = 1; count <= places.size(); count *= 2) {
+    for (std::size_t from = 0; from < places.size(); from += count) {
+      ASSERT_TRUE(is_net(std::span(places).subspan(from, count))) << count << " from " << from;
+    }
+  }
+  for (std::size_t i = 0; i < places.size(); i += 4) {
+    float x = 0.0f, y = 0.0f;
+    for (std::size_t k = i; k < i + 4; ++k) {
+      x += places[k].x;
+      y += places[k].y;
+    }
+    EXPECT_NEAR(0.25f * x, 0.5f, 1e-4f) << i;
+    EXPECT_NEAR(0.25f * y, 0.5f, 1e-4f) << i;
+  }
+}
+
+/// Of (x - 1/2)^2 over the texel the mean is 1/12.
+TEST(SampleSequence, ParabolasAreSoonExact) {
+  const std::vector<host::SamplePlace> places = host::sample_sequence(256);
+  for (const auto axis : {&host::SamplePlace::x, &host::SamplePlace::y}) {
+    for (const std::size_t count : {16, 64, 256}) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < count; ++i) sum += std::pow(double(places[i].*axis) - 0.5, 2);
+      const auto n = static_cast<double>(count);
+      EXPECT_LT(std::abs(sum / n - 1.0 / 12.0), 0.25 / n) << count;
+    }
+  }
 }
 
 TEST_F(Samples, OneIsInTheMiddle) {
