@@ -41,7 +41,7 @@ std::array<float, first_samples> off_plane(const std::vector<SamplePlace>& p) {
                          -area(p[0], p[1], p[2])};
   double all = 0.0;
   for (const double one : areas) all += std::abs(one);
-  std::array<float, first_samples> factors;
+  std::array<float, first_samples> factors{};
   for (std::size_t k = 0; k < factors.size(); ++k) factors[k] = float(areas[k] / all);
   return factors;
 }
@@ -58,7 +58,7 @@ AdaptiveTexels::AdaptiveTexels(PointShader& shader, float error)
       second_half_(means_.size()),
       along_(means_.size()),
       across_(means_.size()) {
-  std::array<float, first_samples> x, y;
+  std::array<float, first_samples> x{}, y{};
   for (std::size_t k = 0; k < first_samples; ++k) {
     x[k] = places_[k].x;
     y[k] = places_[k].y;

@@ -68,7 +68,7 @@ class AdaptiveTexels {
   /// left, and those below those above.
   std::vector<std::vector<float>> along_, across_;
   SamplePlace along_step_, across_step_;  ///< The same of the places.
-  std::array<float, 4> off_plane_;        ///< Factors of the first four, 0 together for a plane.
+  std::array<float, 4> off_plane_{};      ///< Factors of the first four, 0 together for a plane.
   std::vector<std::uint8_t> covered_;     ///< Texels that have some of the surface.
   std::vector<std::uint32_t> hits_;       ///< Samples of each that count.
   std::vector<float> errors_;
