@@ -59,15 +59,15 @@ def rms(found: numpy.ndarray, right: numpy.ndarray) -> float:
     return float(numpy.max(numpy.sqrt(numpy.mean(off * off, axis=0))))
 
 
-def samples_for(share: float, grids: list) -> float:
+def samples_for(error: float, grids: list) -> float:
     """Of a fixed grid that has such an error; infinite where none of these does."""
     for (few, high), (many, low) in zip(grids, grids[1:]):
-        if share > high:
+        if error > high:
             return few
-        if low <= share:
+        if low <= error:
             if low <= 0.0 or high <= low:
                 return many
-            step = math.log(high / max(share, low)) / math.log(high / low)
+            step = math.log(high / max(error, low)) / math.log(high / low)
             return few * (many / few) ** step
     return math.inf
 

@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t first_samples = 4;
 /// What the error at edges falls by with four times the samples: these sets' is n^-3/4.
 constexpr float quarter_of_all = 0.35f;
-/// What is left of a blur, of what it fell by with twice the samples, whose footprints are smaller:
-/// it falls as fast as they do, so by 1 - sqrt(1/2), and both halves have their part of it.
+/// What a mean still has of a blur, of what the newer half's is less than the older's: 1.5 times if
+/// it falls with the squares of footprints, which are sqrt(1/2) as wide, 2.9 if with themselves.
 constexpr float left_of_gap = 2.0f;
 /// What an error is at least, with twice the samples, of what it was.
 constexpr float least_left = 0.35f;

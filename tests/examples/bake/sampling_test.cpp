@@ -1,6 +1,7 @@
 // Texels as means of samples: what they converge to, and what that takes.
 #include <bit>
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <numbers>
 #include <set>
@@ -153,6 +154,37 @@ TEST(SampleSequence, ParabolasAreSoonExact) {
       for (std::size_t i = 0; i < count; ++i) sum += std::pow(double(places[i].*axis) - 0.5, 2);
       const auto n = static_cast<double>(count);
       EXPECT_LT(std::abs(sum / n - 1.0 / 12.0), 0.25 / n) << count;
+    }
+  }
+}
+
+/// Of waves exp(i w x) around the texel's middle, whose mean over it is sinc(w_x / 2) sinc(w_y /
+/// 2): the root of the mean square, for w at the crossings of a lattice.
+double error_of_waves(std::span<const host::SamplePlace> places, double most) {
+  const auto sinc = [](double x) { return x == 0.0 ? 1.0 : std::sin(x) / x; };
+  constexpr int side = 8;
+  double squares = 0.0;
+  for (int j = -side; j <= side; ++j) {
+    for (int i = -side; i <= side; ++i) {
+      const double wx = most * i / side, wy = most * j / side;
+      std::complex<double> mean = 0.0;
+      for (const host::SamplePlace& place : places) {
+        mean += std::polar(1.0, wx * (double(place.x) - 0.5) + wy * (double(place.y) - 0.5));
+      }
+      mean /= static_cast<double>(places.size());
+      squares += std::norm(mean - sinc(0.5 * wx) * sinc(0.5 * wy));
+    }
+  }
+  return std::sqrt(squares);
+}
+
+TEST(SampleSequence, SlowWavesAreMoreExactThanOfAGrid) {
+  const std::vector<host::SamplePlace> places = host::sample_sequence(16);
+  for (const int count : {8, 16}) {
+    for (const double most : {0.1, 0.5, 1.5}) {  // Radians a texel.
+      const double of_grid = error_of_waves(host::sample_places(count), most);
+      const auto first = std::span(places).first(static_cast<std::size_t>(count));
+      EXPECT_LT(3.0 * error_of_waves(first, most), of_grid) << count << ", " << most;
     }
   }
 }
