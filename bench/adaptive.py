@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Samples that `nacre bake --samples auto` takes beside those of a fixed grid of the same error.
+"""Samples that `nacre bake --samples auto` takes beside those of a fixed grid that is as good.
 
     bench/adaptive.py --tool build/bin/nacre --out bench/results/adaptive.md FILE.mtlx ...
 
 Every map of the documents' materials is baked with many samples, which is taken for right; by
---samples auto for a texel error; and with 1, 4, 16, ... samples everywhere. The error is the root
-of the mean square over the texels, of the channel that is worst, relative to values above 1. The
-fixed grid of the error that auto has is read off between two grids, log against log. Beside it:
-texels that are off by more than was asked.
+--samples auto for some errors of a texel; and with 1, 4, 16, ... samples everywhere. A texel is
+above an error by its worst channel, relative to values above 1. The grid as good leaves as few
+texels above, read off between two of those measured, log against log. A bake has one number of
+samples: the grid of a document is that of the map that needs most, and the grid of all documents
+that of the document. What no choice of numbers could do without, `the least`: if each texel had the
+fewest of the grids' samples from which on it is below the error.
 """
 
 import argparse
@@ -24,8 +26,7 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import report  # noqa: E402  It lies beside.
 
-GRIDS = (1, 4, 16, 64, 256)
-LEAST_GAIN = 3.0
+GRIDS = (1, 4, 16, 64, 256, 1024)
 
 
 def bake(tool: pathlib.Path, document: pathlib.Path, size: int, samples: str, folder: pathlib.Path,
@@ -48,60 +49,100 @@ def texels(file: pathlib.Path) -> numpy.ndarray:
                         for place, _, numbers in lines if place.lstrip().startswith("Pixel (")])
 
 
-def wrong(found: numpy.ndarray, right: numpy.ndarray, error: float) -> float:
-    """The share of texels."""
-    off = numpy.abs(found - right) / numpy.maximum(1.0, numpy.abs(right))
-    return float(numpy.mean(numpy.max(off, axis=1) > error))
+def off(found: numpy.ndarray, right: numpy.ndarray) -> numpy.ndarray:
+    """By how much each texel is."""
+    return numpy.max(numpy.abs(found - right) / numpy.maximum(1.0, numpy.abs(right)), axis=1)
 
 
-def rms(found: numpy.ndarray, right: numpy.ndarray) -> float:
-    off = (found - right) / numpy.maximum(1.0, numpy.abs(right))
-    return float(numpy.max(numpy.sqrt(numpy.mean(off * off, axis=0))))
-
-
-def samples_for(error: float, grids: list) -> float:
-    """Of a fixed grid that has such an error; infinite where none of these does."""
-    for (few, high), (many, low) in zip(grids, grids[1:]):
-        if error > high:
+def grid_as_good(share: float, shares: list) -> float:
+    """Samples of a grid that leaves so many texels above; infinite where none of these does."""
+    for grid, (few, high) in enumerate(shares):
+        if high > share:
+            continue
+        if grid == 0:
             return few
-        if low <= error:
-            if low <= 0.0 or high <= low:
-                return many
-            step = math.log(high / max(error, low)) / math.log(high / low)
-            return few * (many / few) ** step
+        before, higher = shares[grid - 1]
+        step = math.log(higher / share) / math.log(higher / high)
+        return before * (few / before) ** step
     return math.inf
 
 
-def rows_of(arguments: argparse.Namespace, document: pathlib.Path) -> list:
+def least(errors: dict, error: float) -> float:
+    """Samples a texel, if each had the fewest that will do."""
+    needed = numpy.full(len(errors[GRIDS[0]]), 2.0 * GRIDS[-1])
+    is_below = numpy.ones(len(needed), dtype=bool)
+    for grid in reversed(GRIDS):
+        is_below &= errors[grid] <= error
+        needed[is_below] = grid
+    return float(numpy.mean(needed))
+
+
+class Map:
+    """What was found of one map for one error."""
+
+    def __init__(self, name: str, taken: float, auto: numpy.ndarray, grids: dict, error: float):
+        one = 1.0 / len(auto)  # No share is told from less than one texel.
+        self.name, self.taken = name, taken
+        self.share = max(one, float(numpy.mean(auto > error)))
+        self.shares = [(n, max(one, float(numpy.mean(grids[n] > error)))) for n in GRIDS]
+        self.grid = grid_as_good(self.share, self.shares)
+        self.least = least(grids, error)
+
+    def cells(self) -> list:
+        return [f"{self.taken:.1f}", f"{100 * self.share:.2g}",
+                ", ".join(f"{100 * share:.2g}" for _, share in self.shares), *gain(self)]
+
+
+def gain(found) -> list:
+    """The grid as good, how many times auto's samples that is, and the least."""
+    some = min(found.grid, GRIDS[-1])  # At least.
+    more = "> " if found.grid == math.inf else ""
+    return [f"{more}{some:.0f}", f"{more}{some / found.taken:.1f}", f"{found.least:.1f}"]
+
+
+class Together:
+    """Maps of a document, or documents, that one grid is for."""
+
+    def __init__(self, parts: list):
+        self.taken = sum(part.taken for part in parts) / len(parts)
+        self.grid = max(part.grid for part in parts)
+        self.least = sum(part.least for part in parts) / len(parts)
+
+
+def maps_of(arguments: argparse.Namespace, document: pathlib.Path) -> dict:
+    """Of each error what was found of each map."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        folders = {kind: folder / kind for kind in ("right", "auto", *map(str, GRIDS))}
-        for each in folders.values():
-            each.mkdir()
-        maps = bake(arguments.tool, document, arguments.size, str(arguments.right), folders["right"])
-        found = bake(arguments.tool, document, arguments.size, "auto", folders["auto"],
-                     ("--texel-error", repr(arguments.error)))
-        for grid in GRIDS:
-            bake(arguments.tool, document, arguments.size, str(grid), folders[str(grid)])
-        rows = []
-        for map_name in maps:
-            right = texels(folders["right"] / map_name)
-            auto = texels(folders["auto"] / map_name)
-            error = rms(auto, right)
-            fixed = {n: texels(folders[str(n)] / map_name) for n in GRIDS}
-            grids = [(n, rms(fixed[n], right)) for n in GRIDS]
-            taken = found[map_name]["samples_per_texel"]
-            needed = samples_for(error, grids)
-            gain = min(needed, GRIDS[-1]) / taken  # At least.
-            errors = ", ".join(f"{each:.2g}" for _, each in grids)
-            share = 100 * wrong(auto, right, arguments.error)
-            rows.append([document.stem, map_name.removesuffix(".exr"), f"{taken:.1f}",
-                         f"{error:.2g}", f"{share:.2g}", errors,
-                         f"{needed:.0f}" if needed < math.inf else f"> {GRIDS[-1]}",
-                         f"{gain:.1f}" if needed < math.inf else f"> {gain:.1f}",
-                         "yes" if gain >= LEAST_GAIN else "**no**"])
-            print(rows[-1], flush=True)
-        return rows
+
+        def baked(kind: str, samples: str, more: tuple = ()) -> tuple:
+            (folder / kind).mkdir()
+            said = bake(arguments.tool, document, arguments.size, samples, folder / kind, more)
+            return said, {each: texels(folder / kind / each) for each in said}
+
+        _, right = baked("right", str(arguments.right))
+        grids = {n: baked(str(n), str(n))[1] for n in GRIDS}
+        found = {}
+        for error in arguments.errors:
+            said, auto = baked(f"auto{error}", "auto", ("--texel-error", repr(error)))
+            found[error] = [Map(each.removesuffix(".exr"), said[each]["samples_per_texel"],
+                                off(auto[each], right[each]),
+                                {n: off(grids[n][each], right[each]) for n in GRIDS}, error)
+                            for each in said]
+        return found
+
+
+def rows_of(documents: dict) -> list:
+    """By document its maps, then all of them; last all documents."""
+    rows, all_of_them = [], []
+    for name, maps in documents.items():
+        rows += [[name, each.name, *each.cells()] for each in maps]
+        together = Together(maps)
+        all_of_them.append(together)
+        if len(maps) > 1:
+            rows.append([name, "**all maps**", f"{together.taken:.1f}", "", "", *gain(together)])
+    together = Together(all_of_them)
+    rows.append(["**all documents**", "", f"{together.taken:.1f}", "", "", *gain(together)])
+    return rows
 
 
 def main() -> None:
@@ -110,20 +151,23 @@ def main() -> None:
     parser.add_argument("--tool", type=pathlib.Path, required=True)
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--size", type=int, default=512)
-    parser.add_argument("--right", type=int, default=1024, help="samples that are taken for right")
-    parser.add_argument("--error", type=float, default=1 / 510)
+    parser.add_argument("--right", type=int, default=4096, help="samples that are taken for right")
+    parser.add_argument("--errors", type=float, nargs="+", default=[1 / 510, 5e-4])
     arguments = parser.parse_args()
-    rows = [row for document in arguments.documents for row in rows_of(arguments, document)]
-    head = ["document", "map", "samples of auto", "error", "texels above, %",
-            "error of grids of " + ", ".join(map(str, GRIDS)), "grid as good", "gain",
-            f"≥ {LEAST_GAIN:g}"]
-    arguments.out.write_text(
-        f"# Samples where they are needed\n\nRun {time.strftime('%Y-%m-%d')}, {arguments.size}², by "
-        f"bench/adaptive.py. `--samples auto --texel-error {arguments.error:.3g}` beside as many "
-        f"samples everywhere, against {arguments.right} samples. Error: the root of the mean square over "
-        "texels. The grid as good has that of auto, between two of those measured.\n\n"
-        + report.table(head, rows), encoding="utf-8")
-    print(arguments.out.read_text(encoding="utf-8"))
+    found = {}
+    for document in arguments.documents:
+        found[document.stem] = maps_of(arguments, document)
+        print(document.stem, flush=True)
+    head = ["document", "map", "samples of auto", "texels above, %",
+            "of grids of " + ", ".join(map(str, GRIDS)), "grid as good", "over auto", "the least"]
+    text = (f"# Samples where they are needed\n\nRun {time.strftime('%Y-%m-%d')}, "
+            f"{arguments.size}², by bench/adaptive.py, which says what the columns are. `--samples "
+            f"auto` beside as many samples everywhere, against {arguments.right} samples.\n")
+    for error in arguments.errors:
+        rows = rows_of({name: maps[error] for name, maps in found.items()})
+        text += f"\n## `--texel-error {error:.3g}`\n\n" + report.table(head, rows)
+    arguments.out.write_text(text, encoding="utf-8")
+    print(text)
 
 
 if __name__ == "__main__":

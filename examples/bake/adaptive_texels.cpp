@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+
+#include "examples/bake/texel_runs.h"
 
 namespace nacre::host {
 
@@ -120,29 +123,10 @@ RunStatus AdaptiveTexels::add_samples(std::size_t total, int first,
   const std::size_t from = total == first_samples ? 0 : total / 2;
   const std::size_t samples = total - from;
   points_.footprint = 1.0f / std::sqrt(static_cast<float>(total));
-  const std::size_t step = std::max<std::size_t>(1, shader_.points_of_a_run() / samples);
-  for (std::size_t begin = 0; begin < texels.size(); begin += step) {
-    const std::size_t count = std::min(step, texels.size() - begin);
-    points_.x.clear();
-    points_.y.clear();
-    points_.texel.clear();
-    for (std::size_t i = begin; i < begin + count; ++i) {
-      const auto column = static_cast<float>(texels[i] % width_);
-      const auto row = static_cast<float>(static_cast<std::size_t>(first) + texels[i] / width_);
-      for (std::size_t k = from; k < total; ++k) {
-        points_.x.push_back(column + places_[k].x);
-        points_.y.push_back(row + places_[k].y);
-        points_.texel.push_back(static_cast<std::size_t>(first) * width_ + texels[i]);
-      }
-    }
-    const RunStatus status = shader_.run(points_, stop);
-    if (status != RunStatus::done) return status;
-    counts.samples += points_.x.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      add_result(texels[begin + i], i * samples, samples, from == 0);
-    }
-  }
-  return RunStatus::done;
+  return run_texels(shader_, texels, first, std::span(places_).subspan(from, samples), points_,
+                    stop, counts, [&](std::size_t texel, std::size_t begin) {
+                      add_result(texels[texel], begin, samples, from == 0);
+                    });
 }
 
 /// Of the last run the `count` samples from `begin` on.

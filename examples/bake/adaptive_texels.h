@@ -11,8 +11,9 @@
 
 namespace nacre::host {
 
-/// Texels with as many samples as each needs: 4, 8, 16 and so on up to 1024 places of a sequence
-/// (sample_sequence). A texel's are doubled while
+/// Texels with as many samples as each needs, for kernels that read no footprints (others:
+/// FilteredTexels): 4, 8, 16 and so on up to 1024 places of a sequence (sample_sequence). A texel's
+/// are doubled while
 ///
 /// * its error is above the one asked for. After the first four that is what they differ from a
 ///   plane by, one as steep as the neighbours say; later it comes from the means of four quarters

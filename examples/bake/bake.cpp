@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "examples/bake/adaptive_texels.h"
+#include "examples/bake/filtered_texels.h"
 #include "examples/bake/ordered_blocks.h"
 #include "examples/bake/point_shader.h"
 #include "examples/bake/texel_sampler.h"
@@ -29,13 +30,16 @@ double thread_seconds() {
 /// What one thread bakes with.
 class Baker {
  public:
-  Baker(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings)
+  Baker(const OutputKernel& kernel, std::size_t output, const BakeSettings& settings,
+        FilteredTexels::Start& start)
       : shader_(kernel, output, settings), leaves_gaps_(settings.surface != nullptr) {
     const Sampling& sampling = settings.sampling;
     if (!has_mean(kernel.outputs[output].type)) {
       fixed_.emplace(shader_, 1);
     } else if (sampling.count > 0) {
       fixed_.emplace(shader_, sampling.count);
+    } else if (shader_.reads_footprints()) {
+      filtered_.emplace(shader_, sampling.error, start);
     } else {
       adaptive_.emplace(shader_, sampling.error);
     }
@@ -43,14 +47,20 @@ class Baker {
 
   RunStatus rows(BakedRows& block, const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
     block.planes.resize(static_cast<std::size_t>(shader_.components()));
-    const RunStatus status =
-        adaptive_ ? adaptive_->rows(block.first, block.rows, block.planes, stop, counts)
-                  : fixed_->rows(block.first, block.rows, block.planes, stop, counts);
+    const RunStatus status = sample(block, stop, counts);
     if (leaves_gaps_) note_gaps(block);
     return status;
   }
 
  private:
+  RunStatus sample(BakedRows& block, const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
+    const auto rows = [&](auto& texels) {
+      return texels.rows(block.first, block.rows, block.planes, stop, counts);
+    };
+    if (filtered_) return rows(*filtered_);
+    return adaptive_ ? rows(*adaptive_) : rows(*fixed_);
+  }
+
   void note_gaps(BakedRows& block) const {
     const auto width = static_cast<std::size_t>(shader_.width());
     const std::size_t first = static_cast<std::size_t>(block.first) * width;
@@ -64,6 +74,7 @@ class Baker {
   bool leaves_gaps_;
   std::optional<TexelSampler> fixed_;
   std::optional<AdaptiveTexels> adaptive_;
+  std::optional<FilteredTexels> filtered_;
 };
 
 }  // namespace
@@ -85,11 +96,12 @@ BakeResult bake(const OutputKernel& kernel, std::size_t output, const BakeSettin
     ends = 1;
     queue.wake();
   });
+  FilteredTexels::Start first_squares;
   std::mutex counting;
   BakeCounts all;
   run_on_threads(threads, [&] {
     try {
-      Baker baker(kernel, output, settings);
+      Baker baker(kernel, output, settings, first_squares);
       BakeCounts mine;
       leave_cores(
           next_thread++, threads, [&] { return kernel.kernel.is_pending() ? 1 : 0; },

@@ -17,7 +17,8 @@ namespace nacre::host {
 struct Sampling {
   int count = 1;  ///< Of each texel; 0: as many as `error` asks for.
   /// Of a texel, in units of the output, of its own value where that is above 1: samples are
-  /// added until the estimated error is as small. See adaptive_texels.h.
+  /// added until the estimated error is as small. See adaptive_texels.h, and filtered_texels.h for
+  /// what reads footprints.
   float error = 1.0f / 510.0f;
 };
 

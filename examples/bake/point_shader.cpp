@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "examples/bake/plane.h"
+#include "runtime/channel/channel_name.h"
 
 namespace nacre::host {
 
@@ -40,6 +41,12 @@ void PointShader::set(std::string_view name, float value) {
   if (const auto index = kernel_.kernel.parameter_index(name)) {
     parameters_[*index] = std::bit_cast<std::uint32_t>(value);
   }
+}
+
+bool PointShader::reads_footprints() const {
+  return std::ranges::any_of(kernel_.kernel.program().inputs, [](const Channel& channel) {
+    return parse_derivative(parse_channel(channel.name).group).has_value();
+  });
 }
 
 std::size_t PointShader::points_of_a_run() const {

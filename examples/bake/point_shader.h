@@ -20,6 +20,8 @@ class PointShader {
   int width() const { return width_; }
   int height() const { return height_; }
   int components() const { return component_count(output_.type); }
+  /// Whether results depend on the footprints of points: images are filtered, say.
+  bool reads_footprints() const;
   /// What one run should get: enough points to be worth it, few enough that it soon sees that
   /// there is compiled code, or that it is to stop.
   std::size_t points_of_a_run() const;

@@ -34,6 +34,7 @@ class Bake : public ::testing::Test {
     auto kernel =
         document ? system_->compile_outputs(*document, {"G/o"}, {}, diagnostics) : nullptr;
     EXPECT_NE(kernel, nullptr) << diagnostics.to_string();
+    EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.to_string();
     return kernel;
   }
 
