@@ -33,7 +33,9 @@ Environment::Environment(int width, int height, const std::vector<Vec3>& texels,
       texels_.push_back(Texel{rgb.x, rgb.y, rgb.z, 0.f});
     }
   }
-  build_tables();
+  const std::vector<double> means = texel_means();
+  mean_ = static_cast<float>(mean_over_sphere(means));
+  draw_by(means);
 }
 
 /// The number of a texel; the image goes on for one to each side.
@@ -55,11 +57,51 @@ float Environment::texel_solid_angle(int y) const {
   return (2.f * pi / static_cast<float>(width_)) * 2.f * std::sin(middle) * std::sin(0.5f * step);
 }
 
-void Environment::build_tables() {
+double Environment::mean_over_sphere(const std::vector<double>& texels) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const int row = static_cast<int>(i / static_cast<std::size_t>(width_));
+    sum += texels[i] * static_cast<double>(texel_solid_angle(row));
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+void Environment::draw_above_mean() {
+  std::vector<double> excess = texel_means();
+  const double mean = mean_over_sphere(excess);
+  for (double& texel : excess) texel = std::max(0.0, texel - mean);
+  if (mean_over_sphere(excess) > 0.0) draw_by(excess);
+}
+
+/// In proportion to a number of each texel, all over its solid angle.
+void Environment::draw_by(const std::vector<double>& texels) {
   const auto w = static_cast<std::size_t>(width_);
+  columns_.clear();
+  latitudes_.clear();
+  row_densities_.clear();
   std::vector<double> rows, columns(w);
-  // The mean of a linear interpolation over its texel weighs neighbours 1:6:1 per axis.
+  for (int y = 0; y < height_; ++y) {
+    std::copy_n(texels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * w), w,
+                columns.begin());
+    columns_.emplace_back(columns);
+    for (int x = 0; x < width_; ++x) {
+      texels_[at(x, y)][probability] = columns_.back().probability(x);
+    }
+    rows.push_back(columns_.back().sum() * texel_solid_angle(y));
+  }
+  rows_ = Distribution(rows);
+  for (int y = 0; y <= height_; ++y) {
+    latitudes_.push_back(std::cos(static_cast<float>(y) * pi / static_cast<float>(height_)));
+    if (y < height_) row_densities_.push_back(rows_.probability(y) / texel_solid_angle(y));
+  }
+}
+
+/// Luminances, row by row: the mean of a linear interpolation over its texel weighs neighbours
+/// 1:6:1 per axis.
+std::vector<double> Environment::texel_means() const {
   constexpr float share[3] = {0.125f, 0.75f, 0.125f};
+  std::vector<double> means;
+  means.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       float mean = 0.f;
@@ -68,20 +110,10 @@ void Environment::build_tables() {
           mean += share[i + 1] * share[j + 1] * luminance(radiance(x + i, y + j));
         }
       }
-      columns[static_cast<std::size_t>(x)] = mean;
+      means.push_back(mean);
     }
-    columns_.emplace_back(columns);
-    for (int x = 0; x < width_; ++x) {
-      texels_[at(x, y)][probability] = columns_.back().probability(x);
-    }
-    rows.push_back(columns_.back().sum() * texel_solid_angle(y));
   }
-  rows_ = Distribution(rows);
-  mean_ = static_cast<float>(rows_.sum() / (4 * std::numbers::pi));
-  for (int y = 0; y <= height_; ++y) {
-    latitudes_.push_back(std::cos(static_cast<float>(y) * pi / static_cast<float>(height_)));
-    if (y < height_) row_densities_.push_back(rows_.probability(y) / texel_solid_angle(y));
-  }
+  return means;
 }
 
 float Environment::texel_pdf(int x, int y) const {

@@ -39,6 +39,14 @@ class Environment {
                                          const ImageLimits& limits, Diagnostics& diagnostics,
                                          const Stop& stop = {});
 
+  /// From now on draws in proportion to what texels have above the mean of the sphere, and never
+  /// the others: for paths whose own directions find those, weighed by both densities, less noise.
+  /// That is what is left of twice the light's share once a density even over a hemisphere has been
+  /// taken off (Karlik, Sik, Vevoda, Skrivan, Krivanek 2019, "MIS Compensation: Optimizing Sampling
+  /// Techniques in Multiple Importance Sampling"). Where nothing is above the mean all stays as it
+  /// is. Not for Strategy::light_only, which would miss the rest.
+  void draw_above_mean();
+
   struct Light {
     Vec3 radiance;
     float pdf;  ///< Of sample(), per solid angle.
@@ -77,7 +85,9 @@ class Environment {
   void sample_block(std::span<const Uniform2> u, Sample* samples) const;
   float texel_solid_angle(int y) const;
   float texel_pdf(int x, int y) const;
-  void build_tables();
+  std::vector<double> texel_means() const;
+  double mean_over_sphere(const std::vector<double>& texels) const;
+  void draw_by(const std::vector<double>& texels);
 
   int width_, height_;
   std::vector<Texel> texels_;  ///< With those around the image.

@@ -11,11 +11,13 @@ std::optional<host::Environment> load_environment(const RenderOptions& options,
                                                   Diagnostics& diagnostics) {
   constexpr float radians = 0.01745329252f;
   const float rotation = options.environment_rotation * radians;
-  if (options.environment.empty()) {
-    return host::Environment::studio(options.environment_scale, rotation);
-  }
-  return host::Environment::load(options.environment, options.environment_scale, rotation,
-                                 options.common.texture_limits.limits, diagnostics);
+  std::optional<host::Environment> sky =
+      options.environment.empty()
+          ? host::Environment::studio(options.environment_scale, rotation)
+          : host::Environment::load(options.environment, options.environment_scale, rotation,
+                                    options.common.texture_limits.limits, diagnostics);
+  if (sky) sky->draw_above_mean();  // Strategy::multiple_importance is the only one here.
+  return sky;
 }
 
 host::Scene load_world(const RenderOptions& options, Diagnostics& diagnostics) {

@@ -48,6 +48,40 @@ TEST(Environment, DensityIntegratesToOne) {
   }
 }
 
+TEST(Environment, DensityAboveTheMeanIntegratesToOneAndIsInProportion) {
+  constexpr int width = 16, height = 8;
+  Environment e = spotty(width, height, 0.f);
+  const Environment all = e;
+  e.draw_above_mean();
+  EXPECT_EQ(e.mean_luminance(), all.mean_luminance());
+  double sum = 0, scale = 0;
+  for (int y = 0; y < height; ++y) {
+    const double solid =
+        2 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height));
+    for (int x = 0; x < width; ++x) {
+      const Vec3 middle = direction(0.5 - 0.5 * std::cos(pi * (y + 0.5) / height),
+                                    2 * pi * ((x + 0.5) / width - 0.5));
+      const double pdf = e.light(middle).pdf;  // The same all over a texel.
+      sum += pdf * solid;
+      // What all of it is drawn by is its luminance over 4 pi times the mean.
+      const double excess = 4 * pi * all.light(middle).pdf - 1;
+      if (excess > 0 && scale == 0) scale = pdf / excess;
+      EXPECT_NEAR(pdf, excess > 0 ? scale * excess : 0, 1e-4) << x << ' ' << y;
+    }
+  }
+  EXPECT_NEAR(sum, 1, 1e-5);
+}
+
+TEST(Environment, WithNothingAboveTheMeanIsDrawnWhole) {
+  Environment even = Environment::constant({2.f, 2.f, 2.f});
+  even.draw_above_mean();
+  EXPECT_NEAR(even.light({0.f, 1.f, 0.f}).pdf, 1 / (4 * pi), 1e-7);
+  EXPECT_GT(even.sample({0.3f, 0.4f}).pdf, 0.f);
+  Environment black = Environment::constant({});
+  black.draw_above_mean();
+  EXPECT_EQ(black.sample({0.3f, 0.4f}).pdf, 0.f);
+}
+
 TEST(Environment, StudioIsScaledAndTurned) {
   const Environment studio = Environment::studio();
   const Environment turned = Environment::studio(2.f, 0.5f);
