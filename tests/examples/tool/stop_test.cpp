@@ -125,6 +125,41 @@ TEST_F(Stopped, KilledBakesLeaveNothingWrong) {
   }
 }
 
+// A manifest says which maps are whole; what was at work when it was killed is baked again.
+TEST_F(Stopped, KilledBakesOfMeshesGoOnToTheSameBytes) {
+  const auto bake_into = [this](const std::string& folder) {
+    std::vector<std::string> arguments{
+        "bake",  document_,    "--cache",    file("cache"),
+        "--out", file(folder), "--manifest", file(folder + "/m.json")};
+    for (const char* more : {"--scene", "builtin", "--mesh", "ball", "--samples", "16", "--size",
+                             "256", "--dilate", "4"}) {
+      arguments.emplace_back(more);
+    }
+    return arguments;
+  };
+  const auto begin = Clock::now();
+  const Process whole(bake_into("whole"), file("stderr"));
+  ASSERT_EQ(whole.wait(), 0) << text_of(file("stderr"));
+  const double duration = seconds_since(begin);
+  std::mt19937 random(5489);
+  std::uniform_real_distribution<double> share(0.0, 0.8);
+  int killed = 0;
+  for (int i = 0; i < 12; ++i) {
+    if (i % 4 == 0) std::filesystem::remove_all(file("out"));
+    int status = 0;
+    stopped_after(bake_into("out"), share(random) * duration, SIGKILL, status);
+    if (WIFSIGNALED(status)) ++killed;
+  }
+  EXPECT_GT(killed, 3);
+  const Process last(bake_into("out"), file("stderr"));
+  ASSERT_EQ(last.wait(), 0) << text_of(file("stderr"));
+  EXPECT_EQ(names_in(file("out")), names_in(file("whole")));
+  for (const std::string& name : names_in(file("whole"))) {
+    if (name == "m.json") continue;  // It has times.
+    EXPECT_EQ(text_of(file("out/" + name)), text_of(file("whole/" + name))) << name;
+  }
+}
+
 // Work for minutes, stopped when it has begun.
 TEST_F(Stopped, EndsSoonAndSaysWhatIsMissing) {
   struct Work {
