@@ -42,7 +42,8 @@ void CameraPaths::begin(const Tile& tile, int first, int last, std::vector<Path>
   if (is_open(s)) draw(Draw::time, times_);
   const bool is_box = s.filter == PixelFilter::box;
   const int width = tile.width(), pixels = static_cast<int>(tile.pixels());
-  paths.clear();
+  static const Path fresh;
+  paths.resize(keys_.size());
   for (std::size_t k = 0; k < keys_.size(); ++k) {
     const int i = static_cast<int>(k) % pixels;
     const Uniform2 u = places_[k];
@@ -50,7 +51,8 @@ void CameraPaths::begin(const Tile& tile, int first, int last, std::vector<Path>
     const float y = static_cast<float>(tile.y0 + i / width) + (is_box ? u.y : 0.5f + tent(u.y));
     const float time = times_[k].x;
     const PixelCamera::Ray ray = context_.camera.ray(x, y, lenses_[k], time);
-    Path& path = paths.emplace_back();
+    Path& path = paths[k];
+    path = fresh;
     path.key = keys_[k];
     path.ray = {ray.origin, ray.direction, INFINITY, ray_camera, time};
     path.vertex = ray.origin;

@@ -23,6 +23,16 @@ class Media {
   static constexpr std::uint32_t no_exit = ~0u;
   static constexpr std::uint32_t capacity = 6;
 
+  Media() = default;
+  Media(const Media& other) { *this = other; }
+  /// Copies what light is inside of, which is little of the room that there is.
+  Media& operator=(const Media& other) {
+    count_ = other.count_;
+    current_ = other.current_;
+    std::copy_n(other.inside_.begin(), count_, inside_.begin());
+    return *this;
+  }
+
   bool empty() const { return count_ == 0; }
   /// Not empty() before.
   const Medium& current() const { return inside_[current_].medium; }
