@@ -134,8 +134,8 @@ bool PixelCamera::may_see(Vec3 centre, float radius) const {
 }
 
 PixelCamera::Ray PixelCamera::ray(float x, float y, Uniform2 lens, float time) const {
+  if (motion_.is_still()) return standing_ray(x, y, lens);
   const Ray ray = standing_ray(x, y, lens);
-  if (motion_.is_still()) return ray;
   const Affine moved = motion_.at(time);
   return {transform_point(moved, ray.origin), normalize(transform_vector(moved, ray.direction))};
 }

@@ -54,7 +54,11 @@ void CameraPaths::begin(const Tile& tile, int first, int last, std::vector<Path>
     Path& path = paths[k];
     path = fresh;
     path.key = keys_[k];
-    path.ray = {ray.origin, ray.direction, INFINITY, ray_camera, time};
+    path.ray.origin = ray.origin;
+    path.ray.direction = ray.direction;
+    path.ray.far = INFINITY;
+    path.ray.kind = ray_camera;
+    path.ray.time = time;
     path.vertex = ray.origin;
     path.media = context_.camera_media;
   }

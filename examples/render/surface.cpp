@@ -222,9 +222,24 @@ void SurfaceGeometry::fill_within(std::span<const InnerPoint> points, const Capa
   }
 }
 
+/// Nobody waits for each by itself.
+void SurfaceGeometry::fetch_triangles(std::span<const SurfacePoint> points) const {
+  for (const SurfacePoint& p : points) {
+    __builtin_prefetch(&scene_.meshes[p.mesh].triangles[p.triangle]);
+  }
+  for (const SurfacePoint& p : points) {
+    const Mesh& mesh = scene_.meshes[p.mesh];
+    for (const std::uint32_t v : mesh.triangles[p.triangle].v) {
+      __builtin_prefetch(&mesh.position[v]);
+      if (!mesh.normal.empty()) __builtin_prefetch(&mesh.normal[v]);
+    }
+  }
+}
+
 void SurfaceGeometry::fill_position(std::span<const SurfacePoint> points, bool object_space,
                                     BatchBuffer& buffer) const {
   ShadingBatch& b = buffer.batch;
+  fetch_triangles(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SurfacePoint& p = points[i];
     const Mesh& mesh = scene_.meshes[p.mesh];

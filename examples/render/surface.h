@@ -70,6 +70,7 @@ class SurfaceGeometry {
                    const PixelCamera& camera, BatchBuffer& buffer) const;
 
  private:
+  void fetch_triangles(std::span<const SurfacePoint> points) const;
   void fill_position(std::span<const SurfacePoint>, bool object_space, BatchBuffer&) const;
   void fill_tangents(std::span<const SurfacePoint>, bool object_space, BatchBuffer&) const;
   void fill_derivatives(std::span<const SurfacePoint>, std::uint32_t attributes, const PixelCamera&,

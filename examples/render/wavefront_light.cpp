@@ -123,7 +123,12 @@ void Wavefront::ask_environment() {
   for (std::size_t k = 0; k < lit_by_sky_.size(); ++k) {
     const Environment::Sample& s = sky_samples_[k];
     LightSample& light = light_samples_[lit_by_sky_[k]];
-    light = {s.wi, s.radiance, {}, chance * s.pdf, true};
+    light.wi = s.wi;
+    light.radiance = s.radiance;
+    light.target = {};
+    light.pdf = chance * s.pdf;
+    light.infinite = true;
+    light.unseen = false;
     light.group = context_.settings.passes.groups.of_environment;
   }
   lit_by_sky_.clear();

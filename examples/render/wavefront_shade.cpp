@@ -186,7 +186,10 @@ bool Wavefront::scatter(Path& path, std::size_t lane, float distance) {
   path.vertex = load(buffer_.batch.P, lane);
   path.pdf = pdf;
   path.light_blind = delta;
-  path.ray = {leave(buffer_, lane, wi), wi, INFINITY, ray_secondary, path.ray.time};
+  path.ray.origin = leave(buffer_, lane, wi);
+  path.ray.direction = wi;
+  path.ray.far = INFINITY;
+  path.ray.kind = ray_secondary;
   ++path.key.event;
   return true;
 }

@@ -8,12 +8,22 @@ namespace nacre::host {
 /// of, the light is too.
 void Wavefront::add_shadow(const LightSample& light, std::uint32_t path, Vec3 origin,
                            Vec3 contribution) {
-  Ray ray = {origin, light.wi, INFINITY, ray_shadow, paths_[path].ray.time};
+  // Each where it stays: what is put together elsewhere and copied at once waits for its parts.
+  ShadowRay& shadow = shadows_.emplace_back();
+  Ray& ray = shadow.ray;
+  ray.origin = origin;
+  ray.direction = light.wi;
+  ray.far = INFINITY;
+  ray.kind = ray_shadow;
+  ray.time = paths_[path].ray.time;
   if (!light.infinite) {
     ray.far = length(light.target - origin);
     ray.direction = normalize_or(light.target - origin, light.wi);
   }
-  shadows_.push_back({ray, contribution, light.target, path, light.infinite});
+  shadow.contribution = contribution;
+  shadow.target = light.target;
+  shadow.path = path;
+  shadow.infinite = light.infinite;
   if (context_.any_volume) shadow_media_.push_back({paths_[path].media, paths_[path].key});
 }
 
