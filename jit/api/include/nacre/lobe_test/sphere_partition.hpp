@@ -18,16 +18,17 @@ inline namespace v0 {
 /// The sphere cut into cells over which pdf and f are integrated: a grid in
 /// cos(theta) and phi about the y axis (a lobe at the pole, where mirrors look
 /// along the normal, would need cells as thin as needles), cut in four wherever the integral is not
-/// exact enough to be compared with `samples` random samples, or where a cell holds more than a
-/// 300th of them. Exact enough: Gauss-Legendre quadrature of a cell and of its quarters differ by
-/// less than a 100th of the samples' deviation.
+/// exact enough to be compared with `samples` random samples, where a cell holds more than a
+/// 300th of them, or where there is more of the pilot than the integral explains: a narrow lobe may
+/// reach into a corner of a cell without any node of the quadrature. Exact enough: Gauss-Legendre
+/// quadrature of a cell and of its quarters differ by less than a 100th of the samples' deviation.
 class SpherePartition {
  public:
   struct Densities {
     std::vector<float> pdf, f;  ///< f: times the cosine.
   };
   using Evaluate = std::function<Densities(const std::vector<Direction>&)>;
-  /// `pilot`: directions near which there may be something to see.
+  /// `pilot`: directions near which there may be something to see, some that are drawn by pdf.
   SpherePartition(const Evaluate& evaluate, const std::vector<Direction>& pilot, double samples);
 
   std::size_t cells() const { return leaf_pdf_.size(); }
@@ -51,6 +52,7 @@ class SpherePartition {
   static constexpr double pi = 3.14159265358979323846;
   static constexpr int rows = 8, columns = 16;
   static constexpr int most_levels = 22;
+  static constexpr int levels_of_corners = 10;  ///< Cells below are no larger than 2e-4.
   static constexpr double pieces = 300.0;
   static constexpr std::size_t most_cells = std::size_t{1} << 16;  ///< Of what has no end.
 
@@ -68,6 +70,10 @@ class SpherePartition {
   void split(std::size_t parent);
   void integrate(const Evaluate& evaluate, std::size_t first);
   bool converged(const Cell& parent) const;
+  /// Whether a cell has some of the pilot, but twenty times less to show for it.
+  bool misses(const Cell& cell, double seen, std::size_t pilot) const {
+    return seen > 20.0 * cell.pdf * static_cast<double>(pilot);
+  }
 
   std::vector<Cell> cells_;
   std::vector<double> leaf_pdf_;
@@ -107,7 +113,9 @@ inline SpherePartition::SpherePartition(const Evaluate& evaluate,
         const std::size_t child = cells_[parent].child + k;
         const bool large = std::max(cells_[child].pdf, cells_[child].f) > 1.0 / pieces ||
                            seen[child] * pieces > static_cast<double>(pilot.size()) + 20 * pieces;
-        if (!fine || large) next.push_back(child);
+        const bool corner =
+            level < levels_of_corners && misses(cells_[child], seen[child], pilot.size());
+        if (!fine || large || corner) next.push_back(child);
       }
     }
     pending = std::move(next);
