@@ -8,8 +8,8 @@ Every map of the documents' materials is baked with many samples, which is taken
 above an error by its worst channel, relative to values above 1. The grid as good leaves as few
 texels above, read off between two of those measured, log against log. A bake has one number of
 samples: the grid of a document is that of the map that needs most, and the grid of all documents
-that of the document. What no choice of numbers could do without, `the least`: if each texel had the
-fewest of the grids' samples from which on it is below the error.
+that of the document. `The least` is what choosing among the grids could take at best: if each texel
+had the fewest of their samples from which on it is below the error.
 """
 
 import argparse

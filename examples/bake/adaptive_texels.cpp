@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "examples/bake/texel_error.h"
 #include "examples/bake/texel_runs.h"
 
 namespace nacre::host {
@@ -84,7 +85,8 @@ RunStatus AdaptiveTexels::rows(int first, int rows, std::vector<std::vector<floa
   std::vector<std::size_t> texels;
   for (std::size_t i = begin; i < begin + count; ++i) {
     if (covered_[i] == 0) continue;
-    if (is_near_error(i) || wants_more(i, first_samples)) texels.push_back(i);
+    if (is_any_above(errors_, width_, i, error_) || wants_more(i, first_samples))
+      texels.push_back(i);
   }
   for (std::size_t total = 2 * first_samples; total <= std::size_t{most_samples} && !texels.empty();
        total *= 2) {
@@ -205,7 +207,7 @@ float AdaptiveTexels::spread(std::size_t first, std::size_t samples, std::size_t
 }
 
 float AdaptiveTexels::relative(float difference, std::size_t component, std::size_t texel) const {
-  return std::abs(difference) / std::max(1.0f, std::abs(means_[component][texel]));
+  return texel_error(difference, means_[component][texel]);
 }
 
 /// At the edges of the image and of the surface a texel stands for the one that is not there.
@@ -243,18 +245,6 @@ void AdaptiveTexels::compare_slopes(std::size_t component, std::size_t texel, fl
 bool AdaptiveTexels::wants_more(std::size_t texel, std::size_t total) const {
   const float unseen = edges_[texel] / static_cast<float>(2 * total);
   return errors_[texel] > error_ || unseen > 4.0f * error_;
-}
-
-bool AdaptiveTexels::is_near_error(std::size_t texel) const {
-  const std::size_t x = texel % width_;
-  const std::size_t y = texel / width_;
-  const std::size_t rows = errors_.size() / width_;
-  for (std::size_t j = y > 0 ? y - 1 : 0; j < std::min(y + 2, rows); ++j) {
-    for (std::size_t i = x > 0 ? x - 1 : 0; i < std::min(x + 2, width_); ++i) {
-      if (errors_[j * width_ + i] > error_) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace nacre::host

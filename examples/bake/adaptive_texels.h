@@ -53,8 +53,6 @@ class AdaptiveTexels {
   void look_around();
   void compare_slopes(std::size_t component, std::size_t texel, float along, float across);
   bool wants_more(std::size_t texel, std::size_t total) const;
-  /// Whether a texel or one of the eight around it is not exact enough.
-  bool is_near_error(std::size_t texel) const;
   float spread(std::size_t first, std::size_t samples, std::size_t texel) const;
   float relative(float difference, std::size_t component, std::size_t texel) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "examples/bake/texel_error.h"
 #include "examples/bake/texel_runs.h"
 
 namespace nacre::host {
@@ -41,9 +42,10 @@ RunStatus FilteredTexels::rows(int first, int rows, std::vector<std::vector<floa
                                const std::atomic<std::uint32_t>& stop, BakeCounts& counts) {
   RunStatus status = find_start(stop, counts);
   if (status != RunStatus::done) return status;
-  // Those around the rows asked for, too.
-  const int top = std::max(0, first - 1);
-  const int bottom = std::min(shader_.height(), first + rows + 1);
+  // Those around the rows asked for too, if they can call for more samples of these.
+  const bool is_last = *first_level_ == finest;
+  const int top = is_last ? first : std::max(0, first - 1);
+  const int bottom = is_last ? first + rows : std::min(shader_.height(), first + rows + 1);
   shader_.enter(top, bottom - top);
   const std::size_t all = static_cast<std::size_t>(bottom - top) * width_;
   for (Means* means : {&means_, &before_}) {
@@ -63,8 +65,10 @@ RunStatus FilteredTexels::rows(int first, int rows, std::vector<std::vector<floa
 
   const std::size_t begin = static_cast<std::size_t>(first - top) * width_;
   const std::size_t end = begin + static_cast<std::size_t>(rows) * width_;
-  std::erase_if(
-      texels, [&](std::size_t i) { return i < begin || i >= end || !(widest_around(i) > error_); });
+  std::erase_if(texels, [&](std::size_t i) {
+    if (i < begin || i >= end) return true;
+    return is_last ? !(errors_[i] > error_) : !is_any_above(errors_, width_, i, error_);
+  });
   for (int level = *first_level_ + 1; level <= finest && !texels.empty(); ++level) {
     for (std::size_t c = 0; c < means_.size(); ++c) {
       for (const std::size_t i : texels) before_[c][i] = means_[c][i];
@@ -163,19 +167,7 @@ float FilteredTexels::difference(const Means& a, const Means& b, std::size_t tex
   float widest = 0.0f;
   for (std::size_t c = 0; c < a.size(); ++c) {
     const float value = a[c][texel];
-    widest = std::max(widest, std::abs(value - b[c][texel]) / std::max(1.0f, std::abs(value)));
-  }
-  return widest;
-}
-
-/// Of a texel's first error and those of the eight around it.
-float FilteredTexels::widest_around(std::size_t texel) const {
-  const std::size_t x = texel % width_, y = texel / width_, rows = errors_.size() / width_;
-  float widest = 0.0f;
-  for (std::size_t j = y > 0 ? y - 1 : 0; j < std::min(y + 2, rows); ++j) {
-    for (std::size_t i = x > 0 ? x - 1 : 0; i < std::min(x + 2, width_); ++i) {
-      widest = std::max(widest, errors_[j * width_ + i]);
-    }
+    widest = std::max(widest, texel_error(value - b[c][texel], value));
   }
   return widest;
 }

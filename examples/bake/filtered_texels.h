@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "examples/bake/adaptive_texels.h"
 #include "examples/bake/bake.h"
 #include "examples/bake/point_shader.h"
 #include "examples/bake/sample_set.h"
@@ -45,6 +46,7 @@ class FilteredTexels {
 
  private:
   static constexpr int finest = 5;  ///< Of 2^5 squares along a side.
+  static_assert(1 << 2 * finest == AdaptiveTexels::most_samples);
 
   using Means = std::vector<std::vector<float>>;  ///< By component, of each texel.
 
@@ -56,7 +58,6 @@ class FilteredTexels {
   RunStatus sample(int level, int first, const std::vector<std::size_t>& texels, Means& means,
                    const std::atomic<std::uint32_t>& stop, BakeCounts& counts);
   float difference(const Means& a, const Means& b, std::size_t texel) const;
-  float widest_around(std::size_t texel) const;
 
   PointShader& shader_;
   float error_;

@@ -10,7 +10,10 @@ namespace nacre::host {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr int probability = 3;  ///< Of a texel.
+/// Of a texel: while tables are built its mean luminance, then the chance to be drawn.
+constexpr int weight = 3;
+/// Of the light, above its mean: less is as good as even, and is drawn whole.
+constexpr double least_excess = 0.02;
 
 Vec3 clean(Vec3 rgb) {
   const auto f = [](float v) { return std::isfinite(v) ? std::max(v, 0.f) : 0.f; };
@@ -19,7 +22,8 @@ Vec3 clean(Vec3 rgb) {
 
 }  // namespace
 
-Environment::Environment(int width, int height, const std::vector<Vec3>& texels, float rotation)
+Environment::Environment(int width, int height, const std::vector<Vec3>& texels, float rotation,
+                         Drawn drawn)
     : width_(width), height_(height), map_(width, height, rotation) {
   assert(width > 0 && height > 0);
   assert(texels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -33,9 +37,7 @@ Environment::Environment(int width, int height, const std::vector<Vec3>& texels,
       texels_.push_back(Texel{rgb.x, rgb.y, rgb.z, 0.f});
     }
   }
-  const std::vector<double> means = texel_means();
-  mean_ = static_cast<float>(mean_over_sphere(means));
-  draw_by(means);
+  build_tables(drawn);
 }
 
 /// The number of a texel; the image goes on for one to each side.
@@ -57,36 +59,18 @@ float Environment::texel_solid_angle(int y) const {
   return (2.f * pi / static_cast<float>(width_)) * 2.f * std::sin(middle) * std::sin(0.5f * step);
 }
 
-double Environment::mean_over_sphere(const std::vector<double>& texels) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < texels.size(); ++i) {
-    const int row = static_cast<int>(i / static_cast<std::size_t>(width_));
-    sum += texels[i] * static_cast<double>(texel_solid_angle(row));
-  }
-  return sum / (4 * std::numbers::pi);
-}
-
-void Environment::draw_above_mean() {
-  std::vector<double> excess = texel_means();
-  const double mean = mean_over_sphere(excess);
-  for (double& texel : excess) texel = std::max(0.0, texel - mean);
-  if (mean_over_sphere(excess) > 0.0) draw_by(excess);
-}
-
-/// In proportion to a number of each texel, all over its solid angle.
-void Environment::draw_by(const std::vector<double>& texels) {
-  const auto w = static_cast<std::size_t>(width_);
-  columns_.clear();
-  latitudes_.clear();
-  row_densities_.clear();
-  std::vector<double> rows, columns(w);
+void Environment::build_tables(Drawn drawn) {
+  const double all = find_weights();
+  mean_ = static_cast<float>(all / (4 * std::numbers::pi));
+  draws_all_ = drawn == Drawn::all || excess(mean_) <= least_excess * all;
+  const float dim = draws_all_ ? 0.f : mean_;
+  std::vector<double> rows, columns(static_cast<std::size_t>(width_));
   for (int y = 0; y < height_; ++y) {
-    std::copy_n(texels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * w), w,
-                columns.begin());
-    columns_.emplace_back(columns);
     for (int x = 0; x < width_; ++x) {
-      texels_[at(x, y)][probability] = columns_.back().probability(x);
+      columns[static_cast<std::size_t>(x)] = std::max(0.f, texels_[at(x, y)][weight] - dim);
     }
+    columns_.emplace_back(columns);
+    for (int x = 0; x < width_; ++x) texels_[at(x, y)][weight] = columns_.back().probability(x);
     rows.push_back(columns_.back().sum() * texel_solid_angle(y));
   }
   rows_ = Distribution(rows);
@@ -96,13 +80,13 @@ void Environment::draw_by(const std::vector<double>& texels) {
   }
 }
 
-/// Luminances, row by row: the mean of a linear interpolation over its texel weighs neighbours
-/// 1:6:1 per axis.
-std::vector<double> Environment::texel_means() const {
+/// Gives each texel its mean luminance, and returns the integral over the sphere. The mean of a
+/// linear interpolation over its texel weighs neighbours 1:6:1 per axis.
+double Environment::find_weights() {
   constexpr float share[3] = {0.125f, 0.75f, 0.125f};
-  std::vector<double> means;
-  means.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  double all = 0;
   for (int y = 0; y < height_; ++y) {
+    double row = 0;
     for (int x = 0; x < width_; ++x) {
       float mean = 0.f;
       for (int j = -1; j <= 1; ++j) {
@@ -110,14 +94,27 @@ std::vector<double> Environment::texel_means() const {
           mean += share[i + 1] * share[j + 1] * luminance(radiance(x + i, y + j));
         }
       }
-      means.push_back(mean);
+      texels_[at(x, y)][weight] = mean;
+      row += mean;
     }
+    all += row * texel_solid_angle(y);
   }
-  return means;
+  return all;
+}
+
+/// The integral over the sphere of what is above `dim`.
+double Environment::excess(float dim) const {
+  double all = 0;
+  for (int y = 0; y < height_; ++y) {
+    double row = 0;
+    for (int x = 0; x < width_; ++x) row += std::max(0.f, texels_[at(x, y)][weight] - dim);
+    all += row * texel_solid_angle(y);
+  }
+  return all;
 }
 
 float Environment::texel_pdf(int x, int y) const {
-  return row_densities_[static_cast<std::size_t>(y)] * texels_[at(x, y)][probability];
+  return row_densities_[static_cast<std::size_t>(y)] * texels_[at(x, y)][weight];
 }
 
 /// The first of the four texels around a position, in [0, width) and [0, height).
@@ -214,7 +211,7 @@ void Environment::sample_block(std::span<const Uniform2> u, Sample* samples) con
   }
 }
 
-Environment Environment::studio(float scale, float rotation) {
+Environment Environment::studio(float scale, float rotation, Drawn drawn) {
   constexpr int width = 512, height = 256;
   struct Box {
     float u, v, half_u, half_v;
@@ -241,7 +238,7 @@ Environment Environment::studio(float scale, float rotation) {
       texels.push_back(scale * rgb);
     }
   }
-  return {width, height, texels, rotation};
+  return {width, height, texels, rotation, drawn};
 }
 
 }  // namespace nacre::host

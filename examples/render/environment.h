@@ -25,27 +25,32 @@ namespace nacre::host {
 /// constant environment is the 1 by 1 image.
 class Environment {
  public:
+  /// What sample() may draw.
+  enum class Drawn {
+    all,
+    /// In proportion to what texels have above the mean of the sphere, and never the others: for
+    /// paths whose own directions find those, weighed by both densities, with less noise. That is
+    /// what is left of twice the light's share once a density even over a hemisphere has been
+    /// taken off (Karlik, Sik, Vevoda, Skrivan, Krivanek 2019, "MIS Compensation: Optimizing
+    /// Sampling Techniques in Multiple Importance Sampling"). An even sky is drawn whole. Not for
+    /// Strategy::light_only, which would miss the rest.
+    above_mean,
+  };
+
   /// `texels`: rgb radiance, row by row from the top, width * height.
   /// Non-finite and negative values become 0. `rotation`: radians about +y.
-  Environment(int width, int height, const std::vector<Vec3>& texels, float rotation = 0.f);
+  Environment(int width, int height, const std::vector<Vec3>& texels, float rotation = 0.f,
+              Drawn drawn = Drawn::all);
 
   static Environment constant(Vec3 radiance) { return {1, 1, {radiance}}; }
   /// A photographer's dome: a dim grey gradient with two soft boxes and a strip; times `scale`.
-  static Environment studio(float scale = 1.f, float rotation = 0.f);
+  static Environment studio(float scale = 1.f, float rotation = 0.f, Drawn drawn = Drawn::all);
   /// An image of any format that textures have, taken as linear Rec. 709 radiance times
   /// `scale`; one channel is grey. What counts as 0 is warned about. Nothing, with an error,
   /// for what cannot be read or is outside the limits.
   static std::optional<Environment> load(const std::string& path, float scale, float rotation,
                                          const ImageLimits& limits, Diagnostics& diagnostics,
-                                         const Stop& stop = {});
-
-  /// From now on draws in proportion to what texels have above the mean of the sphere, and never
-  /// the others: for paths whose own directions find those, weighed by both densities, less noise.
-  /// That is what is left of twice the light's share once a density even over a hemisphere has been
-  /// taken off (Karlik, Sik, Vevoda, Skrivan, Krivanek 2019, "MIS Compensation: Optimizing Sampling
-  /// Techniques in Multiple Importance Sampling"). Where nothing is above the mean all stays as it
-  /// is. Not for Strategy::light_only, which would miss the rest.
-  void draw_above_mean();
+                                         const Stop& stop = {}, Drawn drawn = Drawn::all);
 
   struct Light {
     Vec3 radiance;
@@ -64,6 +69,8 @@ class Environment {
   /// results as there are directions, or pairs.
   void light(std::span<const Vec3> directions, std::span<Light> lights) const;
   void sample(std::span<const Uniform2> u, std::span<Sample> samples) const;
+  /// Whether sample() draws wherever there is light.
+  bool draws_all() const { return draws_all_; }
   /// Mean luminance over the sphere.
   float mean_luminance() const { return mean_; }
 
@@ -85,9 +92,9 @@ class Environment {
   void sample_block(std::span<const Uniform2> u, Sample* samples) const;
   float texel_solid_angle(int y) const;
   float texel_pdf(int x, int y) const;
-  std::vector<double> texel_means() const;
-  double mean_over_sphere(const std::vector<double>& texels) const;
-  void draw_by(const std::vector<double>& texels);
+  void build_tables(Drawn drawn);
+  double find_weights();
+  double excess(float dim) const;
 
   int width_, height_;
   std::vector<Texel> texels_;  ///< With those around the image.
@@ -97,6 +104,7 @@ class Environment {
   std::vector<float> latitudes_;       ///< Cosines to +y between the rows; height + 1.
   std::vector<float> row_densities_;   ///< Of a row, by the solid angle of one of its texels.
   float mean_ = 0.f;
+  bool draws_all_ = true;
 };
 
 }  // namespace nacre::host

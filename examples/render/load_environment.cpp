@@ -10,7 +10,7 @@ namespace nacre::host {
 
 std::optional<Environment> Environment::load(const std::string& path, float scale, float rotation,
                                              const ImageLimits& limits, Diagnostics& diagnostics,
-                                             const Stop& stop) {
+                                             const Stop& stop, Drawn drawn) {
   ImageReader reader;
   if (auto problem = reader.open(path, {}, limits, stop)) {
     diagnostics.add(std::move(*problem));
@@ -41,7 +41,7 @@ std::optional<Environment> Environment::load(const std::string& path, float scal
                           "what is negative or not finite in the environment counts as 0",
                           "radiance", fmt::format("{} such texels", unusable));
     }
-    return Environment(info.width, info.height, texels, rotation);
+    return Environment(info.width, info.height, texels, rotation, drawn);
   } catch (const std::bad_alloc&) {
     diagnostics.error("out-of-memory", {path, 0, 0, {}}, "the environment does not fit in memory");
     return {};

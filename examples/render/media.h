@@ -29,7 +29,7 @@ class Media {
   Media& operator=(const Media& other) {
     count_ = other.count_;
     current_ = other.current_;
-    std::copy_n(other.inside_.begin(), count_, inside_.begin());
+    for (std::uint32_t i = 0; i < count_; ++i) inside_[i] = other.inside_[i];
     return *this;
   }
 

@@ -35,6 +35,8 @@ RenderContext::RenderContext(const RenderInput& input, const RenderSettings& wan
   solids_ = input.solids;
   any_nested = !solids_.empty();
   assert(!any_nested || solids_.size() == scene.meshes.size());
+  assert(settings.strategy != Strategy::light_only || environment == nullptr ||
+         environment->draws_all());
   if (environment != nullptr && !(environment->mean_luminance() > 0.f)) environment = nullptr;
   collect_materials(input);
   find_bounds();

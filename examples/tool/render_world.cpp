@@ -11,13 +11,13 @@ std::optional<host::Environment> load_environment(const RenderOptions& options,
                                                   Diagnostics& diagnostics) {
   constexpr float radians = 0.01745329252f;
   const float rotation = options.environment_rotation * radians;
-  std::optional<host::Environment> sky =
-      options.environment.empty()
-          ? host::Environment::studio(options.environment_scale, rotation)
-          : host::Environment::load(options.environment, options.environment_scale, rotation,
-                                    options.common.texture_limits.limits, diagnostics);
-  if (sky) sky->draw_above_mean();  // Strategy::multiple_importance is the only one here.
-  return sky;
+  // Strategy::multiple_importance is the only one here.
+  constexpr auto drawn = host::Environment::Drawn::above_mean;
+  if (options.environment.empty()) {
+    return host::Environment::studio(options.environment_scale, rotation, drawn);
+  }
+  return host::Environment::load(options.environment, options.environment_scale, rotation,
+                                 options.common.texture_limits.limits, diagnostics, {}, drawn);
 }
 
 host::Scene load_world(const RenderOptions& options, Diagnostics& diagnostics) {

@@ -118,7 +118,7 @@ TEST(Integrator, LightDrawnAboveTheMeanIsTheSameImageWithLessNoise) {
   s.samples = 256;
   const Film all = rendered(input, s);
   s.seed = 1;
-  b.sky.draw_above_mean();
+  b.sky = Environment::studio(1.f, 0.f, Environment::Drawn::above_mean);
   const Film above = rendered(input, s);
   double before = 0, after = 0;
   // 9 blocks, 3 channels at 1 % together: 3.56 sigma.
