@@ -210,24 +210,15 @@ float AdaptiveTexels::relative(float difference, std::size_t component, std::siz
   return texel_error(difference, means_[component][texel]);
 }
 
-/// At the edges of the image and of the surface a texel stands for the one that is not there.
 void AdaptiveTexels::look_around() {
   edges_.assign(errors_.size(), 0.0f);
   for (std::size_t c = 0; c < means_.size(); ++c) {
     const std::vector<float>& mean = means_[c];
     for (std::size_t i = 0; i < mean.size(); ++i) {
       if (covered_[i] == 0) continue;
-      const std::size_t x = i % width_;
-      const float here = mean[i];
-      const auto at = [&](std::size_t other) { return covered_[other] != 0 ? mean[other] : here; };
-      const float left = x > 0 ? at(i - 1) : here;
-      const float right = x + 1 < width_ ? at(i + 1) : here;
-      const float up = i >= width_ ? at(i - width_) : here;
-      const float down = i + width_ < mean.size() ? at(i + width_) : here;
-      const float along = relative(left + right - 2.0f * here, c, i);
-      const float across = relative(up + down - 2.0f * here, c, i);
-      edges_[i] = std::max({edges_[i], along, across});
-      compare_slopes(c, i, 0.5f * (right - left), 0.5f * (down - up));
+      const Neighbours beside = neighbours_of(mean, covered_, width_, i);
+      edges_[i] = std::max(edges_[i], relative(edge_within(beside, mean[i]), c, i));
+      compare_slopes(c, i, 0.5f * (beside.right - beside.left), 0.5f * (beside.down - beside.up));
     }
   }
 }

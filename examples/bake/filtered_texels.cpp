@@ -13,6 +13,12 @@ namespace {
 /// Of the look ahead, along both sides of the image: one for so many texels, and so many at most.
 constexpr int texels_of_a_look = 64;
 constexpr int most_looks = 8;
+/// What an error is at least, with squares half as wide, of what it was: blurs fall no faster than
+/// with the squares of footprints, and means at an edge may agree by chance.
+constexpr float least_left = 0.25f;
+/// Where samples of a texel differ by less than so much of an edge beside it, that may have passed
+/// by all of them.
+constexpr float is_flat = 0.125f;
 
 std::vector<SamplePlace> middles_of_squares(int side) {
   std::vector<SamplePlace> places;
@@ -48,16 +54,19 @@ RunStatus FilteredTexels::rows(int first, int rows, std::vector<std::vector<floa
   const int bottom = is_last ? first + rows : std::min(shader_.height(), first + rows + 1);
   shader_.enter(top, bottom - top);
   const std::size_t all = static_cast<std::size_t>(bottom - top) * width_;
-  for (Means* means : {&means_, &before_}) {
+  for (Means* means : {&means_, &before_, &spreads_}) {
     means->assign(static_cast<std::size_t>(shader_.components()), std::vector<float>(all));
   }
   std::vector<std::size_t> texels;
+  covered_.assign(all, 0);
   for (std::size_t i = 0; i < all; ++i) {
-    if (shader_.covers(static_cast<std::size_t>(top) * width_ + i)) texels.push_back(i);
+    if (!shader_.covers(static_cast<std::size_t>(top) * width_ + i)) continue;
+    covered_[i] = 1;
+    texels.push_back(i);
   }
   status = sample(*first_level_ - 1, top, texels, before_, stop, counts);
   if (status == RunStatus::done) {
-    status = sample(*first_level_, top, texels, means_, stop, counts);
+    status = sample(*first_level_, top, texels, means_, stop, counts, &spreads_);
   }
   if (status != RunStatus::done) return status;
   errors_.assign(all, 0.0f);
@@ -67,16 +76,20 @@ RunStatus FilteredTexels::rows(int first, int rows, std::vector<std::vector<floa
   const std::size_t end = begin + static_cast<std::size_t>(rows) * width_;
   std::erase_if(texels, [&](std::size_t i) {
     if (i < begin || i >= end) return true;
-    return is_last ? !(errors_[i] > error_) : !is_any_above(errors_, width_, i, error_);
+    return is_last ? !(errors_[i] > error_)
+                   : !(unseen(i) > error_) && !is_any_above(errors_, width_, i, error_);
   });
+  for (const std::size_t i : texels) errors_[i] = std::max(errors_[i], unseen(i));
   for (int level = *first_level_ + 1; level <= finest && !texels.empty(); ++level) {
     for (std::size_t c = 0; c < means_.size(); ++c) {
       for (const std::size_t i : texels) before_[c][i] = means_[c][i];
     }
     status = sample(level, top, texels, means_, stop, counts);
     if (status != RunStatus::done) return status;
-    std::erase_if(texels,
-                  [&](std::size_t i) { return !(difference(means_, before_, i) > error_); });
+    std::erase_if(texels, [&](std::size_t i) {
+      errors_[i] = std::max(difference(means_, before_, i), least_left * errors_[i]);
+      return !(errors_[i] > error_);
+    });
   }
   counts.unfinished += texels.size();
   for (std::size_t c = 0; c < planes.size(); ++c) {
@@ -140,7 +153,7 @@ std::vector<std::size_t> FilteredTexels::covered_of_row(int row, std::size_t mos
 
 RunStatus FilteredTexels::sample(int level, int first, const std::vector<std::size_t>& texels,
                                  Means& means, const std::atomic<std::uint32_t>& stop,
-                                 BakeCounts& counts) {
+                                 BakeCounts& counts, Means* spreads) {
   const std::vector<SamplePlace>& places = places_[static_cast<std::size_t>(level)];
   points_.footprint = 1.0f / static_cast<float>(1 << level);
   return run_texels(shader_, texels, first, places, points_, stop, counts,
@@ -149,17 +162,36 @@ RunStatus FilteredTexels::sample(int level, int first, const std::vector<std::si
                         const float* values = shader_.result(c).data() + begin;
                         double sum = 0.0;
                         std::size_t hits = 0;
+                        float low = HUGE_VALF, high = -HUGE_VALF;
                         for (std::size_t k = 0; k < places.size(); ++k) {
                           if (!shader_.counts(begin + k)) continue;
                           sum += static_cast<double>(values[k]);
+                          low = std::min(low, values[k]);
+                          high = std::max(high, values[k]);
                           ++hits;
                         }
+                        if (spreads != nullptr) (*spreads)[c][texels[texel]] = high - low;
                         // Where none counts all are the same point, which stands for the texel.
                         means[c][texels[texel]] =
                             hits > 0 ? static_cast<float>(sum / static_cast<double>(hits))
                                      : values[0];
                       }
                     });
+}
+
+/// What an edge may be worth that the first squares' samples do not show: an edge as high as a
+/// second difference of texels, d, is worth d / 2n of a texel where n samples do not see it, and
+/// what is less than four errors is not looked into; see AdaptiveTexels.
+float FilteredTexels::unseen(std::size_t texel) const {
+  const auto samples = static_cast<float>(places_[static_cast<std::size_t>(*first_level_)].size());
+  float widest = 0.0f;
+  for (std::size_t c = 0; c < means_.size(); ++c) {
+    const float mean = means_[c][texel];
+    const float edge = edge_within(neighbours_of(means_[c], covered_, width_, texel), mean);
+    if (spreads_[c][texel] > is_flat * edge) continue;
+    widest = std::max(widest, texel_error(edge / (8.0f * samples), mean));
+  }
+  return widest;
 }
 
 /// Of the component that differs most, relative to values above 1.

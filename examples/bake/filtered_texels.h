@@ -21,8 +21,9 @@ namespace nacre::host {
 /// of an image's levels they are exact, which no other pattern is. A texel has the mean of the
 /// finest squares that it was sampled by, and not of the coarser ones, whose blur is wider. Blurs
 /// fall at least with the footprints, which are halved: so a mean is at most as far off as it is
-/// from the one before. While that is more than the error asked for, squares are halved again; at
-/// first also where it is more in one of the eight texels around.
+/// from the one before, and at least a quarter of what that was: means may agree by chance. While
+/// it is more than the error asked for, squares are halved again; at first also where it is more in
+/// one of the eight texels around, or where an edge beside a flat texel may be in it unseen.
 ///
 /// Which squares are the first is found by a look ahead: detail far below a texel is in no mean of
 /// coarse squares, nor in their differences. Of up to 64 texels, spread over the image, all squares
@@ -54,9 +55,11 @@ class FilteredTexels {
   RunStatus find_start(const std::atomic<std::uint32_t>& stop, BakeCounts& counts);
   RunStatus look_ahead(const std::atomic<std::uint32_t>& stop, BakeCounts& counts);
   std::vector<std::size_t> covered_of_row(int row, std::size_t most);
-  /// Means of texels counted from row `first` on.
+  /// Means of texels counted from row `first` on, and by how much their samples differ.
   RunStatus sample(int level, int first, const std::vector<std::size_t>& texels, Means& means,
-                   const std::atomic<std::uint32_t>& stop, BakeCounts& counts);
+                   const std::atomic<std::uint32_t>& stop, BakeCounts& counts,
+                   Means* spreads = nullptr);
+  float unseen(std::size_t texel) const;
   float difference(const Means& a, const Means& b, std::size_t texel) const;
 
   PointShader& shader_;
@@ -67,6 +70,8 @@ class FilteredTexels {
   Start& start_;
   std::optional<int> first_level_;  ///< That is start_'s.
   Means means_, before_;
+  Means spreads_;                      ///< Of the first squares' samples.
+  std::vector<std::uint8_t> covered_;  ///< Texels that have some of the surface.
   std::vector<float> errors_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "examples/bake/bake.h"
 #include "examples/common/materialx_libraries.h"
@@ -36,6 +37,19 @@ class Bake : public ::testing::Test {
     EXPECT_NE(kernel, nullptr) << diagnostics.to_string();
     EXPECT_FALSE(diagnostics.has_errors()) << diagnostics.to_string();
     return kernel;
+  }
+
+  /// A node "image" of a square of grey bytes, from the top.
+  std::string grey_image(int side, const std::vector<unsigned char>& bytes) {
+    std::string tga(18, '\0');  // Without compression.
+    tga[2] = 3;
+    tga[12] = tga[14] = static_cast<char>(side % 256);
+    tga[13] = tga[15] = static_cast<char>(side / 256);
+    tga[16] = 8;
+    tga[17] = 0x20;
+    for (const unsigned char byte : bytes) tga += static_cast<char>(byte);
+    return "<image name='image' type='float'><input name='file' type='filename' value='" +
+           folder_.write("image.tga", tga) + "'/></image>";
   }
 
   TemporaryFolder folder_;

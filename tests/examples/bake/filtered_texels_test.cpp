@@ -36,16 +36,7 @@ class FilteredSamples : public Bake {
 
   /// The nodes are given the image as "image".
   std::unique_ptr<const OutputKernel> kernel_for(const Image& image, const std::string& nodes) {
-    // TGA: grey, from the top, without compression.
-    std::string text(18, '\0');
-    text[2] = 3;
-    text[12] = text[14] = static_cast<char>(image.side % 256);
-    text[13] = text[15] = static_cast<char>(image.side / 256);
-    text[16] = 8;
-    text[17] = 0x20;
-    for (const unsigned char byte : image.bytes) text += static_cast<char>(byte);
-    return kernel_of("<image name='image' type='float'><input name='file' type='filename' value='" +
-                     folder_.write("image.tga", text) + "'/></image>" + nodes);
+    return kernel_of(grey_image(image.side, image.bytes) + nodes);
   }
 
   static host::BakeSettings of(int size, float error) {

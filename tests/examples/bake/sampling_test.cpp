@@ -244,6 +244,30 @@ TEST_F(Samples, AdaptiveTakesAThirdOfAGrids) {
   }
 }
 
+// An image makes nothing of an edge that no node filters: squares that agree may all lie beside it.
+TEST_F(Samples, AdaptiveSeesEdgesBesideImages) {
+  constexpr float asked = 0.004f;
+  std::string checker = checker_nodes("20", "5");
+  checker.replace(checker.find("<modulo name='n'"), 16, "<modulo name='m'");
+  const auto kernel =
+      kernel_of(checker + grey_image(4, std::vector<unsigned char>(16, 255)) +
+                "<multiply name='n' type='float'><input name='in1' type='float' nodename='m'/>"
+                "<input name='in2' type='float' nodename='image'/></multiply>");
+  ASSERT_NE(kernel, nullptr);
+  const std::vector<double> right = coverage(20.0, 5.0, 128);
+  const Baked baked = bake(*kernel, of(128, 0, asked));
+  std::size_t above = 0;
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    if (std::abs(double(baked.texels[i]) - right[i]) > double(asked)) ++above;
+  }
+  const Difference error = difference(baked.texels, right);
+  std::printf("%.1f samples a texel: %zu above, most %.4f\n", baked.samples_of_a_texel, above,
+              error.most);
+  EXPECT_LT(above, right.size() / 100);
+  // Edges of height 1 are looked into by 8 x 8 squares, beside whose middles are sixteenths.
+  EXPECT_LT(error.most, 1.0 / 16.0);
+}
+
 TEST_F(Samples, AdaptiveSaysWhatItCouldNotDo) {
   const auto kernel = kernel_of(checker_nodes("20", "5"));
   EXPECT_GT(bake(*kernel, of(64, 0, 1e-5f)).counts.unfinished, 0u);
