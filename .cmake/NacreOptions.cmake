@@ -23,7 +23,11 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(NACRE_CCACHE ccache)
   mark_as_advanced(NACRE_CCACHE)
-  if(NACRE_CCACHE)
+  if(NACRE_CCACHE AND NACRE_PRECOMPILE)
+    # What ccache asks for to keep what precompiled headers are used for.
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros "${NACRE_CCACHE}")
+  elseif(NACRE_CCACHE)
     set(CMAKE_CXX_COMPILER_LAUNCHER "${NACRE_CCACHE}")
   endif()
 endif()
