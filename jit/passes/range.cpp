@@ -1,228 +1,354 @@
 #include "jit/passes/range.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 
+#include "jit/passes/range_arithmetic.h"
 #include "runtime/program/fold.h"
+#include "runtime/program/region.h"
 
 namespace nacre {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Larger than what rounding to float moves a number by, in parts of it.
-constexpr double rounding = 1e-6;
+/// The ranges of an instruction's operands; of those that there are not nothing is read.
+using Operands = std::array<Range, 3>;
 
-/// Wider by what floats round, which makes zero of what is denormal; nothing is known of what
-/// leaves their range.
-Range rounded(double low, double high) {
-  constexpr double largest = 1e38, smallest = 1.2e-38;
-  if (!(low >= -largest && high <= largest)) return {};
-  low -= rounding * std::abs(low);
-  high += rounding * std::abs(high);
-  return {low > 0 && low < smallest ? 0 : low, high < 0 && high > -smallest ? 0 : high, false};
+/// A range in equal parts, and what something that hangs on it alone may be over each.
+constexpr std::size_t part_count = 64;
+using Parts = std::array<Range, part_count>;
+
+Parts parts_of(const Range& whole) {
+  Parts parts;
+  for (std::size_t k = 0; k < part_count; ++k) {
+    const auto at = [&](std::size_t i) {
+      const double share = static_cast<double>(i) / static_cast<double>(part_count);
+      return i == part_count ? whole.high : whole.low + share * (whole.high - whole.low);
+    };
+    parts[k] = {at(k), at(k + 1), false};
+  }
+  return parts;
 }
 
-Range hull(const Range& a, const Range& b) {
-  return {std::min(a.low, b.low), std::max(a.high, b.high), a.nan || b.nan};
+/// Whose ranges over parts of an operand are worth it: what has no more than steps at 0.
+bool is_arithmetic(Op op) {
+  switch (op) {
+    case Op::add:
+    case Op::sub:
+    case Op::mul:
+    case Op::div:
+    case Op::fma:
+    case Op::min:
+    case Op::max:
+    case Op::sqrt:
+    case Op::neg:
+    case Op::abs: return true;
+    default: return false;
+  }
 }
 
-Range sum(const Range& a, const Range& b) {
-  if (!a.is_bounded() || !b.is_bounded()) return {};
-  return rounded(a.low + b.low, a.high + b.high);
-}
-
-Range negated(const Range& a) { return {-a.high, -a.low, a.nan}; }
-
-Range product(const Range& a, const Range& b) {
-  if (!a.is_bounded() || !b.is_bounded()) return {};
-  const auto [low, high] =
-      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-  return rounded(low, high);
-}
-
-Range quotient(const Range& a, const Range& b) {
-  if (!a.is_bounded() || !b.is_bounded() || (b.low <= 0 && b.high >= 0)) return {};
-  const auto [low, high] =
-      std::minmax({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
-  return rounded(low, high);
-}
-
-/// a < b ? a : b: of NaN the second.
-Range least(const Range& a, const Range& b) {
-  return {std::min(a.low, b.low), a.nan ? b.high : std::min(a.high, b.high), b.nan};
-}
-Range most(const Range& a, const Range& b) {
-  return {a.nan ? b.low : std::max(a.low, b.low), std::max(a.high, b.high), b.nan};
-}
-
-Range absolute(const Range& a) {
-  const double high = std::max(std::abs(a.low), std::abs(a.high));
-  const bool has_zero = a.low <= 0 && a.high >= 0;
-  return {has_zero ? 0.0 : std::min(std::abs(a.low), std::abs(a.high)), high, a.nan};
-}
-
-Range root(const Range& a) {
-  if (!a.is_bounded() || a.low < 0) return {0, infinity, true};
-  return rounded(std::sqrt(a.low), std::sqrt(a.high));
-}
-
-Range of_table(const Table& table) {
-  const auto [low, high] = std::ranges::minmax(table.values);
-  return std::isfinite(low) && std::isfinite(high) ? rounded(low, high) : Range{};
-}
-
-bool is_point(const Range& a) { return a.is_bounded() && a.low == a.high; }
-
-Range floored(const Range& a) {
-  return a.is_bounded() ? Range{std::floor(a.low), std::floor(a.high), false} : Range{};
-}
-
-/// Of x - floor(x), which rounds to 1 just below a whole number.
-Range fraction(const Range& x) { return x.is_bounded() ? Range{0, 1, false} : Range{}; }
-
-/// Of Op::exp, whose kernels need not round right.
-Range exponential(const Range& a) {
-  if (!a.is_bounded()) return {};
-  const Range exact = rounded(std::exp(a.low), std::exp(a.high));
-  return exact.is_bounded() ? rounded(exact.low, exact.high) : exact;
-}
-
-Range intersection(const Range& a, const Range& b) {
-  return {std::max(a.low, b.low), std::min(a.high, b.high), a.nan && b.nan};
-}
-
-/// Of Op::f_to_i.
-Range whole(const Range& a) {
-  return a.is_bounded() ? Range{std::trunc(a.low), std::trunc(a.high), false} : Range{};
-}
-
-/// Of integers, which wrap around: nothing is known of what may.
-Range integers(double low, double high) {
-  return low >= -0x1p31 && high < 0x1p31 ? Range{low, high, false} : Range{};
-}
-
-Range integer_sum(const Range& a, const Range& b) {
-  return a.is_bounded() && b.is_bounded() ? integers(a.low + b.low, a.high + b.high) : Range{};
-}
-
-Range integer_product(const Range& a, const Range& b) {
-  if (!a.is_bounded() || !b.is_bounded()) return {};
-  const auto [low, high] =
-      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-  return integers(low, high);
-}
-
+/// The values of one function.
 class Ranges {
  public:
-  explicit Ranges(const Program& program, std::span<const Range> inputs = {})
-      : program_(program), inputs_(inputs) {
-    for (const Table& table : program.tables) tables_.push_back(of_table(table));
+  /// `given`: of inputs, or of arguments; `is_known`: they say something, and work is done for it.
+  Ranges(const Program& program, std::size_t function, std::span<const Range> given, bool is_known)
+      : program_(program),
+        function_(program.functions[function]),
+        code_(function_.code),
+        given_(given),
+        is_known_(is_known),
+        list_(code_.size()),
+        sources_(code_.size(), no_value) {
+    if (is_known) ends_ = region_ends(function_);
   }
 
   std::vector<Range> run() {
-    for (const Instruction& instruction : program_.entry().code) {
-      Range range;
-      if (instruction.type == Scalar::f32) range = of(instruction);
-      if (instruction.type == Scalar::i32 && !inputs_.empty()) range = of_integer(instruction);
-      list_.push_back(range);
-    }
+    walk(0, code_.size());
     return std::move(list_);
   }
 
- private:
-  Range at(const Instruction& instruction, std::size_t operand) const {
-    return list_[instruction.operands[operand]];
+  /// What the function gives.
+  std::vector<Range> results() {
+    walk(0, code_.size());
+    std::vector<Range> results(function_.results.size());
+    for (const Instruction& x : code_) {
+      if (x.op == Op::give) results[x.imm] = list_[x.operands[0]];
+    }
+    return results;
   }
 
-  Range of(const Instruction& x) const {
+ private:
+  void walk(std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (is_known_ && code_[i].op == Op::loop) {
+        walk_loop(i);
+        i = ends_[i];
+      } else {
+        walk_one(static_cast<ValueId>(i));
+      }
+    }
+  }
+
+  void walk_one(ValueId id) {
+    const Instruction& x = code_[id];
+    if (is_known_ && x.op == Op::next) return;  // walk_loop's.
+    if (is_known_ && x.op == Op::call) return walk_call(id);
+    parts_.erase(id);
+    Range range;
+    if (is_known_ && x.op == Op::carry) {
+      range = carried(id);
+    } else if (x.type == Scalar::f32) {
+      range = of(x, operands_of(x));
+    } else if (x.type == Scalar::i32 && is_known_) {
+      range = of_integer(x, operands_of(x));
+    }
+    list_[id] = range;
+    if (is_known_ && x.type == Scalar::f32) look_closer(id);
+  }
+
+  /// Round by round: a lane that is active has been since the first.
+  void walk_loop(std::size_t loop) {
+    const std::size_t end = ends_[loop];
+    std::vector<ValueId> ids;
+    for (std::size_t i = loop + 1; i < end; i = after(i)) {
+      if (code_[i].op == Op::next) ids.push_back(static_cast<ValueId>(i));
+    }
+    const std::uint32_t bound = loop_bound(code_[loop].imm);
+    const bool is_too_long = bound > most_rounds;
+    for (const ValueId id : ids) {
+      const ValueId carry = code_[id].operands[0];
+      if (is_too_long) {
+        carried_[carry] = {};
+      } else {
+        carried_.erase(carry);
+      }
+    }
+    std::vector<Range> seen, finals;
+    for (std::uint32_t round = 0; round < (is_too_long ? 1 : bound); ++round) {
+      walk(loop + 1, end);
+      merge(seen, std::span(list_).subspan(loop + 1, end - loop - 1));
+      std::vector<Range> values;
+      for (const ValueId id : ids) values.push_back(list_[code_[id].operands[1]]);
+      merge(finals, values);
+      for (std::size_t k = 0; k < ids.size() && !is_too_long; ++k) {
+        carried_[code_[ids[k]].operands[0]] = values[k];
+      }
+    }
+    std::ranges::copy(seen, list_.begin() + static_cast<std::ptrdiff_t>(loop + 1));
+    // Lanes that never were active have what was carried in.
+    const bool all_active = is_true(code_[loop].operands[0]);
+    for (std::size_t k = 0; k < ids.size() && bound > 0; ++k) {
+      const Instruction& carry = code_[code_[ids[k]].operands[0]];
+      list_[ids[k]] = all_active ? finals[k] : hull(finals[k], list_[carry.operands[0]]);
+      sources_[ids[k]] = ids[k];
+    }
+  }
+
+  /// The next instruction of the same region.
+  std::size_t after(std::size_t i) const { return opens_region(code_[i].op) ? ends_[i] + 1 : i + 1; }
+
+  bool is_true(ValueId id) const { return code_[id].op == Op::constant && code_[id].imm != 0; }
+
+  /// What there was in earlier rounds, and what there is in this one.
+  static void merge(std::vector<Range>& seen, std::span<const Range> now) {
+    if (seen.empty()) {
+      seen.assign(now.begin(), now.end());
+      return;
+    }
+    for (std::size_t i = 0; i < now.size(); ++i) seen[i] = hull(seen[i], now[i]);
+  }
+
+  void walk_call(ValueId id) {
+    std::vector<Range> arguments;
+    for (const ValueId operand : function_.operands(code_[id])) arguments.push_back(list_[operand]);
+    results_[id] = Ranges(program_, code_[id].imm, arguments, true).results();
+  }
+
+  Operands operands_of(const Instruction& x) const {
+    Operands ranges;
+    for (std::size_t k = 0; k < x.count; ++k) ranges[k] = list_[x.operands[k]];
+    return ranges;
+  }
+
+  /// In the first round of a loop what comes in, then what the last one has left.
+  Range carried(ValueId id) const {
+    const auto known = carried_.find(id);
+    return known != carried_.end() ? known->second : list_[code_[id].operands[0]];
+  }
+
+  Range of(const Instruction& x, const Operands& in) const {
     switch (x.op) {
       case Op::constant: {
         const double value = std::bit_cast<float>(flush_denormal(x.imm));
         return std::isfinite(value) ? Range{value, value, false} : Range{};
       }
-      case Op::input: return inputs_.empty() ? Range{} : inputs_[x.imm];
-      case Op::floor: return inputs_.empty() ? Range{} : floored(at(x, 0));
-      case Op::add: return total(at(x, 0), at(x, 1));
-      case Op::sub: return difference(x);
-      case Op::mul: return of_product(x);
-      case Op::fma: return sum(product(at(x, 0), at(x, 1)), at(x, 2));
-      case Op::div: return quotient(at(x, 0), at(x, 1));
-      case Op::min: return least(at(x, 0), at(x, 1));
-      case Op::max: return most(at(x, 0), at(x, 1));
-      case Op::sqrt: return root(at(x, 0));
-      case Op::neg: return negated(at(x, 0));
-      case Op::abs: return absolute(at(x, 0));
-      case Op::select: return hull(at(x, 1), at(x, 2));
-      case Op::merge: return hull(at(x, 0), at(x, 1));
-      case Op::keep: return at(x, 0);
+      case Op::input:
+      case Op::argument: return is_known_ ? given_[x.imm] : Range{};
+      case Op::result: return result(x);
+      case Op::floor: return is_known_ ? floored(in[0]) : Range{};
+      case Op::add: return total(in[0], in[1]);
+      case Op::sub: return difference(x, in);
+      case Op::mul: return of_product(x, in);
+      case Op::fma: return of_fma(x, in);
+      case Op::div: return quotient(in[0], in[1]);
+      case Op::min: return least(in[0], in[1]);
+      case Op::max: return most(in[0], in[1]);
+      case Op::sqrt: return root(in[0]);
+      case Op::neg: return negated(in[0]);
+      case Op::abs: return absolute(in[0]);
+      case Op::select: return hull(in[1], in[2]);
+      case Op::merge: return hull(in[0], in[1]);
+      case Op::keep: return in[0];
       case Op::sin:
-      case Op::cos: return {-1, 1, !at(x, 0).is_bounded()};
-      case Op::table: return tables_[x.imm];
-      case Op::exp: return inputs_.empty() ? Range{} : exponential(at(x, 0));
-      case Op::i_to_f: return inputs_.empty() ? Range{} : of_whole(at(x, 0));
-      case Op::u_to_f: return inputs_.empty() ? Range{} : rounded(0, 0x1p32);
+      case Op::cos: return {-1, 1, !in[0].is_bounded()};
+      case Op::table: return of_table(program_.tables[x.imm]);
+      case Op::exp: return is_known_ ? exponential(in[0]) : Range{};
+      case Op::i_to_f: return is_known_ ? of_signed(in[0]) : Range{};
+      case Op::u_to_f: return is_known_ ? of_unsigned() : Range{};
       default: return {};
     }
   }
 
-  Range difference(const Instruction& x) const {
-    const Range plain = total(at(x, 0), negated(at(x, 1)));
-    const Instruction& floor = program_.entry().code[x.operands[1]];
-    const bool is_fraction = floor.op == Op::floor && floor.operands[0] == x.operands[0];
-    if (inputs_.empty() || !is_fraction) return plain;
-    return intersection(plain, fraction(at(x, 0)));
-  }
-
-  Range of_product(const Instruction& x) const {
-    const Range plain = product(at(x, 0), at(x, 1));
-    if (inputs_.empty() || x.operands[0] != x.operands[1] || !plain.is_bounded()) return plain;
-    return {std::max(plain.low, 0.0), plain.high, false};
-  }
-
-  /// Of an i32 as a float.
-  static Range of_whole(const Range& a) {
-    return a.is_bounded() ? rounded(a.low, a.high) : rounded(-0x1p31, 0x1p31);
-  }
-
-  /// Numbers that are known add up to one that is: so it stays the number of a tile.
-  Range total(const Range& a, const Range& b) const {
-    if (inputs_.empty() || !is_point(a) || !is_point(b)) return sum(a, b);
-    const double exact = static_cast<float>(a.low + b.low);
-    return std::isfinite(exact) ? Range{exact, exact, false} : Range{};
-  }
-
-  Range of_integer(const Instruction& x) const {
+  Range of_integer(const Instruction& x, const Operands& in) const {
     switch (x.op) {
       case Op::constant: {
         const auto value = static_cast<double>(std::bit_cast<std::int32_t>(x.imm));
         return {value, value, false};
       }
-      case Op::f_to_i: return whole(at(x, 0));
-      case Op::iadd: return integer_sum(at(x, 0), at(x, 1));
-      case Op::isub: return integer_sum(at(x, 0), negated(at(x, 1)));
-      case Op::imul: return integer_product(at(x, 0), at(x, 1));
-      case Op::select: return hull(at(x, 1), at(x, 2));
-      case Op::merge: return hull(at(x, 0), at(x, 1));
+      case Op::argument: return given_[x.imm];
+      case Op::result: return result(x);
+      case Op::f_to_i: return whole(in[0]);
+      case Op::iadd: return integer_sum(in[0], in[1]);
+      case Op::isub: return integer_sum(in[0], negated(in[1]));
+      case Op::imul: return integer_product(in[0], in[1]);
+      case Op::lshr: return integer_shift(in[0], in[1]);
+      case Op::iand: return integer_and(in[0], in[1]);
+      case Op::select: return hull(in[1], in[2]);
+      case Op::merge: return hull(in[0], in[1]);
       default: return {};
     }
   }
 
+  Range result(const Instruction& x) const {
+    const auto call = results_.find(x.operands[0]);
+    return call != results_.end() ? call->second[x.imm] : Range{};
+  }
+
+  /// Numbers that are known add up to one that is: so it stays the number of a tile.
+  Range total(const Range& a, const Range& b) const {
+    if (!is_known_ || !is_point(a) || !is_point(b)) return sum(a, b);
+    const double exact = static_cast<float>(a.low + b.low);
+    return std::isfinite(exact) ? Range{exact, exact, false} : Range{};
+  }
+
+  bool is_fraction(const Instruction& x) const {
+    return x.op == Op::sub && code_[x.operands[1]].op == Op::floor &&
+           code_[x.operands[1]].operands[0] == x.operands[0];
+  }
+
+  Range difference(const Instruction& x, const Operands& in) const {
+    const Range plain = total(in[0], negated(in[1]));
+    return is_known_ && is_fraction(x) ? intersection(plain, fraction(in[0])) : plain;
+  }
+
+  Range of_product(const Instruction& x, const Operands& in) const {
+    return is_known_ && x.operands[0] == x.operands[1] ? square(in[0]) : product(in[0], in[1]);
+  }
+
+  Range of_fma(const Instruction& x, const Operands& in) const {
+    const Range plain = sum(of_product(x, in), in[2]);
+    if (!is_known_) return plain;
+    const Instruction& rest = code_[x.operands[2]];
+    const bool is_mixed = rest.op == Op::fma && rest.operands[1] == rest.operands[2] &&
+                          code_[rest.operands[0]].op == Op::neg &&
+                          code_[rest.operands[0]].operands[0] == x.operands[0];
+    if (!is_mixed) return plain;
+    const Range between = mixed(list_[rest.operands[1]], in[1], in[0]);
+    return plain.is_bounded() ? intersection(plain, between) : between;
+  }
+
+  // What is computed of one number alone, in several ways that come together again, is known far
+  // better part by part: of x - x^2 over [0, 1] intervals say [-1, 1].
+
+  /// Remembers which that is, and looks at parts of it where ways meet.
+  void look_closer(ValueId id) {
+    const Instruction& x = code_[id];
+    sources_[id] = id;
+    if (x.op == Op::constant) {
+      sources_[id] = no_value;
+      return;
+    }
+    if (!is_arithmetic(x.op) || is_fraction(x)) return;
+    ValueId source = no_value;
+    int ways = 0;
+    for (std::size_t k = 0; k < x.count; ++k) {
+      const ValueId each = sources_[x.operands[k]];
+      if (each == no_value) continue;
+      if (source != no_value && each != source) return;
+      source = each;
+      ++ways;
+    }
+    sources_[id] = source;
+    const Range whole = source != no_value ? list_[source] : Range{};
+    if (ways < 2 || !whole.is_bounded() || is_point(whole)) return;
+    const Parts& parts = over_parts(id, source);
+    Range closer = parts[0];
+    for (const Range& each : parts) closer = hull(closer, each);
+    if (closer.is_bounded()) list_[id] = closer;
+  }
+
+  /// Of what hangs on `source` alone, over each part of it.
+  const Parts& over_parts(ValueId id, ValueId source) {
+    const auto known = parts_.find(id);
+    if (known != parts_.end() && known->second.first == source) return known->second.second;
+    Parts made;
+    if (id == source) {
+      made = parts_of(list_[source]);
+    } else {
+      const Instruction& x = code_[id];
+      std::array<const Parts*, 3> in{};
+      for (std::size_t k = 0; k < x.count; ++k) {
+        if (sources_[x.operands[k]] != no_value) in[k] = &over_parts(x.operands[k], source);
+      }
+      for (std::size_t p = 0; p < part_count; ++p) {
+        Operands ranges = operands_of(x);
+        for (std::size_t k = 0; k < x.count; ++k) {
+          if (in[k] != nullptr) ranges[k] = (*in[k])[p];
+        }
+        made[p] = of(x, ranges);
+      }
+    }
+    return parts_.insert_or_assign(id, std::pair(source, made)).first->second.second;
+  }
+
+  /// More than any noise has; nothing is known of what longer loops carry.
+  static constexpr std::uint32_t most_rounds = 64;
+
   const Program& program_;
-  std::span<const Range> inputs_;
-  std::vector<Range> tables_;
+  const Function& function_;
+  const std::vector<Instruction>& code_;
+  const std::span<const Range> given_;
+  const bool is_known_;
+  std::vector<std::size_t> ends_;
   std::vector<Range> list_;
+  /// What each hangs on alone, itself where there is no such other; no_value of constants.
+  std::vector<ValueId> sources_;
+  std::map<ValueId, std::pair<ValueId, Parts>> parts_;
+  std::map<ValueId, Range> carried_;               ///< Of loops, into the next round.
+  std::map<ValueId, std::vector<Range>> results_;  ///< By call.
 };
 
 }  // namespace
 
-bool Range::is_bounded() const { return !nan && low > -infinity && high < infinity; }
-
-std::vector<Range> ranges_of(const Program& program) { return Ranges(program).run(); }
+std::vector<Range> ranges_of(const Program& program) {
+  return Ranges(program, 0, {}, false).run();
+}
 
 std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs) {
-  return Ranges(program, inputs).run();
+  return Ranges(program, 0, inputs, true).run();
 }
 
 std::vector<Range> output_ranges(const Program& program, std::span<const Range> inputs) {

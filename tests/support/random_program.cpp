@@ -308,7 +308,7 @@ std::vector<ValueId> top_level_values(const Program& program) {
   std::vector<ValueId> values;
   int depth = 0;
   const std::vector<Instruction>& code = program.entry().code;
-  for (std::size_t i = 0; i < code.size(); ++i) {
+  for (std::size_t i = 0; i < code.size() && code[i].op != Op::store; ++i) {
     if (closes_region(code[i].op)) --depth;
     const bool visible =
         depth == 0 || (depth == 1 && (code[i].op == Op::merge || code[i].op == Op::next));

@@ -25,7 +25,7 @@ Program random_program(std::uint64_t seed, const RandomProgramOptions& options =
 
 /// The part of a Program that computes one of its values at top level.
 Program program_of_value(const Program& program, ValueId value);
-/// The values that program_of_value() takes, in order.
+/// The values that program_of_value() takes, in order: those before the first store.
 std::vector<ValueId> top_level_values(const Program& program);
 
 /// Bits of a float or integer: a third from the edges of their types, a third

@@ -7,7 +7,9 @@
 #include <numeric>
 
 #include "runtime/interpreter/interpreter.h"
+#include "runtime/value/control.h"
 #include "runtime/value/vector.h"
+#include "tests/support/random.h"
 #include "tests/support/random_program.h"
 #include "tests/support/run_kernel.h"
 
@@ -44,6 +46,75 @@ TEST(Ranges, HoldWhatProgramsCompute) {
   EXPECT_GT(known, looked_at / 20);
 }
 
+/// A Program's inputs: floats within what is said of each, integers of any bits.
+struct Within {
+  static constexpr std::size_t points = 64;
+
+  Within(const Program& program, Random& random) : numbers(program.inputs.size()) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const bool is_float = program.inputs[i].type == Scalar::f32;
+      const auto a = static_cast<float>(random.below(400)) / 100.0f - 2.0f;
+      const auto width = static_cast<float>(random.below(5)) * 0.3f;
+      for (std::size_t k = 0; k < points; ++k) {
+        const float share = static_cast<float>(random.below(65)) / 64.0f;
+        numbers[i].push_back(is_float ? std::bit_cast<std::uint32_t>(a + share * width)
+                                      : static_cast<std::uint32_t>(random.word()));
+      }
+      const float last = a + width;
+      ranges.push_back(is_float ? Range{a, last, false} : Range{});
+    }
+    for (std::size_t i = 0; i < program.parameters.size(); ++i) {
+      parameters.push_back(static_cast<std::uint32_t>(random.word()));
+    }
+  }
+
+  std::vector<std::uint32_t> run(const Program& program) const {
+    std::vector<std::uint32_t> result(points);
+    std::vector<const void*> inputs;
+    for (const auto& each : numbers) inputs.push_back(each.data());
+    void* outputs[]{result.data()};
+    EXPECT_EQ(make_interpreter(program)->run({.inputs = inputs.data(),
+                                              .outputs = outputs,
+                                              .parameters = parameters.data(),
+                                              .count = points}),
+              RunStatus::done);
+    return result;
+  }
+
+  std::vector<std::vector<std::uint32_t>> numbers;
+  std::vector<Range> ranges;
+  std::vector<std::uint32_t> parameters;
+};
+
+// The same where inputs are known, with all that is done then: functions, rounds of loops, parts.
+TEST(Ranges, HoldWhatProgramsComputeOfKnownInputs) {
+  constexpr std::uint64_t programs = 600;
+  std::size_t looked_at = 0, known = 0;
+  for (std::uint64_t seed = 0; seed < programs; ++seed) {
+    const Program program = random_program(seed, {.memory = false});
+    Random random(seed);
+    for (const ValueId value : top_level_values(program)) {
+      const Scalar type = program.entry().code[value].type;
+      if (type != Scalar::f32 && type != Scalar::i32) continue;
+      const Program part = program_of_value(program, value);
+      const Within within(part, random);
+      const Range range = output_ranges(part, within.ranges)[0];
+      ++looked_at;
+      if (range == Range{}) continue;
+      ++known;
+      for (const std::uint32_t bits : within.run(part)) {
+        const double number = type == Scalar::f32 ? double(std::bit_cast<float>(bits))
+                                                  : double(std::bit_cast<std::int32_t>(bits));
+        const bool is_in =
+            std::isnan(number) ? range.nan : range.low <= number && number <= range.high;
+        ASSERT_TRUE(is_in) << number << " of seed " << seed << ", value " << value << ": ["
+                           << range.low << ", " << range.high << ']' << (range.nan ? ", NaN" : "");
+      }
+    }
+  }
+  EXPECT_GT(known, looked_at / 5) << looked_at;
+}
+
 Range range_of_output(const std::function<Float(Recorder&)>& body) {
   Recorder recorder;
   const std::vector<SliceOutput> outputs{{"y", body(recorder).ref()}};
@@ -73,6 +144,67 @@ TEST(Ranges, OfQuotientsBySomethingThatMayBeZeroAreUnknown) {
   EXPECT_EQ(quotient(-1.0f), Range{});
   EXPECT_NEAR(quotient(0.5f).low, 0.5, 1e-5);
   EXPECT_NEAR(quotient(0.5f).high, 4, 1e-5);
+}
+
+/// Of what `body` makes of an x in [low, high].
+template <class Body>
+Range range_of(Body&& body, double low, double high) {
+  Recorder recorder;
+  const Float x = input(recorder, "x");
+  const std::vector<SliceOutput> outputs{{"y", Float(body(recorder, x)).ref()}};
+  const Range inputs[]{{low, high, false}};
+  return output_ranges(slice(recorder.program(), "test", outputs), inputs)[0];
+}
+
+// x - x^2 is in [0, 1/4] for x in [0, 1]; 6 x^5 - 15 x^4 + 10 x^3 rises from 0 to 1.
+TEST(Ranges, OfOneNumberThatIsMetTwiceAreNearlyTight) {
+  const Range parabola = range_of([](Recorder&, Float x) { return x - x * x; }, 0, 1);
+  EXPECT_NEAR(parabola.low, 0, 0.03);
+  EXPECT_NEAR(parabola.high, 0.25, 0.03);
+  const Range fade = range_of(
+      [](Recorder&, Float t) { return t * t * t * fma(t, fma(t, 6.0f, -15.0f), 10.0f); }, 0, 1);
+  EXPECT_NEAR(fade.low, 0, 0.1);
+  EXPECT_NEAR(fade.high, 1, 0.15);
+}
+
+TEST(Ranges, OfWhatLiesBetweenTwoNumbersAreNoWider) {
+  const Range between =
+      range_of([](Recorder&, Float x) { return lerp(Float(3.0f), floor(x), fract(x)); }, -1.5, 2.5);
+  EXPECT_NEAR(between.low, -2, 1e-3);
+  EXPECT_NEAR(between.high, 3, 1e-3);
+}
+
+TEST(Ranges, GoThroughFunctions) {
+  const auto body = [](Recorder& recorder, Float x) {
+    const auto twice = [](Float y) { return y * 2.0f; };
+    return outline<Float>(recorder, "twice", twice, x) + outline<Float>(recorder, "twice", twice, 1.0f - x);
+  };
+  const Range range = range_of(body, 0, 0.5);
+  EXPECT_NEAR(range.low, 1, 1e-4);
+  EXPECT_NEAR(range.high, 3, 1e-4);
+}
+
+// Of the rounds of a loop each is known: 1 + 2 + 3 + 4 = 10, if it does not end before.
+TEST(Ranges, FollowTheRoundsOfLoops) {
+  const auto body = [](Recorder& recorder, Float x) {
+    const auto round = [&](Int i, Float& sum) {
+      sum = sum + to_float(i + Int(1));
+      return to_float(i) < x;
+    };
+    return loop(recorder, Bool(true), 4, Float(0.0f), round);
+  };
+  const Range range = range_of(body, -10, 10);
+  EXPECT_NEAR(range.low, 1, 1e-4);
+  EXPECT_NEAR(range.high, 10, 1e-4);
+  const auto perhaps = [&](Recorder& recorder, Float x) {
+    const auto round = [&](Int, Float& sum) {
+      sum = sum + Float(1.0f);
+      return Bool(true);
+    };
+    return loop(recorder, x > 0.0f, 3, Float(5.0f), round);
+  };
+  EXPECT_NEAR(range_of(perhaps, -1, 1).low, 5, 1e-4);
+  EXPECT_NEAR(range_of(perhaps, -1, 1).high, 8, 1e-4);
 }
 
 /// Of an integer that points with such x and y have.

@@ -1,0 +1,160 @@
+#include "jit/passes/range_arithmetic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace nacre {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Larger than what rounding to float moves a number by, in parts of it.
+constexpr double rounding = 1e-6;
+
+/// Wider by what floats round, which makes zero of what is denormal; nothing is known of what
+/// leaves their range.
+Range rounded(double low, double high) {
+  constexpr double largest = 1e38, smallest = 1.2e-38;
+  if (!(low >= -largest && high <= largest)) return {};
+  low -= rounding * std::abs(low);
+  high += rounding * std::abs(high);
+  return {low > 0 && low < smallest ? 0 : low, high < 0 && high > -smallest ? 0 : high, false};
+}
+
+/// Of integers, which wrap around: nothing is known of what may.
+Range integers(double low, double high) {
+  return low >= -0x1p31 && high < 0x1p31 ? Range{low, high, false} : Range{};
+}
+
+double largest_size(const Range& a) { return std::max(std::abs(a.low), std::abs(a.high)); }
+
+}  // namespace
+
+bool Range::is_bounded() const { return !nan && low > -infinity && high < infinity; }
+
+bool is_point(const Range& a) { return a.is_bounded() && a.low == a.high; }
+
+Range hull(const Range& a, const Range& b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high), a.nan || b.nan};
+}
+
+Range intersection(const Range& a, const Range& b) {
+  return {std::max(a.low, b.low), std::min(a.high, b.high), a.nan && b.nan};
+}
+
+Range sum(const Range& a, const Range& b) {
+  if (!a.is_bounded() || !b.is_bounded()) return {};
+  return rounded(a.low + b.low, a.high + b.high);
+}
+
+Range negated(const Range& a) { return {-a.high, -a.low, a.nan}; }
+
+Range product(const Range& a, const Range& b) {
+  if (!a.is_bounded() || !b.is_bounded()) return {};
+  const auto [low, high] =
+      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+  return rounded(low, high);
+}
+
+Range square(const Range& a) {
+  const Range size = absolute(a);
+  return product(size, size);
+}
+
+Range quotient(const Range& a, const Range& b) {
+  if (!a.is_bounded() || !b.is_bounded() || (b.low <= 0 && b.high >= 0)) return {};
+  const auto [low, high] =
+      std::minmax({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
+  return rounded(low, high);
+}
+
+Range mixed(const Range& a, const Range& b, const Range& t) {
+  if (!a.is_bounded() || !b.is_bounded() || !t.is_bounded()) return {};
+  // Straight in each of the three: what is least and most is at ends.
+  double low = infinity, high = -infinity;
+  for (const double share : {t.low, t.high}) {
+    const auto [from, to] = std::minmax({(1 - share) * a.low, (1 - share) * a.high});
+    const auto [least, most] = std::minmax({share * b.low, share * b.high});
+    low = std::min(low, from + least);
+    high = std::max(high, to + most);
+  }
+  // What (1 - t) a rounds by may be more than the sum has digits for.
+  const double lost = rounding * (largest_size(a) * (1 + largest_size(t)));
+  return rounded(low - lost, high + lost);
+}
+
+Range least(const Range& a, const Range& b) {
+  return {std::min(a.low, b.low), a.nan ? b.high : std::min(a.high, b.high), b.nan};
+}
+Range most(const Range& a, const Range& b) {
+  return {a.nan ? b.low : std::max(a.low, b.low), std::max(a.high, b.high), b.nan};
+}
+
+Range absolute(const Range& a) {
+  const bool has_zero = a.low <= 0 && a.high >= 0;
+  return {has_zero ? 0.0 : std::min(std::abs(a.low), std::abs(a.high)), largest_size(a), a.nan};
+}
+
+Range root(const Range& a) {
+  if (!a.is_bounded() || a.low < 0) return {0, infinity, true};
+  return rounded(std::sqrt(a.low), std::sqrt(a.high));
+}
+
+Range floored(const Range& a) {
+  return a.is_bounded() ? Range{std::floor(a.low), std::floor(a.high), false} : Range{};
+}
+
+Range fraction(const Range& x) { return x.is_bounded() ? Range{0, 1, false} : Range{}; }
+
+Range exponential(const Range& a) {
+  if (!a.is_bounded()) return {};
+  const Range exact = rounded(std::exp(a.low), std::exp(a.high));
+  return exact.is_bounded() ? rounded(exact.low, exact.high) : exact;
+}
+
+Range of_table(const Table& table) {
+  const auto [low, high] = std::ranges::minmax(table.values);
+  return std::isfinite(low) && std::isfinite(high) ? rounded(low, high) : Range{};
+}
+
+Range of_signed(const Range& a) {
+  return a.is_bounded() ? rounded(a.low, a.high) : rounded(-0x1p31, 0x1p31);
+}
+
+Range of_unsigned() { return rounded(0, 0x1p32); }
+
+Range whole(const Range& a) {
+  if (!a.is_bounded()) return {};
+  const auto clamped = [](double x) { return std::clamp(std::trunc(x), -0x1p31, 0x1p31 - 1); };
+  return {clamped(a.low), clamped(a.high), false};
+}
+
+Range integer_sum(const Range& a, const Range& b) {
+  return a.is_bounded() && b.is_bounded() ? integers(a.low + b.low, a.high + b.high) : Range{};
+}
+
+Range integer_product(const Range& a, const Range& b) {
+  if (!a.is_bounded() || !b.is_bounded()) return {};
+  const auto [low, high] =
+      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+  return integers(low, high);
+}
+
+Range integer_shift(const Range& a, const Range& count) {
+  if (!a.is_bounded() || a.low < 0 || !is_point(count) || count.low < 0 || count.low > 31) {
+    return {};
+  }
+  const double by = std::exp2(count.low);
+  return {std::floor(a.low / by), std::floor(a.high / by), false};
+}
+
+Range integer_and(const Range& a, const Range& b) {
+  double most = infinity;
+  for (const Range& each : {a, b}) {
+    if (each.is_bounded() && each.low >= 0) most = std::min(most, each.high);
+  }
+  return most < infinity ? Range{0, most, false} : Range{};
+}
+
+}  // namespace nacre
