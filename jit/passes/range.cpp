@@ -148,7 +148,9 @@ class Ranges {
   }
 
   /// The next instruction of the same region.
-  std::size_t after(std::size_t i) const { return opens_region(code_[i].op) ? ends_[i] + 1 : i + 1; }
+  std::size_t after(std::size_t i) const {
+    return opens_region(code_[i].op) ? ends_[i] + 1 : i + 1;
+  }
 
   bool is_true(ValueId id) const { return code_[id].op == Op::constant && code_[id].imm != 0; }
 
@@ -343,9 +345,7 @@ class Ranges {
 
 }  // namespace
 
-std::vector<Range> ranges_of(const Program& program) {
-  return Ranges(program, 0, {}, false).run();
-}
+std::vector<Range> ranges_of(const Program& program) { return Ranges(program, 0, {}, false).run(); }
 
 std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs) {
   return Ranges(program, 0, inputs, true).run();

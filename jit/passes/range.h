@@ -25,8 +25,8 @@ struct Range {
 std::vector<Range> ranges_of(const Program& program);
 
 /// The same where so much is known of each of Program::inputs. Then i32 values have ranges, too;
-/// functions and the rounds of loops are followed, and what is computed of one number alone is looked
-/// at part by part of its range.
+/// functions and the rounds of loops are followed, and what is computed of one number alone is
+/// looked at part by part of its range.
 std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs);
 
 /// Of each of Program::outputs, where so much is known of each of Program::inputs.

@@ -76,7 +76,8 @@ std::vector<Row> rows() {
           {"quotient", of_two("divide", "7")},
           {"noise", of_place("noise3d"), 9},
           {"flat noise", document(R"(<noise2d name="d" type="float">
-             <input name="texcoord" type="vector2" nodename="uv"/></noise2d>)"), 9},
+             <input name="texcoord" type="vector2" nodename="uv"/></noise2d>)"),
+           9},
           {"cells", of_place("cellnoise3d"), 1.1},
           {"fractal", of_place("fractal3d"), 17},
           {"nearest point", of_place("worleynoise3d"), 4},

@@ -177,7 +177,8 @@ TEST(Ranges, OfWhatLiesBetweenTwoNumbersAreNoWider) {
 TEST(Ranges, GoThroughFunctions) {
   const auto body = [](Recorder& recorder, Float x) {
     const auto twice = [](Float y) { return y * 2.0f; };
-    return outline<Float>(recorder, "twice", twice, x) + outline<Float>(recorder, "twice", twice, 1.0f - x);
+    return outline<Float>(recorder, "twice", twice, x) +
+           outline<Float>(recorder, "twice", twice, 1.0f - x);
   };
   const Range range = range_of(body, 0, 0.5);
   EXPECT_NEAR(range.low, 1, 1e-4);

@@ -191,7 +191,8 @@ std::vector<Composite> make_composites() {
                         from("fg", "BSDF", "x") + from("bg", "BSDF", "y") +
                             value_of("mix", "float", "0.6")),
        .axes = {facets[0], facets[1], facets[2]},
-       .has_inside = true},
+       .has_inside = true,
+       .standard_error = 5e-3},
       {.name = "multiply",
        .nodes = element("conductor_bsdf", "BSDF", "x", "{}") +
                 element("multiply", "BSDF", "b",

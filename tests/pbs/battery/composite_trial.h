@@ -29,6 +29,9 @@ struct Composite {
   /// Of the albedo kernel, against the mean weight of samples: what the sum over anisotropic facets
   /// misses from inside (pbs/facet_sum.h).
   double albedo_error = 4e-2;
+  /// Of `standard`, where no axis asks for a film or a sum over facets: rounding, but for what the
+  /// row has of those itself.
+  double standard_error = 1e-4;
 };
 
 std::span<const Composite> composites();
