@@ -22,7 +22,7 @@ std::string path_of_object(const Mesh& mesh) {
 }
 
 /// This renderer's name, for properties that are meant for one.
-constexpr std::string_view target = "nacre";
+constexpr std::string_view own_target = "nacre";
 
 constexpr std::string_view priority_property = "dielectric_priority";
 
@@ -198,9 +198,9 @@ class Assigner {
   /// What the look says of a mesh under its own names counts for more than what it says
   /// of something above it.
   const PropertyAssignment* property_of(const Mesh& mesh, std::string_view property) const {
-    const PropertyAssignment* said = rules_.property_of(*look_, path_of(mesh), property, target);
+    const PropertyAssignment* said = rules_.property_of(*look_, path_of(mesh), property, own_target);
     for (const std::string& name : names_of(mesh)) {
-      const PropertyAssignment* found = rules_.property_of(*look_, name, property, target);
+      const PropertyAssignment* found = rules_.property_of(*look_, name, property, own_target);
       if (found == nullptr || rules_.reach(*found, name) != name.size()) continue;
       said = found;
       break;
@@ -223,7 +223,7 @@ class Assigner {
   void check_priorities() {
     if (!look_) return;
     for (const PropertyAssignment& said : look_->properties) {
-      const bool is_other = !said.target.empty() && said.target != target;
+      const bool is_other = !said.target.empty() && said.target != own_target;
       if (said.property != priority_property || is_other) continue;
       if (said.value.type == Type::integer) continue;
       diagnostics_.error(
