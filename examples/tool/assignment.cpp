@@ -198,7 +198,8 @@ class Assigner {
   /// What the look says of a mesh under its own names counts for more than what it says
   /// of something above it.
   const PropertyAssignment* property_of(const Mesh& mesh, std::string_view property) const {
-    const PropertyAssignment* said = rules_.property_of(*look_, path_of(mesh), property, own_target);
+    const PropertyAssignment* said =
+        rules_.property_of(*look_, path_of(mesh), property, own_target);
     for (const std::string& name : names_of(mesh)) {
       const PropertyAssignment* found = rules_.property_of(*look_, name, property, own_target);
       if (found == nullptr || rules_.reach(*found, name) != name.size()) continue;

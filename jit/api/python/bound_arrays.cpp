@@ -34,16 +34,29 @@ std::uint64_t past_instances_of(const Request& request) {
          std::to_string(expected) + " elements", std::to_string(found));
 }
 
-std::string unknown_name_text(const Shader& shader, std::uint32_t entries) {
-  std::string names;
+/// "uv0" of "uv0.x", by which arrays are bound as well.
+std::string group_of(const std::string& channel) { return channel.substr(0, channel.find('.')); }
+
+[[noreturn]] void refuse_name(const Shader& shader, std::uint32_t entries,
+                              const std::string& name) {
+  std::string results;
+  std::vector<std::string> known;
+  const auto add = [&](const Channel& each) {
+    if (each.role == NACRE_STATE) return;
+    known.push_back(each.name);
+    known.push_back(group_of(each.name));
+  };
   for (int i = 0; i < NACRE_ENTRY_COUNT; ++i) {
     const auto entry = static_cast<nacre_entry>(i);
     if ((entries >> i & 1) == 0) continue;
+    for (const Channel& each : shader.inputs(entry)) add(each);
     for (const Channel& each : shader.results(entry)) {
-      if (each.role != NACRE_STATE) names += (names.empty() ? "" : ", ") + each.name;
+      add(each);
+      if (each.role != NACRE_STATE) results += (results.empty() ? "" : ", ") + each.name;
     }
   }
-  return "a channel, a varying parameter, or a result: " + names;
+  refuse("unknown-channel", name, "there is no channel '" + name + "'",
+         "a channel, a varying parameter, or a result: " + results, "", near_hint(name, known));
 }
 
 }  // namespace
@@ -61,10 +74,7 @@ BoundArrays::BoundArrays(const Shader& shader, const std::vector<NamedArray>& ar
     auto use = channel_use(shader, wanted, each.name);
     // Known to the entries that are left out, perhaps.
     if (!use) use = channel_use(shader, present, each.name);
-    if (!use) {
-      refuse("unknown-channel", each.name, "there is no channel '" + each.name + "'",
-             unknown_name_text(shader, wanted), "");
-    }
+    if (!use) refuse_name(shader, wanted, each.name);
     place(binder.get(), placements_, each.name, each.element, *use, each.object);
   }
   const detail::Said report;

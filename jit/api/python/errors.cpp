@@ -45,19 +45,28 @@ nb::list texts(const std::vector<std::string>& list) {
 }
 
 void refuse(const std::string& code, const std::string& name, const std::string& message,
-            const std::string& expected, const std::string& found) {
+            const std::string& expected, const std::string& found, const std::string& hint) {
   Diagnostic said;
   said.code = code;
   said.path = name;
   said.message = message;
   said.expected = expected;
   said.found = found;
+  said.hint = hint;
   // As the library writes its own.
   said.text = "error: " + message;
   if (!expected.empty()) said.text += "; expected " + expected;
   if (!found.empty()) said.text += (expected.empty() ? "; found " : ", found ") + found;
+  if (!hint.empty()) said.text += "; " + hint;
   said.text += " [" + code + "] (" + name + ")";
   throw Error(NACRE_WRONG_ARGUMENTS, {said});
+}
+
+std::string near_hint(const std::string& wanted, const std::vector<std::string>& known) {
+  const nb::object near =
+      nb::module_::import_("difflib").attr("get_close_matches")(text(wanted), texts(known), 1);
+  return nb::len(near) == 0 ? ""
+                            : "did you mean '" + nb::cast<std::string>(near[nb::int_(0)]) + "'?";
 }
 
 nb::list diagnostics_of(const std::vector<Diagnostic>& said) {

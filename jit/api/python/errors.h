@@ -16,7 +16,10 @@ nanobind::list texts(const std::vector<std::string>& list);
 /// Throws an Error of one diagnostic, for what a caller gave that is not right: `name` says which.
 [[noreturn]] void refuse(const std::string& code, const std::string& name,
                          const std::string& message, const std::string& expected,
-                         const std::string& found);
+                         const std::string& found, const std::string& hint = {});
+
+/// "did you mean 'uv0'?", of the names that there are; "" where none is near. By Python's difflib.
+std::string near_hint(const std::string& wanted, const std::vector<std::string>& known);
 
 /// A list of nacre.Diagnostic.
 nanobind::list diagnostics_of(const std::vector<Diagnostic>& said);

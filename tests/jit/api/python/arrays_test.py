@@ -171,10 +171,13 @@ def test_results_need_an_element_a_point(twice):
 
 
 def test_names_that_nobody_has_are_refused(twice):
-    with refused("unknown-channel", "uv", "out.x"):
+    with refused("unknown-channel", "uv", "out.x", "did you mean 'uv0'?"):
         twice.bind({"uv": UV})
-    with refused("unknown-channel", "Out", "out.x"):
+    with refused("unknown-channel", "Out", "out.x", "did you mean 'out'?"):
         twice.bind({"uv0": UV, "Out": writable()})
+    with pytest.raises(nacre.Error) as far:
+        twice.bind({"uv0": UV, "elephant": writable()})
+    assert "did you mean" not in str(far.value)
     # Those of other shaders are no mistake.
     twice.bind({"uv0": UV, "P": writable(shape=(COUNT, 3)), "geomprop.age": 1, "wi": (0, 0, 1)})
 
