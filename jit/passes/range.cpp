@@ -17,23 +17,59 @@ namespace {
 /// The ranges of an instruction's operands; of those that there are not nothing is read.
 using Operands = std::array<Range, 3>;
 
-/// A range in equal parts, and what something that hangs on it alone may be over each.
-constexpr std::size_t part_count = 64;
-using Parts = std::array<Range, part_count>;
+/// Over a part of a range what hangs on it alone may be, what in its middle, and its derivative.
+struct Part {
+  Range value, middle, slope;
+};
+constexpr std::size_t part_count = 32;
+using Parts = std::array<Part, part_count>;
 
 Parts parts_of(const Range& whole) {
   Parts parts;
   for (std::size_t k = 0; k < part_count; ++k) {
-    const auto at = [&](std::size_t i) {
-      const double share = static_cast<double>(i) / static_cast<double>(part_count);
-      return i == part_count ? whole.high : whole.low + share * (whole.high - whole.low);
+    const auto at = [&](double i) {
+      const double share = i / static_cast<double>(part_count);
+      return whole.low + share * (whole.high - whole.low);
     };
-    parts[k] = {at(k), at(k + 1), false};
+    const auto from = static_cast<double>(k);
+    const double middle = at(from + 0.5);
+    parts[k] = {.value = {at(from), k + 1 == part_count ? whole.high : at(from + 1), false},
+                .middle = {middle, middle, false},
+                .slope = {1, 1, false}};
   }
   return parts;
 }
 
-/// Whose ranges over parts of an operand are worth it: what has no more than steps at 0.
+Part constant_part(const Range& value) { return {value, value, {0, 0, false}}; }
+
+/// By the rules of sums and products; of another operation nothing is known.
+Range slope_of(Op op, const std::array<Part, 3>& in) {
+  const auto of_product = [&] {
+    return sum(product(in[0].slope, in[1].value), product(in[0].value, in[1].slope));
+  };
+  switch (op) {
+    case Op::add: return sum(in[0].slope, in[1].slope);
+    case Op::sub: return sum(in[0].slope, negated(in[1].slope));
+    case Op::mul: return of_product();
+    case Op::fma: return sum(of_product(), in[2].slope);
+    case Op::neg: return negated(in[0].slope);
+    default: return {};
+  }
+}
+
+/// What the mean value theorem says: no further from the middle than the slope leads. How wide that
+/// is by rounding alone counts twice, for it is as much elsewhere; and sums of points are floats.
+Range by_slope(const Range& middle, const Range& slope, double half) {
+  const Range steps = product(slope, {-half, half, false});
+  const Range around = sum(middle, steps);
+  if (!around.is_bounded()) return {};
+  constexpr double rounding = 1e-6;
+  const double size = std::max(std::abs(middle.low), std::abs(middle.high)) + steps.high;
+  const double room = middle.high - middle.low + rounding * size;
+  return sum(around, {-room, room, false});
+}
+
+/// What ranges over parts of an operand are worth it for.
 bool is_arithmetic(Op op) {
   switch (op) {
     case Op::add:
@@ -297,9 +333,19 @@ class Ranges {
     const Range whole = source != no_value ? list_[source] : Range{};
     if (ways < 2 || !whole.is_bounded() || is_point(whole)) return;
     const Parts& parts = over_parts(id, source);
-    Range closer = parts[0];
-    for (const Range& each : parts) closer = hull(closer, each);
+    Range closer = parts[0].value;
+    for (const Part& each : parts) closer = hull(closer, each.value);
     if (closer.is_bounded()) list_[id] = closer;
+  }
+
+  Part part_of(const Instruction& x, const std::array<Part, 3>& in, double half) const {
+    Part part;
+    part.middle = of(x, {in[0].middle, in[1].middle, in[2].middle});
+    part.slope = slope_of(x.op, in);
+    const Range plain = of(x, {in[0].value, in[1].value, in[2].value});
+    const Range closer = by_slope(part.middle, part.slope, half);
+    part.value = closer.is_bounded() && plain.is_bounded() ? intersection(plain, closer) : plain;
+    return part;
   }
 
   /// Of what hangs on `source` alone, over each part of it.
@@ -315,12 +361,13 @@ class Ranges {
       for (std::size_t k = 0; k < x.count; ++k) {
         if (sources_[x.operands[k]] != no_value) in[k] = &over_parts(x.operands[k], source);
       }
+      const double half = 0.5 * (list_[source].high - list_[source].low) / part_count;
       for (std::size_t p = 0; p < part_count; ++p) {
-        Operands ranges = operands_of(x);
+        std::array<Part, 3> operands;
         for (std::size_t k = 0; k < x.count; ++k) {
-          if (in[k] != nullptr) ranges[k] = (*in[k])[p];
+          operands[k] = in[k] != nullptr ? (*in[k])[p] : constant_part(list_[x.operands[k]]);
         }
-        made[p] = of(x, ranges);
+        made[p] = part_of(x, operands, half);
       }
     }
     return parts_.insert_or_assign(id, std::pair(source, made)).first->second.second;

@@ -65,8 +65,8 @@ void refuse(const std::string& code, const std::string& name, const std::string&
 std::string near_hint(const std::string& wanted, const std::vector<std::string>& known) {
   const nb::object near =
       nb::module_::import_("difflib").attr("get_close_matches")(text(wanted), texts(known), 1);
-  return nb::len(near) == 0 ? ""
-                            : "did you mean '" + nb::cast<std::string>(near[nb::int_(0)]) + "'?";
+  if (nb::len(near) == 0) return "";
+  return std::string("did you mean '") + nb::str(near[nb::int_(0)]).c_str() + "'?";
 }
 
 nb::list diagnostics_of(const std::vector<Diagnostic>& said) {

@@ -159,12 +159,12 @@ Range range_of(Body&& body, double low, double high) {
 // x - x^2 is in [0, 1/4] for x in [0, 1]; 6 x^5 - 15 x^4 + 10 x^3 rises from 0 to 1.
 TEST(Ranges, OfOneNumberThatIsMetTwiceAreNearlyTight) {
   const Range parabola = range_of([](Recorder&, Float x) { return x - x * x; }, 0, 1);
-  EXPECT_NEAR(parabola.low, 0, 0.03);
-  EXPECT_NEAR(parabola.high, 0.25, 0.03);
+  EXPECT_NEAR(parabola.low, 0, 2e-3);
+  EXPECT_NEAR(parabola.high, 0.25, 2e-3);
   const Range fade = range_of(
       [](Recorder&, Float t) { return t * t * t * fma(t, fma(t, 6.0f, -15.0f), 10.0f); }, 0, 1);
-  EXPECT_NEAR(fade.low, 0, 0.1);
-  EXPECT_NEAR(fade.high, 1, 0.15);
+  EXPECT_NEAR(fade.low, 0, 0.02);
+  EXPECT_NEAR(fade.high, 1, 0.02);
 }
 
 TEST(Ranges, OfWhatLiesBetweenTwoNumbersAreNoWider) {
