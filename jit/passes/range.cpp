@@ -5,8 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "jit/passes/range_arithmetic.h"
+#include "jit/passes/range_parts.h"
 #include "runtime/program/fold.h"
 #include "runtime/program/region.h"
 
@@ -16,58 +19,6 @@ namespace {
 
 /// The ranges of an instruction's operands; of those that there are not nothing is read.
 using Operands = std::array<Range, 3>;
-
-/// Over a part of a range what hangs on it alone may be, what in its middle, and its derivative.
-struct Part {
-  Range value, middle, slope;
-};
-constexpr std::size_t part_count = 32;
-using Parts = std::array<Part, part_count>;
-
-Parts parts_of(const Range& whole) {
-  Parts parts;
-  for (std::size_t k = 0; k < part_count; ++k) {
-    const auto at = [&](double i) {
-      const double share = i / static_cast<double>(part_count);
-      return whole.low + share * (whole.high - whole.low);
-    };
-    const auto from = static_cast<double>(k);
-    const double middle = at(from + 0.5);
-    parts[k] = {.value = {at(from), k + 1 == part_count ? whole.high : at(from + 1), false},
-                .middle = {middle, middle, false},
-                .slope = {1, 1, false}};
-  }
-  return parts;
-}
-
-Part constant_part(const Range& value) { return {value, value, {0, 0, false}}; }
-
-/// By the rules of sums and products; of another operation nothing is known.
-Range slope_of(Op op, const std::array<Part, 3>& in) {
-  const auto of_product = [&] {
-    return sum(product(in[0].slope, in[1].value), product(in[0].value, in[1].slope));
-  };
-  switch (op) {
-    case Op::add: return sum(in[0].slope, in[1].slope);
-    case Op::sub: return sum(in[0].slope, negated(in[1].slope));
-    case Op::mul: return of_product();
-    case Op::fma: return sum(of_product(), in[2].slope);
-    case Op::neg: return negated(in[0].slope);
-    default: return {};
-  }
-}
-
-/// What the mean value theorem says: no further from the middle than the slope leads. How wide that
-/// is by rounding alone counts twice, for it is as much elsewhere; and sums of points are floats.
-Range by_slope(const Range& middle, const Range& slope, double half) {
-  const Range steps = product(slope, {-half, half, false});
-  const Range around = sum(middle, steps);
-  if (!around.is_bounded()) return {};
-  constexpr double rounding = 1e-6;
-  const double size = std::max(std::abs(middle.low), std::abs(middle.high)) + steps.high;
-  const double room = middle.high - middle.low + rounding * size;
-  return sum(around, {-room, room, false});
-}
 
 /// What ranges over parts of an operand are worth it for.
 bool is_arithmetic(Op op) {
@@ -86,16 +37,33 @@ bool is_arithmetic(Op op) {
   }
 }
 
+/// Of what may be left undone, so that large Programs take no longer than they are long: rounds of
+/// loops, calls, parts. Noise of eight octaves takes a tenth of it.
+class Effort {
+ public:
+  /// False where there is not so much left.
+  bool spend(std::size_t operations) {
+    if (operations > left_) return false;
+    left_ -= operations;
+    return true;
+  }
+
+ private:
+  std::size_t left_ = 100'000;
+};
+
 /// The values of one function.
 class Ranges {
  public:
   /// `given`: of inputs, or of arguments; `is_known`: they say something, and work is done for it.
-  Ranges(const Program& program, std::size_t function, std::span<const Range> given, bool is_known)
+  Ranges(const Program& program, std::size_t function, std::span<const Range> given, bool is_known,
+         Effort& effort)
       : program_(program),
         function_(program.functions[function]),
         code_(function_.code),
         given_(given),
         is_known_(is_known),
+        effort_(effort),
         list_(code_.size()),
         sources_(code_.size(), no_value) {
     if (is_known) ends_ = region_ends(function_);
@@ -153,7 +121,7 @@ class Ranges {
       if (code_[i].op == Op::next) ids.push_back(static_cast<ValueId>(i));
     }
     const std::uint32_t bound = loop_bound(code_[loop].imm);
-    const bool is_too_long = bound > most_rounds;
+    const bool is_too_long = !effort_.spend(bound * (end - loop));
     for (const ValueId id : ids) {
       const ValueId carry = code_[id].operands[0];
       if (is_too_long) {
@@ -200,9 +168,11 @@ class Ranges {
   }
 
   void walk_call(ValueId id) {
+    results_.erase(id);
+    if (!effort_.spend(program_.functions[code_[id].imm].code.size())) return;
     std::vector<Range> arguments;
     for (const ValueId operand : function_.operands(code_[id])) arguments.push_back(list_[operand]);
-    results_[id] = Ranges(program_, code_[id].imm, arguments, true).results();
+    results_[id] = Ranges(program_, code_[id].imm, arguments, true, effort_).results();
   }
 
   Operands operands_of(const Instruction& x) const {
@@ -308,10 +278,7 @@ class Ranges {
     return plain.is_bounded() ? intersection(plain, between) : between;
   }
 
-  // What is computed of one number alone, in several ways that come together again, is known far
-  // better part by part: of x - x^2 over [0, 1] intervals say [-1, 1].
-
-  /// Remembers which that is, and looks at parts of it where ways meet.
+  /// Remembers which other value it hangs on alone, and looks at parts of that where ways meet.
   void look_closer(ValueId id) {
     const Instruction& x = code_[id];
     sources_[id] = id;
@@ -332,10 +299,50 @@ class Ranges {
     sources_[id] = source;
     const Range whole = source != no_value ? list_[source] : Range{};
     if (ways < 2 || !whole.is_bounded() || is_point(whole)) return;
-    const Parts& parts = over_parts(id, source);
-    Range closer = parts[0].value;
-    for (const Part& each : parts) closer = hull(closer, each.value);
+    const std::vector<ValueId> cone = new_cone(id, source);
+    if (!effort_.spend(cone.size() * part_count)) return;
+    for (const ValueId each : cone) parts_[each] = {source, parts_of_value(each, source)};
+    Range closer = parts_[id].second[0].value;
+    for (const Part& each : parts_[id].second) closer = hull(closer, each.value);
     if (closer.is_bounded()) list_[id] = closer;
+  }
+
+  /// What a value is computed from, back to `source`, and whose parts are not known: in order.
+  std::vector<ValueId> new_cone(ValueId id, ValueId source) const {
+    std::set<ValueId> cone;
+    std::vector<ValueId> open{id};
+    while (!open.empty()) {
+      const ValueId at = open.back();
+      open.pop_back();
+      const auto known = parts_.find(at);
+      if ((known != parts_.end() && known->second.first == source) || !cone.insert(at).second) {
+        continue;
+      }
+      for (std::size_t k = 0; at != source && k < code_[at].count; ++k) {
+        const ValueId operand = code_[at].operands[k];
+        if (sources_[operand] != no_value) open.push_back(operand);
+      }
+    }
+    return {cone.begin(), cone.end()};
+  }
+
+  /// Where those of its operands are known.
+  Parts parts_of_value(ValueId id, ValueId source) const {
+    const Range& whole = list_[source];
+    if (id == source) return nacre::parts_of(whole);
+    const Instruction& x = code_[id];
+    const double half = 0.5 * (whole.high - whole.low) / part_count;
+    Parts parts;
+    for (std::size_t p = 0; p < part_count; ++p) {
+      std::array<Part, 3> operands;
+      for (std::size_t k = 0; k < x.count; ++k) {
+        const ValueId operand = x.operands[k];
+        operands[k] = sources_[operand] == no_value ? constant_part(list_[operand])
+                                                    : parts_.at(operand).second[p];
+      }
+      parts[p] = part_of(x, operands, half);
+    }
+    return parts;
   }
 
   Part part_of(const Instruction& x, const std::array<Part, 3>& in, double half) const {
@@ -348,43 +355,17 @@ class Ranges {
     return part;
   }
 
-  /// Of what hangs on `source` alone, over each part of it.
-  const Parts& over_parts(ValueId id, ValueId source) {
-    const auto known = parts_.find(id);
-    if (known != parts_.end() && known->second.first == source) return known->second.second;
-    Parts made;
-    if (id == source) {
-      made = parts_of(list_[source]);
-    } else {
-      const Instruction& x = code_[id];
-      std::array<const Parts*, 3> in{};
-      for (std::size_t k = 0; k < x.count; ++k) {
-        if (sources_[x.operands[k]] != no_value) in[k] = &over_parts(x.operands[k], source);
-      }
-      const double half = 0.5 * (list_[source].high - list_[source].low) / part_count;
-      for (std::size_t p = 0; p < part_count; ++p) {
-        std::array<Part, 3> operands;
-        for (std::size_t k = 0; k < x.count; ++k) {
-          operands[k] = in[k] != nullptr ? (*in[k])[p] : constant_part(list_[x.operands[k]]);
-        }
-        made[p] = part_of(x, operands, half);
-      }
-    }
-    return parts_.insert_or_assign(id, std::pair(source, made)).first->second.second;
-  }
-
-  /// More than any noise has; nothing is known of what longer loops carry.
-  static constexpr std::uint32_t most_rounds = 64;
-
   const Program& program_;
   const Function& function_;
   const std::vector<Instruction>& code_;
   const std::span<const Range> given_;
   const bool is_known_;
+  Effort& effort_;
   std::vector<std::size_t> ends_;
   std::vector<Range> list_;
   /// What each hangs on alone, itself where there is no such other; no_value of constants.
   std::vector<ValueId> sources_;
+  /// By value: of which source, and over its parts.
   std::map<ValueId, std::pair<ValueId, Parts>> parts_;
   std::map<ValueId, Range> carried_;               ///< Of loops, into the next round.
   std::map<ValueId, std::vector<Range>> results_;  ///< By call.
@@ -392,10 +373,14 @@ class Ranges {
 
 }  // namespace
 
-std::vector<Range> ranges_of(const Program& program) { return Ranges(program, 0, {}, false).run(); }
+std::vector<Range> ranges_of(const Program& program) {
+  Effort effort;
+  return Ranges(program, 0, {}, false, effort).run();
+}
 
 std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs) {
-  return Ranges(program, 0, inputs, true).run();
+  Effort effort;
+  return Ranges(program, 0, inputs, true, effort).run();
 }
 
 std::vector<Range> output_ranges(const Program& program, std::span<const Range> inputs) {

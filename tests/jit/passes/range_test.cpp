@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "runtime/interpreter/interpreter.h"
@@ -206,6 +207,27 @@ TEST(Ranges, FollowTheRoundsOfLoops) {
   };
   EXPECT_NEAR(range_of(perhaps, -1, 1).low, 5, 1e-4);
   EXPECT_NEAR(range_of(perhaps, -1, 1).high, 8, 1e-4);
+}
+
+// What is looked at more than once has an end: a long chain, loops in loops in loops.
+TEST(Ranges, TakeNoLongerThanProgramsAreLong) {
+  const auto chain = [](Recorder&, Float x) {
+    Float y = x;
+    for (int i = 0; i < 100'000; ++i) y = fma(y, 0.999f, 1e-3f);
+    return x * y;
+  };
+  EXPECT_TRUE(range_of(chain, 0, 1).is_bounded());
+  const auto nested = [](Recorder& recorder, Float x) {
+    std::function<Float(int, Float)> loops = [&](int depth, Float start) -> Float {
+      if (depth == 0) return start + x;
+      return loop(recorder, Bool(true), 64, start, [&](Int, Float& sum) {
+        sum = loops(depth - 1, sum);
+        return sum < 1e6f;
+      });
+    };
+    return loops(8, 0.0f);
+  };
+  EXPECT_FALSE(range_of(nested, 0, 1).is_bounded());
 }
 
 /// Of an integer that points with such x and y have.
