@@ -8,23 +8,29 @@ namespace nacre {
 
 namespace {
 
-/// Input arrays in the order of a Program, each `count` long.
+/// Input arrays in the order of a Program, each `count` long: the columns themselves, which outlive
+/// this, where they are so long and hold floats.
 struct Inputs {
   Inputs(const Program& program, const Columns& columns) {
     for (const auto& [name, column] : columns) count = std::max(count, column.size());
+    arrays.reserve(program.inputs.size());
     for (const Channel& channel : program.inputs) {
-      std::vector<float> array(count, 0.0f);
-      if (const auto found = columns.find(channel.name); found != columns.end()) {
-        for (std::size_t i = 0; i < count; ++i) {
-          array[i] = found->second[found->second.size() == 1 ? 0 : i];
-        }
+      const auto found = columns.find(channel.name);
+      if (found != columns.end() && found->second.size() == count && channel.type == Scalar::f32) {
+        pointers.push_back(found->second.data());
+        continue;
+      }
+      std::vector<float>& array = arrays.emplace_back();
+      if (found == columns.end() || found->second.size() == 1) {
+        array.assign(count, found == columns.end() ? 0.0f : found->second.front());
+      } else {
+        array = found->second;
       }
       if (channel.type != Scalar::f32) {
         for (float& x : array) x = std::bit_cast<float>(static_cast<std::int32_t>(x));
       }
-      arrays.push_back(std::move(array));
+      pointers.push_back(array.data());
     }
-    for (const auto& array : arrays) pointers.push_back(array.data());
     for (const ParameterSlot& slot : program.parameters) slots.push_back(slot.value);
   }
 

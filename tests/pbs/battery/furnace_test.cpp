@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "pbs/cosine_lobe.h"
 #include "runtime/node/geometry.h"
@@ -23,6 +26,23 @@ Columns view(double angle, double azimuth = 30.0) {
           {"T.x", {1.0f}}};
 }
 
+/// Roberts' sequence in three dimensions: powers of the root of x^4 = x + 1. As many of each are
+/// made once.
+const Columns& grid(int count) {
+  static std::map<int, Columns> grids;
+  Columns& made = grids[count];
+  if (!made.empty()) return made;
+  const std::pair<const char*, double> steps[] = {
+      {"u.x", 0.8191725133961645}, {"u.y", 0.6710436067037893}, {"u.z", 0.5497004779019703}};
+  for (const auto& [name, step] : steps) {
+    std::vector<float>& column = made[name];
+    for (int i = 0; i < count; ++i) {
+      column.push_back(static_cast<float>(std::fmod(0.5 + i * step, 1.0)));
+    }
+  }
+  return made;
+}
+
 /// All light that a surface in a white world sends to the viewer: the mean weight
 /// of samples on a grid of random numbers.
 class Furnace {
@@ -34,7 +54,9 @@ class Furnace {
     surface.bsdf = make(recorder);
     surface.thin_walled = thin_walled;
     const SurfaceKernels kernels = record_kernels(recorder, surface, accuracy, {});
-    Program sample = slice(recorder.program(), "sample", kernels.sample, Keeps::load);
+    std::vector<SliceOutput> weight = kernels.sample;
+    std::erase_if(weight, [](const SliceOutput& each) { return each.name != "weight.x"; });
+    Program sample = slice(recorder.program(), "sample", weight, Keeps::load);
     const std::vector<SliceOutput> state = state_outputs(recorder, state_channels(sample));
     // What a view costs is paid once, by `begin`.
     if (!state.empty()) begin_ = lobe_kernel(slice(recorder.program(), "begin", state), accuracy);
@@ -45,14 +67,8 @@ class Furnace {
   double light(double angle, double azimuth = 30.0, int count = 1 << 18) const {
     Columns in = view(angle, azimuth);
     if (begin_) in.merge(run(*begin_, in));
-    // Roberts' sequence in three dimensions: powers of the root of x^4 = x + 1.
-    for (int i = 0; i < count; ++i) {
-      const char* names[] = {"u.x", "u.y", "u.z"};
-      const double steps[] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-      for (int k = 0; k < 3; ++k) {
-        in[names[k]].push_back(static_cast<float>(std::fmod(0.5 + i * steps[k], 1.0)));
-      }
-    }
+    const Columns& u = grid(count);
+    in.insert(u.begin(), u.end());
     const auto out = run(*sample_, in);
     double sum = 0.0;
     for (const float weight : out.at("weight.x")) sum += weight;
