@@ -62,6 +62,13 @@ function(nacre_test name)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
+# nacre_optimize_folder(): of tests that compute much, where others are not optimised.
+macro(nacre_optimize_folder)
+  if(NACRE_OPTIMIZE_HOSTS AND NOT NACRE_OPTIMIZE_TESTS)
+    add_compile_options(-O2)
+  endif()
+endmacro()
+
 # nacre_bench(NAME SOURCES...): a Google Benchmark program, run by the target `bench`; it
 # defines register_benchmarks() (bench/common/benchmarks.h).
 function(nacre_bench name)
