@@ -101,8 +101,8 @@ Color3 SchlickCurve::mean() const {
 
 Float reflectance_of_index(Float eta) { return square((eta - 1.0f) / (eta + 1.0f)); }
 
-Float index_of_reflectance(Float reflectance) {
-  const Float root = sqrt(clamp(reflectance, 0.01f, 0.99f));
+Float index_of_reflectance(Float reflectance, float most) {
+  const Float root = sqrt(clamp(reflectance, 0.01f, most));
   return (1.0f + root) / (1.0f - root);
 }
 

@@ -51,8 +51,8 @@ class SchlickCurve {
 };
 
 /// ((eta - 1) / (eta + 1))^2 and its inverse for eta >= 1; reflectance clamped to
-/// [0.01, 0.99] there, as the data library's own.
+/// [0.01, most] there, by default as the data library's own.
 Float reflectance_of_index(Float eta);
-Float index_of_reflectance(Float reflectance);
+Float index_of_reflectance(Float reflectance, float most = 0.99f);
 
 }  // namespace nacre

@@ -405,6 +405,26 @@ TEST(Furnace, ColouredSchlickOverWhiteReturnsNoMoreThanArrives) {
   }
 }
 
+TEST(Furnace, WhiteMetalUnderAFilmReturnsAllLight) {
+  for (const float thickness : {100.0f, 550.0f, 2000.0f}) {
+    for (const float alpha : {0.1f, 0.5f, 1.0f}) {
+      const Furnace furnace([&](Recorder& r) {
+        return microfacet_bsdf(r, "generalized_schlick_bsdf",
+                               {{"color0", colour(1.0f)},
+                                {"color82", colour(1.0f)},
+                                {"color90", colour(1.0f)},
+                                {"exponent", number(5.0f)},
+                                {"roughness", roughness(alpha, alpha)},
+                                {"thinfilm_thickness", number(thickness)},
+                                {"thinfilm_ior", number(1.4f)}});
+      });
+      for (const double angle : {0.0, 60.0, 85.0}) {
+        EXPECT_NEAR(furnace.light(angle), 1.0, 1e-2) << thickness << " " << alpha << " " << angle;
+      }
+    }
+  }
+}
+
 // A film moves light between reflection and transmission of each channel; the
 // tables know the bare interface (pbs/microfacet_interface.cpp).
 TEST(Furnace, FilmedGlassReturnsAllLight) {
