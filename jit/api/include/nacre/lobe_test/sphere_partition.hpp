@@ -28,7 +28,9 @@ class SpherePartition {
     std::vector<float> pdf, f;  ///< f: times the cosine.
   };
   using Evaluate = std::function<Densities(const std::vector<Direction>&)>;
-  /// `pilot`: directions near which there may be something to see, some that are drawn by pdf.
+  /// `pilot`: directions near which there may be something to see, some that are drawn by pdf;
+  /// others than those that are counted in the cells, which would be cut around what chance has put
+  /// together.
   SpherePartition(const Evaluate& evaluate, const std::vector<Direction>& pilot, double samples);
 
   std::size_t cells() const { return leaf_pdf_.size(); }
@@ -70,9 +72,9 @@ class SpherePartition {
   void split(std::size_t parent);
   void integrate(const Evaluate& evaluate, std::size_t first);
   bool converged(const Cell& parent) const;
-  /// Whether a cell has some of the pilot, but twenty times less to show for it.
+  /// Whether a cell has several of the pilot, but twenty times less to show for it.
   bool misses(const Cell& cell, double seen, std::size_t pilot) const {
-    return seen > 20.0 * cell.pdf * static_cast<double>(pilot);
+    return seen > std::max(2.0, 20.0 * cell.pdf * static_cast<double>(pilot));
   }
 
   std::vector<Cell> cells_;

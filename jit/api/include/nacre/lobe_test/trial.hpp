@@ -184,6 +184,19 @@ class LobeTrial {
     return std::sqrt(std::max(squares / n - sum / n * (sum / n), 0.0) / n);
   }
 
+  /// Others than are counted in cells: those are cut where there are many of these.
+  std::vector<Direction> pilot() {
+    const LobeProbe::Samples drawn =
+        probe_.sample(view_.wo, std::min<std::size_t>(count(), 4096), ~options_.seed);
+    std::vector<Direction> smooth;
+    for (std::size_t i = 0; i < drawn.wi.size(); ++i) {
+      const bool is_smooth =
+          (drawn.flags[i] & NACRE_SAMPLE_VALID) != 0 && (drawn.flags[i] & NACRE_SAMPLE_DELTA) == 0;
+      if (is_smooth) smooth.push_back(drawn.wi[i]);
+    }
+    return smooth;
+  }
+
   void try_density(double smooth, double light, double light_deviation) {
     const auto evaluate = [&](const std::vector<Direction>& wi) {
       LobeProbe::Values values = probe_.evaluate({view_.wo}, wi);
@@ -193,9 +206,7 @@ class LobeTrial {
       }
       return densities;
     };
-    const auto pilot_count = static_cast<std::ptrdiff_t>(std::min<std::size_t>(count(), 4096));
-    const SpherePartition cells(evaluate, {samples_.wi.begin(), samples_.wi.begin() + pilot_count},
-                                double(count()));
+    const SpherePartition cells(evaluate, pilot(), double(count()));
     const double chance =
         deviations * std::sqrt(smooth * (1.0 - smooth) / static_cast<double>(count()));
     expect(std::abs(cells.pdf_integral() - smooth) <= rounding + chance, "normalised",
