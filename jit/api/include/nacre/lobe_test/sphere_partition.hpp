@@ -56,7 +56,7 @@ class SpherePartition {
   static constexpr int most_levels = 22;
   static constexpr int levels_of_corners = 10;  ///< Cells below are no larger than 2e-4.
   static constexpr double pieces = 300.0;
-  static constexpr std::size_t most_cells = std::size_t{1} << 16;  ///< Of what has no end.
+  static constexpr std::size_t most_cells = std::size_t{1} << 18;  ///< Of rings at the horizon.
 
   /// Gauss-Legendre on [0, 1], six nodes (Abramowitz and Stegun, 25.4.30).
   static constexpr std::array<double, 6> node{0.0337652428984240, 0.1693953067668678,
@@ -72,9 +72,9 @@ class SpherePartition {
   void split(std::size_t parent);
   void integrate(const Evaluate& evaluate, std::size_t first);
   bool converged(const Cell& parent) const;
-  /// Whether a cell has several of the pilot, but twenty times less to show for it.
+  /// Whether a cell has some of the pilot, but twenty times less to show for it.
   bool misses(const Cell& cell, double seen, std::size_t pilot) const {
-    return seen > std::max(2.0, 20.0 * cell.pdf * static_cast<double>(pilot));
+    return seen > 20.0 * cell.pdf * static_cast<double>(pilot);
   }
 
   std::vector<Cell> cells_;
