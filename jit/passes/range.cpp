@@ -38,7 +38,7 @@ bool is_arithmetic(Op op) {
 }
 
 /// Of what may be left undone, so that large Programs take no longer than they are long: rounds of
-/// loops, calls, parts. Noise of eight octaves takes a tenth of it.
+/// loops, calls, parts. Fractal noise of sixteen octaves takes less.
 class Effort {
  public:
   /// False where there is not so much left.

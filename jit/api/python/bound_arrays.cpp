@@ -34,9 +34,6 @@ std::uint64_t past_instances_of(const Request& request) {
          std::to_string(expected) + " elements", std::to_string(found));
 }
 
-/// "uv0" of "uv0.x", by which arrays are bound as well.
-std::string group_of(const std::string& channel) { return channel.substr(0, channel.find('.')); }
-
 [[noreturn]] void refuse_name(const Shader& shader, std::uint32_t entries,
                               const std::string& name) {
   std::string results;
@@ -44,7 +41,8 @@ std::string group_of(const std::string& channel) { return channel.substr(0, chan
   const auto add = [&](const Channel& each) {
     if (each.role == NACRE_STATE) return;
     known.push_back(each.name);
-    known.push_back(group_of(each.name));
+    // By "uv0" of "uv0.x" arrays are bound as well.
+    if (each.component >= 0) known.push_back(each.name.substr(0, each.name.rfind('.')));
   };
   for (int i = 0; i < NACRE_ENTRY_COUNT; ++i) {
     const auto entry = static_cast<nacre_entry>(i);

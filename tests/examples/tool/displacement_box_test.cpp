@@ -82,6 +82,8 @@ std::vector<Row> rows() {
            9},
           {"cells", of_place("cellnoise3d"), 1.1},
           {"fractal", of_place("fractal3d"), 17},
+          {"sixteen octaves",
+           of_place("fractal3d", R"(<input name="octaves" type="integer" value="16"/>)"), 17},
           {"nearest point", of_place("worleynoise3d")},
           {"vector", document(R"(<multiply name="d" type="vector3">
              <input name="in1" type="vector3" nodename="p"/>

@@ -178,6 +178,19 @@ TEST(LobeLaws, HoldForTheLibrarysOwn) {
             "");
 }
 
+// A thin ring at the horizon, whose cells are cut by pilots: where those are of the samples that
+// are counted, they are cut around what chance has put together (p was 1e-178).
+TEST(LobeLaws, PilotsAreNotCounted) {
+  LobeTestOptions options;
+  options.wo = {direction(89.99, 30.0)};
+  options.samples = 200'000;
+  const LobeReport report = report_of(R"(<sheen_bsdf name="b" type="BSDF">
+    <input name="mode" type="string" value="zeltner"/>
+    <input name="roughness" type="float" value="0.15"/></sheen_bsdf>)",
+                                      options);
+  EXPECT_EQ(laws(report), "") << texts(report);
+}
+
 TEST(LobeLaws, AskForAClosure) {
   CompileOptions options;
   options.entries = 1u << NACRE_OPACITY;

@@ -50,9 +50,10 @@ class LobeTrial {
 
   std::size_t count() const { return samples_.wi.size(); }
   bool is_valid(std::size_t i) const { return (samples_.flags[i] & NACRE_SAMPLE_VALID) != 0; }
-  bool is_smooth(std::size_t i) const {
-    return is_valid(i) && (samples_.flags[i] & NACRE_SAMPLE_DELTA) == 0;
+  static bool is_smooth(std::int32_t flags) {
+    return (flags & (NACRE_SAMPLE_VALID | NACRE_SAMPLE_DELTA)) == NACRE_SAMPLE_VALID;
   }
+  bool is_smooth(std::size_t i) const { return is_smooth(samples_.flags[i]); }
   static double mean(const float* rgb) { return (double(rgb[0]) + rgb[1] + rgb[2]) / 3.0; }
 
   /// Only the first of each law is kept. `wi`: what shows it.
@@ -190,9 +191,7 @@ class LobeTrial {
         probe_.sample(view_.wo, std::min<std::size_t>(count(), 4096), ~options_.seed);
     std::vector<Direction> smooth;
     for (std::size_t i = 0; i < drawn.wi.size(); ++i) {
-      const bool is_smooth =
-          (drawn.flags[i] & NACRE_SAMPLE_VALID) != 0 && (drawn.flags[i] & NACRE_SAMPLE_DELTA) == 0;
-      if (is_smooth) smooth.push_back(drawn.wi[i]);
+      if (is_smooth(drawn.flags[i])) smooth.push_back(drawn.wi[i]);
     }
     return smooth;
   }
