@@ -202,13 +202,12 @@ FacetFresnelPtr in_sums(const FacetFresnel& fresnel) {
 
 Float cosine_of(Float y) { return 1.0f - sqrt(sqrt(saturate(y))); }
 
-/// How unequal the roughnesses are: 1 from a ratio of 0.95 on.
-Float stretch(Float2 alpha) {
+}  // namespace
+
+Float facet_stretch(Float2 alpha) {
   const Float wide = max(alpha.x, alpha.y), narrow = min(alpha.x, alpha.y);
   return saturate(20.0f * (wide - narrow) / wide);
 }
-
-}  // namespace
 
 FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t) {
   return {nacre::lerp(a.reflected, b.reflected, t), nacre::lerp(a.passed, b.passed, t),
@@ -219,7 +218,8 @@ FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const
                          Float eta, LobeOfFacets lobe) {
   // Of equal roughnesses the sum is for indices next to 1 alone, which lets the lobe end soon after
   // the angle of total reflection, on either side.
-  const Bool many = facets.isotropic ? Bool(true) : eta < 1.0f;
+  const Bool many =
+      facets.isotropic ? Bool(true) : (eta < 1.0f) | (facet_stretch(facets.alpha) <= 0.0f);
   const FacetSum all =
       over_facets(recorder, in_lanes(points_of(accuracy, facets.distribution), many), wo, facets,
                   FacetSum{0.0f, 0.0f, 0.0f, 0.0f},
@@ -282,25 +282,28 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
       return sum.rest * Color3(1.0f / max(sum.light, 1e-20f));
     });
   }
-  if (facets.isotropic) {
-    if (!fresnel.has_inside()) return table;
+  const Bool leaving = fresnel.has_inside() ? eta < 1.0f : Bool(false);
+  const Float share = facets.isotropic ? Float(0.0f) : facet_stretch(facets.alpha);
+  if (fresnel.has_inside()) {
     // Next to 1 no cosines stand for Fresnel's curve, nor can a table's axes tell where total
-    // reflection begins. Measured: the sum is better up to indices of 1.01 where light enters, of
-    // 1.025 where it leaves; not from 1.06 and 1.05 on.
-    const Bool leaving = eta < 1.0f;
+    // reflection begins. Measured, of equal roughnesses: the sum is better up to indices of 1.01
+    // where light enters, of 1.025 where it leaves; not from 1.06 and 1.05 on. Of unequal ones it
+    // is of light that leaves, whatever the index: where total reflection sets in no two cosines
+    // stand for all.
     const Float dense = max(fresnel.index(), 1.0f / fresnel.index());
     const Float where_leaving = facet_sum_share(facets.alpha, true, fma(2.0f, dense, -1.0f));
     const Float where_entering = fresnel.covers_dielectric()
                                      ? facet_sum_share(facets.alpha, true, dense + 0.04f)
                                      : Float(0.0f);
     // Nothing is recorded for an index that is known to be another.
-    if (where_leaving.is_constant(0.0f) && where_entering.is_constant(0.0f)) return table;
-    table.summed = select(leaving, where_leaving, where_entering);
-    table.dielectric = if_any((table.summed > 0.0f) & !facets.delta, Float(0.0f),
-                              [&] { return mean_dielectric(leaving); });
-    return table;
+    const bool never = where_leaving.is_constant(0.0f) && where_entering.is_constant(0.0f);
+    if (!facets.isotropic || !never) {
+      table.summed = select(leaving, max(share, where_leaving), (1.0f - share) * where_entering);
+      table.dielectric = if_any((table.summed > 0.0f) & !facets.delta, Float(0.0f),
+                                [&] { return mean_dielectric(never ? Bool(true) : leaving); });
+    }
   }
-  const Float share = stretch(facets.alpha);
+  if (facets.isotropic) return table;
   return if_any((share > 0.0f) & !facets.delta, table, [&] {
     const Moments sum = over_facets(
         recorder, in_lanes(few, Bool(false)), local.wo, facets, Moments{0.0f, 0.0f, 0.0f, 0.0f},
@@ -323,17 +326,10 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     const Float far_share = variance / max(fma(far, far, variance), 1e-24f);
     // In the order that the table's are in: what lies between one and another is neither else.
     const Bool far_is_low = far > near;
-    FacetReflection result{
-        .albedo = table.albedo,
-        .low = lerp(table.low, cosine_of(mean + max(far, near)), share),
-        .high = lerp(table.high, cosine_of(mean + min(far, near)), share),
-        .low_share = lerp(0.5f, select(far_is_low, far_share, 1.0f - far_share), share),
-        .summed = share,
-        .rest = table.rest,
-        .rest_share = table.rest_share};
-    // Where total reflection sets in no two cosines stand for all.
-    const Bool leaving = fresnel.has_inside() ? Bool(eta < 1.0f) : Bool(false);
-    result.dielectric = if_any(leaving, Float(0.0f), [&] { return mean_dielectric(Bool(true)); });
+    FacetReflection result = table;
+    result.low = lerp(table.low, cosine_of(mean + max(far, near)), share);
+    result.high = lerp(table.high, cosine_of(mean + min(far, near)), share);
+    result.low_share = lerp(0.5f, select(far_is_low, far_share, 1.0f - far_share), share);
     return result;
   });
 }
@@ -357,7 +353,7 @@ Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const 
 Float facet_sum_share(Float2 alpha, bool isotropic, Float dense) {
   // All of it from ratios of 0.95 and indices of 1.05 on, none from 1 and 1.1.
   const Float near = saturate(fma(dense, -20.0f, 22.0f));
-  return isotropic ? near : max(near, stretch(alpha));
+  return isotropic ? near : max(near, facet_stretch(alpha));
 }
 
 }  // namespace nacre

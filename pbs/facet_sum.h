@@ -44,6 +44,9 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                         const FacetFresnel& fresnel, Bool inside);
 
+/// How unequal roughnesses are: 0 where they are equal, 1 from a ratio of 0.95 on.
+Float facet_stretch(Float2 alpha);
+
 /// How much of the sum to take rather than of the tables: all of it for unequal roughnesses, and
 /// for indices so near each other that the tables' axes cannot tell the angle of total reflection
 /// from grazing; 0, and a literal where that is known, where the tables are good.

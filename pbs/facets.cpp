@@ -128,8 +128,7 @@ Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
   };
   const auto entering = [&] {
     const Color3 two = plain();
-    // Of unequal roughnesses the sum is of light that leaves.
-    if (!has_sum || view.anisotropic || !covers_dielectric()) return two;
+    if (!has_sum || !covers_dielectric()) return two;
     const Color3 all = with_rest(reflection.dielectric, max(index(), 1.0f / index()), false);
     return fma(all - two, Color3(reflection.summed), two);
   };

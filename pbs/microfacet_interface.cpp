@@ -43,20 +43,18 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
   const Float index = fresnel_->index();
   const Float dense = max(index, 1.0f / index);
   const Float rare = min(index, 1.0f / index);
-  const FacetInterface both = choose(
+  FacetInterface both = choose(
       local.below ^ (index < 1.0f),
-      [&] {
-        FacetInterface leaving = facet_leaving(recorder, seen, rare, perfect.albedo);
-        if (!facets_.isotropic) {
-          leaving.fresnel = lerp(leaving.fresnel, perfect.dielectric, perfect.summed);
-        }
-        return leaving;
-      },
+      [&] { return facet_leaving(recorder, seen, rare, perfect.albedo); },
       [&] {
         FacetInterface entering = facet_entering(recorder, seen, dense);
         entering.fresnel = perfect.mean([&](Float c) { return fresnel_dielectric(c, dense); });
         return entering;
       });
+  // As in FacetFresnel::mean(), which it is taken from below.
+  if (!perfect.summed.is_constant(0.0f)) {
+    both.fresnel = lerp(both.fresnel, perfect.dielectric, perfect.summed);
+  }
   FacetSum light{perfect.albedo, both.transmission, both.total, 0.0f};
   const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
   light = if_any(share > 0.0f, light, [&] {
@@ -72,7 +70,7 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
     const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
     const Float film = fresnel_->film_share();
     const Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(10.0f, alpha, -1.0f));
-    const Float by_sum = facets_.isotropic ? rough : max(perfect.summed, rough);
+    const Float by_sum = facets_.isotropic ? rough : max(facet_stretch(facets_.alpha), rough);
     more = if_any(by_sum > 0.0f, more, [&] {
       const Color3 sum =
           sum_over_fresnel(recorder, view.accuracy, local.wo, facets_, *fresnel_, local.below);

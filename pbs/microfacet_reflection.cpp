@@ -25,7 +25,10 @@ MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view,
                                                           Color3 fresnel) const {
   const bool is_scaled = view.compensation != Compensation::nothing;
   const Color3 factor = is_scaled ? compensation(fresnel, perfect.albedo) : Color3(1.0f);
-  const Color3 rough = saturate(fresnel * factor * Color3(perfect.albedo));
+  // factor E as F (1 - E) + E, which is 1 for white: a base below white metal must not be seen.
+  const Color3 albedo(perfect.albedo);
+  const Color3 kept = is_scaled ? fma(fresnel, Color3(1.0f) - albedo, albedo) : albedo;
+  const Color3 rough = saturate(fresnel * kept);
   if (facets_.delta.is_constant(false)) return {factor, rough};
   const LocalView local = facets_.look(view);
   const Bool inside = local.below & !view.thin_walled;

@@ -145,7 +145,10 @@ void expect_manifest(const Shader& pruned, const Shader& general) {
 }  // namespace
 
 void try_document(std::uint64_t seed, int accuracy, bool by_machine_code) {
-  const std::string text = random_document(seed);
+  try_material(random_document(seed), seed, accuracy, by_machine_code);
+}
+
+void try_material(const std::string& text, std::uint64_t seed, int accuracy, bool by_machine_code) {
   SCOPED_TRACE(fmt::format("seed {} accuracy {}\n{}", seed, accuracy, text));
   const Document document = Document::parse(text);
   const Shader pruned = compiled(document, {"frozen", NACRE_INTERPRETER, false, false}, accuracy);
