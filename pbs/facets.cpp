@@ -106,15 +106,15 @@ Bool goes_straight(Float index) { return abs(index - 1.0f) < 1e-3f; }
 
 Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
                           const FacetView& view, Bool inside) const {
-  const auto plain = [&] { return reflection.mean([&](Float c) { return at(c, inside); }); };
-  if (!has_inside()) return plain();
+  if (!has_inside()) return reflection.mean([&](Float c) { return at(c, inside); });
   const bool has_sum = !reflection.summed.is_constant(0.0f);
   const bool has_rest = !reflection.rest_share.is_constant(0.0f);
   // Of a dielectric whose mean is known the rest of a curve is smooth where light enters.
   const auto with_rest = [&](Float dielectric, Float eta, bool leaves) {
     if (is_dielectric()) return Color3(saturate(dielectric));
+    const Bool from_inside = leaves ^ (index() < 1.0f);
     Color3 rest = reflection.mean(
-        [&](Float c) { return at(c, inside) - Color3(fresnel_dielectric(c, eta)); });
+        [&](Float c) { return at(c, from_inside) - Color3(fresnel_dielectric(c, eta)); });
     if (leaves && has_rest) rest = fma(reflection.rest - rest, Color3(reflection.rest_share), rest);
     return saturate(Color3(dielectric) + rest);
   };
@@ -127,7 +127,9 @@ Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
     return with_rest(dielectric, eta, true);
   };
   const auto entering = [&] {
-    const Color3 two = plain();
+    // Of a known index what is known here as well: a number of the view's cosine alone.
+    const Bool from_inside = index() < 1.0f;
+    const Color3 two = reflection.mean([&](Float c) { return at(c, from_inside); });
     if (!has_sum || !covers_dielectric()) return two;
     const Color3 all = with_rest(reflection.dielectric, max(index(), 1.0f / index()), false);
     return fma(all - two, Color3(reflection.summed), two);

@@ -52,7 +52,7 @@ class Passes {
 
 double table_error_of(const CompileOptions& options) {
   // Precise computes what was written; standard may be off by as much as some roundings are.
-  constexpr std::array by_accuracy{0.0, 1e-6, 1e-3};
+  constexpr std::array by_accuracy{0.0, 1e-5, 1e-3};
   if (options.backend == Backend::reference) return 0;
   return options.table_error.value_or(by_accuracy[static_cast<std::size_t>(options.accuracy)]);
 }

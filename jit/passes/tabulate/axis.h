@@ -23,6 +23,8 @@ struct Axis {
   int cells = 16;
   Along along = Along::number;
   double cost = 0;
+  /// Of a place that is given: each cell from this one on is so many.
+  int dense_from = 0, dense = 1;
   /// At the borders of cells, and `parts - 1` between each two: in equal steps of the place.
   std::vector<float> numbers{};
 
@@ -36,11 +38,17 @@ Axis axis_of(double low, double high, int cells, Axis::Along along);
 /// Places of numbers, in double precision; empty where they cannot be had.
 using PlacesOf = std::function<std::vector<double>(std::span<const float> numbers)>;
 
+/// An axis of given cells whose last ones are three each, `most` in all: axes of views that are
+/// denser towards grazing have wide ones where facets are seen from above.
+Axis with_dense_end(Axis axis, int most);
+
 /// Axis::numbers of an axis whose places are given. Nothing where they do not grow with the number,
 /// from 0 to `cells`.
 std::optional<std::vector<float>> numbers_of_places(const Axis& axis, const PlacesOf& places_of);
 
 /// The place of x, which lies in [low, high], on an axis of axis_of().
 Ref record_place(Recorder& recorder, const Axis& axis, Ref x);
+/// That of a number whose place is given, among equal cells.
+Ref record_dense_place(Recorder& recorder, const Axis& axis, Ref place);
 
 }  // namespace nacre

@@ -74,11 +74,17 @@ void Groups::note_uses(ValueId user) {
   }
 }
 
-std::unordered_map<ValueId, Ref> record_again(Recorder& recorder, const Function& function,
-                                              const Cone& cone, ValueId key, Ref number) {
-  std::unordered_map<ValueId, Ref> again{{key, number}};
+Refs record_again(Recorder& recorder, const Function& function, const Cone& cone, ValueId key,
+                  Ref number,
+                  const std::function<std::optional<Ref>(ValueId, const Refs&)>& instead) {
+  Refs again{{key, number}};
   std::vector<Ref> operands;
   for (const ValueId i : cone) {
+    if (i == key) continue;
+    if (const auto other = instead ? instead(i, again) : std::nullopt) {
+      again[i] = *other;
+      continue;
+    }
     operands.clear();
     for (const ValueId operand : function.operands(function.code[i])) {
       const Instruction& found = function.code[operand];

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <vector>
@@ -24,12 +26,13 @@ class Groups {
   /// elsewhere: in order.
   const std::map<ValueId, std::vector<ValueId>>& outputs() const { return outputs_; }
   const Range& range(ValueId value) const { return ranges_[value]; }
+  /// Numbers of a range that cells may part.
+  bool is_bounded(ValueId value) const;
 
   /// Adds what a value is computed from, but for its key; itself included.
   void add_cone(ValueId value, Cone& cone) const;
 
  private:
-  bool is_bounded(ValueId value) const;
   /// The last value that everything of this one goes through, from which a bounded one may begin
   /// anew; no_value of constants.
   ValueId key_of(ValueId value) const;
@@ -42,8 +45,13 @@ class Groups {
   std::map<ValueId, std::vector<ValueId>> outputs_;
 };
 
-/// Records what is in a cone again, of another number than its key: by value.
-std::unordered_map<ValueId, Ref> record_again(Recorder& recorder, const Function& function,
-                                              const Cone& cone, ValueId key, Ref number);
+/// Values that are recorded.
+using Refs = std::unordered_map<ValueId, Ref>;
+
+/// Records what is in a cone again, of another number than its key. `instead`: another form of a
+/// value, by those before it; null where there is none.
+Refs record_again(Recorder& recorder, const Function& function, const Cone& cone, ValueId key,
+                  Ref number,
+                  const std::function<std::optional<Ref>(ValueId, const Refs&)>& instead = {});
 
 }  // namespace nacre

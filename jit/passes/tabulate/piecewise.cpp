@@ -14,8 +14,6 @@ namespace {
 
 constexpr int parts = Axis::parts;
 constexpr std::size_t degrees = 3;
-/// Below that share of a function's largest value errors are not relative.
-constexpr double floor_of_peak = 0.01;
 
 /// A polynomial in [0, 1], by its values in equal parts of that.
 using Polynomial = std::array<double, degrees + 1>;
@@ -107,34 +105,25 @@ bool is_hopeless(const Axis& axis, double error, const Sampled& sampled) {
   return values.empty() || !fit_cells(first, error, values);
 }
 
-std::ptrdiff_t fitted_functions(const Piecewise& fitted) {
-  return std::ranges::count_if(fitted.functions, [](const auto& each) { return !each.empty(); });
-}
-
 }  // namespace
 
-double Piecewise::cost() const {
+double Piecewise::cost_of(std::size_t function) const {
   const double look_up = axis.cells > 16 ? 2 : 1;
-  double cost = axis.cost + 5;
-  for (const auto& coefficients : functions) {
-    const auto count = static_cast<double>(coefficients.size());
-    if (count > 0) cost += count * look_up + count - 1;
-  }
-  return cost;
+  const auto count = static_cast<double>(functions[function].size());
+  return count * look_up + count - 1;
 }
 
-std::optional<Piecewise> fit_piecewise(const Axis& axis, double error, const Sampled& sampled) {
-  if (is_hopeless(axis, error, sampled)) return std::nullopt;
+std::vector<Piecewise> fit_piecewise(const Axis& axis, double error, const Sampled& sampled) {
+  if (is_hopeless(axis, error, sampled)) return {};
   const Functions values = sampled(axis.numbers);
-  if (values.empty()) return std::nullopt;
-  std::optional<Piecewise> best = fit_cells(axis, error, values);
-  if (!best || axis.along == Axis::Along::given || axis.cells % 2 != 0) return best;
+  if (values.empty()) return {};
+  std::vector<Piecewise> found;
+  if (auto whole = fit_cells(axis, error, values)) found.push_back(std::move(*whole));
+  if (axis.along == Axis::Along::given || axis.cells % 2 != 0) return found;
   Axis coarse = axis;
   coarse.cells = axis.cells / 2;
-  std::optional<Piecewise> half = fit_cells(coarse, error, halved(values));
-  if (!half) return best;
-  const auto more = fitted_functions(*half) - fitted_functions(*best);
-  return more > 0 || (more == 0 && half->cost() < best->cost()) ? half : best;
+  if (auto half = fit_cells(coarse, error, halved(values))) found.push_back(std::move(*half));
+  return found;
 }
 
 Ref record_piecewise(Recorder& recorder, const Piecewise& fitted, std::size_t function, Ref place) {

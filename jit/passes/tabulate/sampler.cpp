@@ -1,18 +1,47 @@
 #include "jit/passes/tabulate/sampler.h"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
+#include "jit/passes/tabulate/plan.h"
 #include "runtime/program/slice.h"
 
 namespace nacre {
+
+namespace {
+
+Ref number_of(Recorder& recorder) { return recorder.input("tabulated number", Scalar::f32); }
+
+}  // namespace
 
 Sampler::Sampler(const Program& program, const Cone& cone, ValueId key,
                  const std::vector<ValueId>& values)
     : count_(values.size()) {
   Recorder recorder;
   recorder.adopt_interface(program);
-  const auto again = record_again(recorder, program.entry(), cone, key,
-                                  recorder.input("tabulated number", Scalar::f32));
+  make(recorder, record_again(recorder, program.entry(), cone, key, number_of(recorder)), values);
+}
+
+Sampler::Sampler(const Program& program, const Groups& groups, const Cone& cone, ValueId key,
+                 const std::vector<ValueId>& values, const std::vector<Looked>& plan)
+    : count_(values.size()) {
+  Recorder recorder;
+  recorder.adopt_interface(program);
+  const auto looked_up = [&](ValueId value, const Refs& before) -> std::optional<Ref> {
+    for (const Looked& looked : plan) {
+      const auto found = std::ranges::find(looked.values, value);
+      if (found == looked.values.end()) continue;
+      const auto function = static_cast<std::size_t>(found - looked.values.begin());
+      return record_looked(recorder, program, groups, looked, function, before.at(looked.key));
+    }
+    return std::nullopt;
+  };
+  make(recorder, record_again(recorder, program.entry(), cone, key, number_of(recorder), looked_up),
+       values);
+}
+
+void Sampler::make(Recorder& recorder, const Refs& again, const std::vector<ValueId>& values) {
   std::vector<SliceOutput> wanted;
   for (std::size_t k = 0; k < count_; ++k) {
     wanted.push_back({std::to_string(k), again.at(values[k])});

@@ -9,17 +9,24 @@
 
 namespace nacre {
 
+struct Looked;
+
 /// Values of a group for other numbers than it has, in double precision.
 class Sampler {
  public:
   /// `cone`: what the values are computed from.
   Sampler(const Program& program, const Cone& cone, ValueId key,
           const std::vector<ValueId>& values);
+  /// Where some are looked up.
+  Sampler(const Program& program, const Groups& groups, const Cone& cone, ValueId key,
+          const std::vector<ValueId>& values, const std::vector<Looked>& plan);
 
   /// See Sampled (piecewise.h).
   std::vector<std::vector<double>> run(std::span<const float> numbers) const;
 
  private:
+  void make(Recorder& recorder, const Refs& again, const std::vector<ValueId>& values);
+
   std::size_t count_;
   std::unique_ptr<ReferenceKernel> kernel_;
 };

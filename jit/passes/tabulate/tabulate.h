@@ -14,7 +14,4 @@ namespace nacre {
 /// the same tables on every machine.
 Program tabulate(const Program& program, double error);
 
-/// What an operation costs, in additions: a weight to choose by.
-double operation_cost(Op op);
-
 }  // namespace nacre

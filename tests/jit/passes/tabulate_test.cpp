@@ -138,19 +138,95 @@ TEST(Tabulate, FindsTheCornersOfATable) {
 
 TEST(Tabulate, LeavesWhatNoTableIsCloseTo) {
   // A step in the middle of a cell, and more waves than there are cells.
-  const auto expensive = [](Float x) { return exp(x) / (1.0f + sqrt(x)); };
   for (const Body& body : {
            Body([&](Recorder&, Float x) {
-             const Float y = expensive(x);
-             return std::vector<SliceOutput>{{"y", select(x < 0.31f, y, 2.0f * y).ref()}};
+             return std::vector<SliceOutput>{
+                 {"y", exp(x * select(x < 0.31f, Float(1.0f), Float(2.0f))).ref()}};
            }),
            Body([&](Recorder&, Float x) {
-             return std::vector<SliceOutput>{{"y", (expensive(x) * sin(300.0f * x)).ref()}};
+             return std::vector<SliceOutput>{{"y", sin(300.0f * x).ref()}};
            }),
        }) {
     const Program whole = program_of(0, 1, body);
     EXPECT_EQ(digest(tabulate(whole, 1e-3)), digest(whole));
   }
+}
+
+// What is smooth below a value that is not is looked up all the same.
+TEST(Tabulate, LooksUpPartsOfWhatNoTableIsCloseTo) {
+  const Program whole = program_of(0, 1, [](Recorder&, Float x) {
+    const Float smooth = exp(x) / (1.0f + sqrt(1.0f + x));
+    return std::vector<SliceOutput>{{"y", select(x < 0.31f, smooth, 2.0f * smooth).ref()}};
+  });
+  const Program made = tabulate(whole, 1e-4);
+  EXPECT_EQ(count(made, Op::exp), 0u);
+  EXPECT_LT(error_of(made, 0, 1,
+                     [](double x) {
+                       const double smooth = std::exp(x) / (1 + std::sqrt(1 + x));
+                       return x < 0.31f ? smooth : 2 * smooth;
+                     }),
+            1e-4 + 2e-6);
+}
+
+// But not what is magnified on its way to what is asked for.
+TEST(Tabulate, ComputesWhatIsMagnified) {
+  const Program whole = program_of(0, 1, [](Recorder&, Float x) {
+    const Float smooth = exp(x) / (1.0f + sqrt(1.0f + x));
+    return std::vector<SliceOutput>{{"y", sin(2000.0f * smooth).ref()}};
+  });
+  EXPECT_EQ(digest(tabulate(whole, 1e-4)), digest(whole));
+}
+
+// Of a number with corners inside of cells, two of them with others, what is smooth in each.
+TEST(Tabulate, LooksUpWhatDependsOnANumberOnTheWay) {
+  const Program whole = program_of(0, 1, [](Recorder&, Float x) {
+    const Float low = min(1.7f * x, 1.0f), high = max(1.0f - 1.3f * x, 0.0f);
+    const Float y = recorded_fresnel(low, 0.2f, 3.5f) + recorded_fresnel(high, 1.5f, 7.6f);
+    return std::vector<SliceOutput>{{"y", y.ref()}};
+  });
+  const Program made = tabulate(whole, 1e-5);
+  EXPECT_EQ(count(made, Op::sqrt), 0u);
+  EXPECT_LT(error_of(made, 0, 1,
+                     [](double x) {
+                       return fresnel(std::min(1.7 * x, 1.0), 0.2, 3.5) +
+                              fresnel(std::max(1 - 1.3 * x, 0.0), 1.5, 7.6);
+                     }),
+            1e-5 + 2e-6);
+}
+
+// Two tables of other numbers, the corners of which are not the same.
+TEST(Tabulate, FindsTheCornersOfEachTable) {
+  constexpr int entries = 16;
+  const std::array<double, 2> ratios{0.07, 0.3};
+  std::vector<float> values;
+  for (int i = 0; i < entries; ++i) values.push_back(std::cos(0.6f * static_cast<float>(i)));
+  const Program whole = program_of(0, 1, [&](Recorder& recorder, Float x) {
+    const std::uint32_t table = recorder.table("t", values);
+    Float sum = 0.0f;
+    for (const double ratio : ratios) {
+      const Float share = min(x * float(1 + ratio) / (x + float(ratio)), 1.0f);
+      const Float place = share * float(entries - 1);
+      const Float cell = min(floor(place), float(entries - 2));
+      const Int index = to_int(cell);
+      const auto entry = [&](Int at) { return Float(record(Op::table, {at.ref()}, table)); };
+      const Float low = entry(index), high = entry(index + 1);
+      sum = sum + exp(low + (place - cell) * (high - low));
+    }
+    return std::vector<SliceOutput>{{"y", sum.ref()}};
+  });
+  const auto exact = [&](double x) {
+    double sum = 0;
+    for (const double ratio : ratios) {
+      const double place = x * (1 + ratio) / (x + ratio) * (entries - 1);
+      const double cell = std::min(std::floor(place), entries - 2.0);
+      const auto k = static_cast<std::size_t>(cell);
+      sum += std::exp(values[k] + (place - cell) * (values[k + 1] - values[k]));
+    }
+    return sum;
+  };
+  const Program made = tabulate(whole, 1e-4);
+  EXPECT_EQ(count(made, Op::exp), 0u);
+  EXPECT_LT(error_of(made, 0, 1, exact), 1e-4 + 2e-6);
 }
 
 TEST(Tabulate, LeavesWhatIsCheapAndWhatIsUnbounded) {

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "jit/passes/tabulate/groups.h"
+#include "jit/passes/tabulate/piecewise.h"
+
+namespace nacre {
+
+/// Values of a group that are looked up along one axis, in the order of its functions.
+struct Looked {
+  ValueId key;
+  std::vector<ValueId> values;
+  Piecewise fitted;
+  ValueId place;  ///< Of an axis that is given by a value of the group.
+};
+
+/// What to look up of a group, so that having its outputs takes the fewest operations: some of
+/// them, or of what they are computed from, each along the axis that suits it. Outputs are no
+/// further off than `error` (see fit_piecewise) of their values. Nothing where little would be
+/// saved.
+std::vector<Looked> plan_group(const Program& program, const Groups& groups, ValueId key,
+                               double error);
+
+/// One of its values, of another number than its key.
+Ref record_looked(Recorder& recorder, const Program& program, const Groups& groups,
+                  const Looked& looked, std::size_t function, Ref number);
+
+/// What tables save of a group must be more than that, in operations.
+inline constexpr double least_saving = 12;
+
+/// Of straight lines in equal cells.
+inline double least_cost_of_tables(std::size_t functions) {
+  return 6 + 3 * static_cast<double>(functions);
+}
+
+/// What an operation costs, in additions: a weight to choose by.
+double operation_cost(Op op);
+
+}  // namespace nacre
