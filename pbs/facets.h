@@ -45,7 +45,7 @@ struct Facets {
   Float bound(Float3 wo) const;
   /// Of density D G1 (wo.h) / wo.z.
   Float3 sample_visible(Recorder& recorder, Float3 wo, Float u, Float v) const;
-  /// Less most of those that would reflect below the surface: by `bound`.
+  /// Less most of those that would reflect below the surface: by `bound`. Of any length.
   Float3 sample_reflecting(Recorder& recorder, Float3 wo, Float u, Float v) const;
 };
 

@@ -29,8 +29,13 @@ Polarised fresnel_dielectric_polarised(Float cosine, Float eta) {
   const Float cosine2 = square(cosine);
   const Float g = safe_sqrt(fma(cosine, cosine, d));
   const Float eta2 = square(eta);
-  const Float s = d / max(square(cosine + g), tiny);
-  const Float p = d * fma(cosine2, eta2 + 1.0f, -1.0f) / max(square(fma(eta2, cosine, g)), tiny);
+  // Over their common denominator, for divisions are what this takes its time with; of any eta that
+  // is not 1 both are above 1e-12.
+  const Float below_s = max(square(cosine + g), 1e-15f);
+  const Float below_p = max(square(fma(eta2, cosine, g)), 1e-15f);
+  const Float over = d / (below_s * below_p);
+  const Float s = over * below_p;
+  const Float p = over * below_s * fma(cosine2, eta2 + 1.0f, -1.0f);
   const Bool total = totally_reflected(cosine, eta) & (d != 0.0f);
   return {select(total, 1.0f, min(square(s), 1.0f)), select(total, 1.0f, min(square(p), 1.0f))};
 }
@@ -54,11 +59,15 @@ Polarised fresnel_conductor_polarised(Float cosine, Float n, Float k) {
   const Bool mostly_real = t > 0.0f;
   const Float a = select(mostly_real, greater, smaller);
   const Float b2 = square(select(mostly_real, smaller, greater));
-  const Float s = (square(a - cosine) + b2 + tiny) / (square(a + cosine) + b2 + tiny);
+  // r_s^2 and r_p^2 / r_s^2, over their common denominator: the first is 1 at least where the other
+  // is small.
+  const Float below_s = square(a + cosine) + b2 + tiny;
   const Float ac = a * cosine;
   const Float bc2 = b2 * cosine2;
-  const Float p = (square(ac - sine2) + bc2 + tiny) / (square(ac + sine2) + bc2 + tiny);
-  return {min(s, 1.0f), min(s * p, 1.0f)};
+  const Float below_p = square(ac + sine2) + bc2 + tiny;
+  const Float s = (square(a - cosine) + b2 + tiny) / (below_s * below_p);
+  const Float p = square(ac - sine2) + bc2 + tiny;
+  return {min(s * below_p, 1.0f), min(s * p, 1.0f)};
 }
 
 Color3 fresnel_conductor(Float cosine, Color3 n, Color3 k) {

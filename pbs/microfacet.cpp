@@ -17,10 +17,11 @@ Float3 sample_cap(Float3 wi, Float bottom, Float u, Float v) {
   return {fma(ring, cos(phi), wi.x), fma(ring, sin(phi), wi.y), (1.0f - above) + wi.z};
 }
 
+/// Of any length.
 Float3 normal_of_cap(Float3 wo, Float2 alpha, Float bound, Float u, Float v) {
   const Float3 stretched = normalize({wo.x * alpha.x, wo.y * alpha.y, wo.z});
   const Float3 h = sample_cap(stretched, min(bound * stretched.z, 1.0f), u, v);
-  return normalize({h.x * alpha.x, h.y * alpha.y, max(h.z, 0.0f)});
+  return {h.x * alpha.x, h.y * alpha.y, max(h.z, 0.0f)};
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ Float smith_shadowing(Float cos_o, Float root_o, Float cos_i, Float root_i) {
 }
 
 Float3 sample_visible_normal(Float3 wo, Float2 alpha, Float u, Float v) {
-  return normal_of_cap(wo, alpha, 1.0f, u, v);
+  return normalize(normal_of_cap(wo, alpha, 1.0f, u, v));
 }
 
 Float reflection_bound(Float3 wo, Float2 alpha) {
@@ -58,6 +59,12 @@ Float reflection_bound(Float3 wo, Float2 alpha) {
 
 Float3 sample_reflecting_normal(Float3 wo, Float2 alpha, Float bound, Float u, Float v) {
   return normal_of_cap(wo, alpha, bound, u, v);
+}
+
+Float3 reflect_about(Float3 w, Float3 h) {
+  const Float length2 = dot(h, h);
+  const Float twice = select(length2 > 0.0f, 2.0f * dot(w, h) / length2, 0.0f);
+  return {fma(twice, h.x, -w.x), fma(twice, h.y, -w.y), fma(twice, h.z, -w.z)};
 }
 
 Float3 reflect(Float3 w, Float3 h) {

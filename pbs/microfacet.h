@@ -34,11 +34,13 @@ Float3 sample_visible_normal(Float3 wo, Float2 alpha, Float u, Float v);
 /// As sample_visible_normal, less most of the normals that would reflect below
 /// the surface: the density is that times (wo.z + root) / (bound wo.z + root).
 /// Eto and Tokuyoshi, "Bounded VNDF Sampling for Smith-GGX Reflections", SIGGRAPH
-/// Asia 2023. `bound` is reflection_bound(wo, alpha).
+/// Asia 2023. `bound` is reflection_bound(wo, alpha). Of any length, for reflect_about().
 Float reflection_bound(Float3 wo, Float2 alpha);
 Float3 sample_reflecting_normal(Float3 wo, Float2 alpha, Float bound, Float u, Float v);
 
 /// 2 (w.h) h - w.
 Float3 reflect(Float3 w, Float3 h);
+/// The same of h of any length: without a root.
+Float3 reflect_about(Float3 w, Float3 h);
 
 }  // namespace nacre

@@ -84,14 +84,15 @@ LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) cons
   const Float cosine = saturate(0.5f * sqrt(length2));
   const Float root = facets_.root(wo);
   const Float half_d = 0.5f * facets_.density(h);
-  const Float bound = facets_.bound(wo);
-  const Float pdf = half_d / max(fma(bound, wo.z, root), 1e-30f);
+  // Density and f over their common denominator, for divisions are what this takes its time with.
+  const Float seen_from = max(fma(facets_.bound(wo), wo.z, root), 1e-12f);
+  const Float both = max(fma(wi.z, root, wo.z * facets_.root(wi)), 1e-24f);
+  const Float over = half_d / (seen_from * both);
+  const Float pdf = over * both;
   // Below 1e-8 the half-way vector of two grazing directions is rounding.
   const Bool seen =
       (wo.z > 0.0f) & (wi.z > 0.0f) & (length2 > 1e-8f) & (pdf > 0.0f) & !facets_.delta;
-  const Float wi_root = facets_.root(wi);
-  const Float both = fma(wi.z, root, wo.z * wi_root);
-  const Float f = half_d * wi.z / max(both, 1e-30f);
+  const Float f = over * seen_from * wi.z;
   const Bool inside = local.below & !view.thin_walled;
   const Color3 colour = options_.tint * fresnel_->at(cosine, inside) * terms.factor;
   return {.f = colour * Color3(select(seen, finite(f), 0.0f)),
@@ -103,7 +104,7 @@ LobeSample MicrofacetReflection::sample(const View& view, Float3 u) const {
   const Float3 wo = local.wo;
   const Float3 h = facets_.sample_reflecting(*view.recorder, wo, u.x, u.y);
   const Float3 mirrored{-wo.x, -wo.y, wo.z};
-  const Float3 wi = turned(select(facets_.delta, mirrored, reflect(wo, h)));
+  const Float3 wi = turned(select(facets_.delta, mirrored, reflect_about(wo, h)));
   const Float3 world = local.frame.to_world(wi);
   LobeSample sample{
       .wi = world, .valid = (wo.z > 0.0f) & (wi.z > 0.0f) & is_unit(world), .delta = facets_.delta};

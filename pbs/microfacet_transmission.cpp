@@ -30,14 +30,19 @@ FacetEvent facet_between(Float3 wo, Float3 wi, Float eta, const Facets& facets) 
   const Float cos_o = dot(wo, between) * scale;
   const Float cos_i = dot(wi, between) * scale;
   const Float root_o = facets.root(wo);
-  const Float jacobian = square(ratio) * abs(cos_i) / max(length2, 1e-8f);
+  const Float jacobian = square(ratio) * abs(cos_i) * square(scale);
   const Float seen = 2.0f * facets.density(between) * max(cos_o, 0.0f);
   const Bool other_side = reflects ^ (cos_i < 0.0f);
+  // Shadowing is smith_shadowing() over the same denominator as the density.
+  const Float above_o = max(wo.z + root_o, 1e-12f);
+  const Float above_i = abs(wi.z);
+  const Float both = max(fma(above_i, root_o, wo.z * facets.root(wi)), 1e-24f);
+  const Float inverse = 1.0f / (above_o * both);
   return {
       .possible = (wo.z > 0.0f) & (wi.z != 0.0f) & (length2 > 1e-8f) & (cos_o > 0.0f) & other_side,
       .cosine = saturate(cos_o),
-      .pdf = finite(seen * jacobian / max(wo.z + root_o, 1e-30f)),
-      .shadowing = saturate(smith_shadowing(wo.z, root_o, abs(wi.z), facets.root(wi)))};
+      .pdf = finite(seen * jacobian * (both * inverse)),
+      .shadowing = saturate(above_i * square(above_o) * inverse)};
 }
 
 Refraction refract(Float3 wo, Float3 h, Float cosine, Float eta) {
