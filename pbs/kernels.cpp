@@ -212,7 +212,9 @@ class SurfaceRecorder {
 
   void record_sample() {
     const ScopedOrigin origin(recorder_, "sampling");
-    const Float3 u = channel3(recorder_, "u");
+    // Numbers of which it is known how large they are spare their angles' exact reduction.
+    const Float3 given = channel3(recorder_, "u");
+    const Float3 u{saturate(given.x), saturate(given.y), given.z};
     LobeSample chosen{.wi = Float3(0.0f, 0.0f, 1.0f), .valid = false};
     Int lobe = -1;
     Color3 weight = Color3(1.0f);

@@ -18,6 +18,28 @@ bool is_limit(const std::vector<Instruction>& code, Ref x, Ref limit) {
   return is_zero(product.operands[0]) || is_zero(product.operands[1]);
 }
 
+std::optional<Sides> literal_sides(const std::vector<Instruction>& code,
+                                   std::span<const Ref> operands) {
+  std::optional<Sides> sides;
+  const auto literal = [&](ValueId id) { return Ref{nullptr, code[id].imm, code[id].type}; };
+  for (std::size_t k = 0; k < operands.size(); ++k) {
+    if (operands[k].is_constant()) continue;
+    const Instruction& choice = code[operands[k].id];
+    if (choice.op != Op::select) return std::nullopt;
+    const auto [condition, yes, no] = choice.operands;
+    if (code[yes].op != Op::constant || code[no].op != Op::constant) return std::nullopt;
+    if (!sides) sides = Sides{condition, {}, {}};
+    if (sides->condition != condition) return std::nullopt;
+    sides->yes[k] = literal(yes);
+    sides->no[k] = literal(no);
+  }
+  if (!sides) return std::nullopt;
+  for (std::size_t k = 0; k < operands.size(); ++k) {
+    if (operands[k].is_constant()) sides->yes[k] = sides->no[k] = operands[k];
+  }
+  return sides;
+}
+
 std::array<Ref, 3> simple_choice(const std::vector<Instruction>& code,
                                  std::span<const Ref> operands) {
   std::array<Ref, 3> choice{operands[0], operands[1], operands[2]};

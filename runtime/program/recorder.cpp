@@ -120,7 +120,7 @@ Ref Recorder::emit(Op op, std::span<const Ref> operands, std::uint32_t imm) {
   assert(!is_structural(op) && operands.size() <= 3);
   if (const std::optional<Ref> literal = fold_literals(op, operands, imm)) return *literal;
   if (const std::optional<Ref> equal = simplify(op, operands)) return *equal;
-  if (op == Op::max && is_limit(code().code, operands[0], operands[1])) return operands[1];
+  if (const std::optional<Ref> other = rephrase(op, operands, imm)) return *other;
   std::array<Ref, 3> choice;
   if (op == Op::select) {
     choice = simple_choice(code().code, operands);
@@ -148,6 +148,23 @@ Ref Recorder::emit(Op op, std::span<const Ref> operands, std::uint32_t imm) {
     std::swap(instruction.operands[0], instruction.operands[1]);
   }
   return append_shared(instruction, varying);
+}
+
+std::optional<Ref> Recorder::rephrase(Op op, std::span<const Ref> operands, std::uint32_t imm) {
+  const auto is_one = [](Ref x) { return x.is_constant(std::bit_cast<std::uint32_t>(1.0f)); };
+  if (op == Op::max && is_limit(code().code, operands[0], operands[1])) return operands[1];
+  if (op == Op::fma) {
+    if (is_one(operands[0])) return emit(Op::add, operands.subspan(1));
+    if (is_one(operands[1])) return emit(Op::add, std::array{operands[0], operands[2]});
+  }
+  // Engines compute the others as they can, not as they fold.
+  if (op == Op::select || is_transcendental(op)) return std::nullopt;
+  const std::optional<Sides> sides = literal_sides(code().code, operands);
+  if (!sides) return std::nullopt;
+  const auto yes = fold_literals(op, std::span(sides->yes).first(operands.size()), imm);
+  const auto no = fold_literals(op, std::span(sides->no).first(operands.size()), imm);
+  if (!yes || !no) return std::nullopt;
+  return emit(Op::select, std::array{Ref{this, sides->condition, Scalar::b1}, *yes, *no});
 }
 
 Ref Recorder::keep(Ref x) {

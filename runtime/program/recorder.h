@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -140,6 +141,9 @@ class Recorder {
   ValueId materialize(Ref x);
 
  private:
+  /// The same value by another operation, or by none.
+  std::optional<Ref> rephrase(Op op, std::span<const Ref> operands, std::uint32_t imm);
+
   /// A function under construction and the regions open in it.
   struct Open {
     std::uint32_t number = 0;

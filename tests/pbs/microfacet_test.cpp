@@ -146,7 +146,7 @@ TEST(Ggx, BoundedSamplingWastesLess) {
       const Float bound = bounded ? reflection_bound(wo, {alpha, alpha}) : Float(1.0f);
       const Float3 h =
           sample_reflecting_normal(wo, {alpha, alpha}, bound, input(r, "u"), input(r, "v"));
-      return store3("wi", reflect(wo, h));
+      return store3("wi", reflect_about(wo, h));
     });
     int count = 0;
     for (const double z : out.at("wi.z")) count += z <= 0.0;

@@ -15,12 +15,10 @@ constexpr float half_pi_2 = 0x1.4442dp-24f;
 constexpr float half_pi_3 = 0x1.84698ap-48f;
 constexpr float two_over_pi = 0x1.45f306p-1f;
 
-/// Up to here the three parts are exact enough: turns has 17 bits, so that
-/// turns * half_pi_1 and the difference to x are exact with fma; the parts after
-/// the third are 2^-72, and no float of this range comes nearer than 2^-28 to a
-/// multiple of pi / 2 (W. J. Cody, W. Waite, Software Manual for the Elementary
-/// Functions, 1980, ch. 8, for the scheme).
-constexpr float cody_waite_limit = 0x1p+17f;
+// The three parts are exact enough up to the largest small angle: turns has 17 bits, so that
+// turns * half_pi_1 and the difference to x are exact with fma; the parts after the third are
+// 2^-72, and no float of this range comes nearer than 2^-28 to a multiple of pi / 2 (W. J. Cody,
+// W. Waite, Software Manual for the Elementary Functions, 1980, ch. 8, for the scheme).
 
 /// |x| in float integer steps: x * per_step rounded, as a float and in low bits.
 struct Turns {
@@ -68,14 +66,15 @@ Angle reduce_half_turns(Float x) {
   return reduce_fast(x, 0.5f * two_over_pi, 2 * half_pi_1, 2 * half_pi_2, 1.6f);
 }
 
-Angle reduce_angle(Recorder& recorder, Float x, Accuracy accuracy) {
+Angle reduce_angle(Recorder& recorder, Float x, Accuracy accuracy, AngleSize size) {
   if (accuracy == Accuracy::fast) {
     return reduce_fast(x, two_over_pi, half_pi_1, half_pi_2, 0.8f);
   }
   const Turns turns = nearest_turns(x, two_over_pi);
   const bool precise = accuracy == Accuracy::precise;
   const Angle small = precise ? reduce_small_precise(x, turns) : reduce_small(x, turns);
-  return if_any(abs(x) > Float(cody_waite_limit), small, [&] {
+  if (size == AngleSize::small) return small;
+  return if_any(abs(x) > Float(largest_small_angle), small, [&] {
     Angle large = reduce_large_angle(recorder, x);
     if (!precise) large.low = 0.0f;
     return large;

@@ -18,10 +18,14 @@ void visit(Angle& angle, F&& f) {
   f(angle.rest), f(angle.low), f(angle.turns);
 }
 
+/// What is known of an angle: within largest_small_angle, and no NaN, or nothing.
+enum class AngleSize { small, any };
+inline constexpr float largest_small_angle = 0x1p+17f;
+
 /// By quarter turns. precise: rest + low is right to 2^-40 of itself, standard: rest to an ulp, for
 /// all finite x. fast: to 2^-24 of pi / 4 for |x| < 1e5, anything within [-0.8, 0.8] beyond. NaN
 /// for infinities and NaN.
-Angle reduce_angle(Recorder& recorder, Float x, Accuracy accuracy);
+Angle reduce_angle(Recorder& recorder, Float x, Accuracy accuracy, AngleSize size);
 
 /// By half turns, step pi, as `fast` above within [-1.6, 1.6].
 Angle reduce_half_turns(Float x);

@@ -16,7 +16,7 @@ constexpr double least_cost = 8;
 }  // namespace
 
 Computation::Computation(const Program& program, const Groups& groups,
-                         const std::vector<ValueId>& outputs) {
+                         const std::vector<ValueId>& outputs, double error) {
   Cone cone;
   for (const ValueId output : outputs) groups.add_cone(output, cone);
   values_.assign(cone.begin(), cone.end());
@@ -24,7 +24,7 @@ Computation::Computation(const Program& program, const Groups& groups,
   for (const ValueId value : values_) {
     const Instruction& instruction = function.code[value];
     is_number_.push_back(instruction.type == Scalar::f32);
-    costs_.push_back(operation_cost(instruction.op));
+    costs_.push_back(operation_cost(instruction.op, error));
     std::vector<std::size_t>& operands = operands_.emplace_back();
     bool has_key = false;
     for (const ValueId operand : function.operands(instruction)) {

@@ -13,7 +13,9 @@ namespace nacre {
 /// operands come first.
 class Computation {
  public:
-  Computation(const Program& program, const Groups& groups, const std::vector<ValueId>& outputs);
+  /// `error`: see operation_cost().
+  Computation(const Program& program, const Groups& groups, const std::vector<ValueId>& outputs,
+              double error);
 
   std::size_t size() const { return values_.size(); }
   ValueId value(std::size_t i) const { return values_[i]; }

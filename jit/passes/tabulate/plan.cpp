@@ -30,7 +30,7 @@ class Planner {
         groups_(groups),
         key_(key),
         error_(error),
-        computation_(program, groups, groups.outputs().at(key)),
+        computation_(program, groups, groups.outputs().at(key), error),
         computed_(computation_.size(), false) {
     for (const ValueId output : groups.outputs().at(key)) {
       outputs_.push_back(computation_.at(output));
@@ -278,8 +278,8 @@ class Planner {
 
 }  // namespace
 
-double operation_cost(Op op) {
-  if (is_transcendental(op)) return 25;
+double operation_cost(Op op, double error) {
+  if (is_transcendental(op)) return error < 1e-4 ? 25 : 16;
   switch (op) {
     case Op::constant: return 0;
     case Op::div: return 6;

@@ -34,7 +34,8 @@ inline double least_cost_of_tables(std::size_t functions) {
   return 6 + 3 * static_cast<double>(functions);
 }
 
-/// What an operation costs, in additions: a weight to choose by.
-double operation_cost(Op op);
+/// What an operation costs, in additions: a weight to choose by. Transcendental functions are
+/// polynomials, and shorter ones where tables may be off by more.
+double operation_cost(Op op, double error);
 
 }  // namespace nacre

@@ -22,13 +22,13 @@ constexpr double most_work = 5e7, work_of_a_group = 2e4, work_of_an_operation = 
 
 /// Keys of the groups that may save something, those that may save the most first, as many as can
 /// be looked at in time: all that may save as much or none of them, whichever was recorded first.
-std::vector<ValueId> worthwhile(const Program& program, const Groups& groups) {
+std::vector<ValueId> worthwhile(const Program& program, const Groups& groups, double error) {
   std::map<double, std::vector<std::pair<ValueId, double>>, std::greater<>> by_cost;
   for (const auto& [key, outputs] : groups.outputs()) {
     Cone cone;
     for (const ValueId output : outputs) groups.add_cone(output, cone);
     double cost = 0;
-    for (const ValueId value : cone) cost += operation_cost(program.entry().code[value].op);
+    for (const ValueId value : cone) cost += operation_cost(program.entry().code[value].op, error);
     if (cost < least_cost_of_tables(1) + least_saving) continue;  // Most groups.
     by_cost[cost].emplace_back(key, work_of_a_group + work_of_an_operation * double(cone.size()));
   }
@@ -49,7 +49,7 @@ Program tabulate(const Program& program, double error) {
   mark_varying(marked);
   const Groups groups(marked);
   std::vector<Looked> all;
-  for (const ValueId key : worthwhile(marked, groups)) {
+  for (const ValueId key : worthwhile(marked, groups, error)) {
     for (Looked& looked : plan_group(marked, groups, key, error)) all.push_back(std::move(looked));
   }
   if (all.empty()) return program;

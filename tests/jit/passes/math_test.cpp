@@ -280,6 +280,29 @@ TEST(ExpandMath, SineAndCosineShareTheReduction) {
   }
 }
 
+// The same bits, without what only large ones need.
+TEST(ExpandMath, AnglesThatAreKnownToBeSmallHaveNoOtherPath) {
+  const auto of = [](bool is_known) {
+    Recorder recorder;
+    const Float x(recorder.input("x", Scalar::f32));
+    const Float angle = (is_known ? min(max(x, -1.0f), 1.0f) : x) * 6.2831855f;
+    const std::vector<SliceOutput> outputs{{"sin", sin(angle).ref()}, {"cos", cos(angle).ref()}};
+    return slice(recorder.program(), "turn", outputs);
+  };
+  std::vector<float> x;
+  for (int i = -10'000; i <= 10'000; ++i) x.push_back(static_cast<float>(i) / 10'000.0f);
+  for (const Accuracy mode : {Accuracy::standard, Accuracy::precise}) {
+    const Program any = expand_math(of(false), mode), small = expand_math(of(true), mode);
+    EXPECT_EQ(count(any, Op::if_any), 1u);
+    EXPECT_EQ(count(small, Op::if_any), 0u);
+    EXPECT_LT(small.functions.size(), any.functions.size());
+    const auto expected = run(*make_interpreter(any), {{"x", x}});
+    const auto found = run(*make_interpreter(small), {{"x", x}});
+    EXPECT_EQ(found.at("sin"), expected.at("sin"));
+    EXPECT_EQ(found.at("cos"), expected.at("cos"));
+  }
+}
+
 TEST(ExpandMath, NeighboursChangeNothing) {
   const Columns inputs{{"x", floats(1000003)}};
   for (const Accuracy mode : modes) {

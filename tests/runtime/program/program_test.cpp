@@ -34,6 +34,34 @@ TEST(Recorder, SharesEqualOperations) {
   EXPECT_NE((x - y).ref().id, (y - x).ref().id);
 }
 
+// What follows from one literal or another is one literal or another.
+TEST(Recorder, FoldsThroughChoicesBetweenLiterals) {
+  Recorder recorder;
+  const Float x = input(recorder, "x");
+  const Bool inside = x < Float(0.0f), other = x < Float(1.0f);
+  const Float eta = select(inside, Float(0.5f), Float(2.0f));
+  const auto is = [&](Float value, Bool condition, float yes, float no) {
+    return value.ref().id == select(condition, Float(yes), Float(no)).ref().id;
+  };
+  EXPECT_TRUE(is(1.0f / eta, inside, 2.0f, 0.5f));
+  EXPECT_TRUE(is((eta - 1.0f) * (eta + 1.0f), inside, -0.75f, 3.0f));
+  EXPECT_TRUE(is(fma(eta, eta, 1.0f), inside, 1.25f, 5.0f));
+  // By another condition, or by what engines compute in their own way, no longer.
+  const auto op_of = [&](Float value) {
+    return recorder.program().entry().code[value.ref().id].op;
+  };
+  EXPECT_EQ(op_of(eta + select(other, Float(3.0f), Float(4.0f))), Op::add);
+  EXPECT_EQ(op_of(exp(eta)), Op::exp);
+  EXPECT_EQ(op_of(eta * x), Op::mul);
+}
+
+TEST(Recorder, AddsWhatIsTakenOnce) {
+  Recorder recorder;
+  const Float x = input(recorder, "x"), y = input(recorder, "y");
+  EXPECT_EQ(fma(Float(1.0f), x, y).ref().id, (x + y).ref().id);
+  EXPECT_EQ(fma(x, Float(1.0f), Float(0.0f)).ref().id, x.ref().id);
+}
+
 TEST(Printer, ShowsRegionsIndented) {
   Recorder recorder;
   const Float x = input(recorder, "x");
