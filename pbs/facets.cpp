@@ -24,6 +24,11 @@ Facets Facets::upright() const {
   return turned;
 }
 
+bool have_one_frame(const Facets& a, const Facets& b) {
+  return a.distribution == b.distribution && a.isotropic == b.isotropic &&
+         same_value(a.normal, b.normal) && (a.isotropic || same_value(a.tangent, b.tangent));
+}
+
 Float Facets::density(Float3 h) const {
   return distribution == FacetDistribution::ggx ? ggx_distribution(h, alpha)
                                                 : beckmann_distribution(h, alpha);

@@ -49,6 +49,9 @@ struct Facets {
   Float3 sample_reflecting(Recorder& recorder, Float3 wo, Float u, Float v) const;
 };
 
+/// Whether directions are the same in the frames of both, and facets of one kind.
+bool have_one_frame(const Facets& a, const Facets& b);
+
 /// From the inputs roughness, distribution ("beckmann", else GGX), normal and tangent of a node.
 /// The threshold separates what float can evaluate: below it the rounding of a half-way vector is
 /// as wide as the lobe. One axis alone is never below: it is clamped. Alpha is no less than the

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 
 #include "pbs/color_channels.h"
 #include "pbs/emission.h"
 #include "pbs/enclosed.h"
+#include "pbs/microfacet_reflection.h"
+#include "pbs/sampling.h"
 #include "pbs/term.h"
 #include "pbs/transport.h"
 #include "pbs/wanted.h"
@@ -159,6 +162,11 @@ class SurfaceRecorder {
   Total evaluate(const View& view, const std::vector<Term>& terms, Float3 wi) {
     Total total;
     for (const Term& term : terms) {
+      if (terms.size() < 2) break;
+      const ScopedOrigin origin(recorder_, term.origin);
+      term.lobe->share(wanting(view, term), wi);
+    }
+    for (const Term& term : terms) {
       if (!may_go_on()) break;
       const ScopedOrigin origin(recorder_, term.origin);
       const LobeValue none{.f = Color3(0.0f), .pdf = 0.0f};
@@ -212,15 +220,15 @@ class SurfaceRecorder {
 
   void record_sample() {
     const ScopedOrigin origin(recorder_, "sampling");
-    // Numbers of which it is known how large they are spare their angles' exact reduction.
-    const Float3 given = channel3(recorder_, "u");
-    const Float3 u{saturate(given.x), saturate(given.y), given.z};
-    LobeSample chosen{.wi = Float3(0.0f, 0.0f, 1.0f), .valid = false};
+    const Float3 u = channel3(recorder_, "u");
+    // Once for all lobes: what is recorded for one of them is not seen by the others.
+    (void)on_circle(u.y);
     Int lobe = -1;
     Color3 weight = Color3(1.0f);
     Float probability = 1.0f;
     Float below = 0.0f;
-    for (std::size_t i = 0; i < scattering_.size() && may_go_on(); ++i) {
+    std::vector<Choice> choices;
+    for (std::size_t i = 0; i < scattering_.size(); ++i) {
       const Term& term = scattering_[i];
       const ScopedOrigin of_lobe(recorder_, term.origin);
       const Float above = i + 1 == scattering_.size() ? Float(2.0f) : below + term.probability;
@@ -229,19 +237,61 @@ class SurfaceRecorder {
       const Float again = scattering_.size() == 1
                               ? u.z
                               : min(max((u.z - below) / term.probability, 0.0f), 0x1.fffffep-1f);
-      chosen = if_any(mine, chosen, [&] {
-        LobeSample sample = term.lobe->sample(wanting(view_, term), {u.x, u.y, again});
-        if (request_.lobes_wanted) {
-          sample.valid = sample.valid & is_wanted_side(term, view_, sample.wi);
-        }
-        return sample;
-      });
+      choices.push_back({mine, again});
       lobe = select(mine, Int(static_cast<int>(i)), lobe);
       weight = select(mine, term.weight, weight);
       probability = select(mine, term.probability, probability);
       below = below + term.probability;
     }
-    finish_sample(chosen, lobe, weight, probability);
+    finish_sample(sample_chosen(u, choices), lobe, weight, probability);
+  }
+
+  /// Where a lobe was chosen, and what is left of the number that chose it: in [0, 1).
+  struct Choice {
+    Bool mine;
+    Float again;
+  };
+
+  LobeSample sample_chosen(Float3 u, const std::vector<Choice>& choices) {
+    LobeSample chosen{.wi = Float3(0.0f, 0.0f, 1.0f), .valid = false};
+    std::vector<bool> is_done(choices.size(), false);
+    for (std::size_t i = 0; i < choices.size() && may_go_on(); ++i) {
+      if (is_done[i]) continue;
+      const Term& term = scattering_[i];
+      const ScopedOrigin of_lobe(recorder_, term.origin);
+      Bool mine = choices[i].mine;
+      const std::optional<Facets> facets = facets_of_all(i, choices, mine, is_done);
+      chosen = if_any(mine, chosen, [&] {
+        if (facets) return sample_reflection(*facets, view_, u);
+        LobeSample sample = term.lobe->sample(wanting(view_, term), {u.x, u.y, choices[i].again});
+        if (request_.lobes_wanted) {
+          sample.valid = sample.valid & is_wanted_side(term, view_, sample.wi);
+        }
+        return sample;
+      });
+    }
+    return chosen;
+  }
+
+  /// Of lobes that do nothing but reflect about facets of one frame, one is sampled: with the
+  /// roughness of that which was chosen, wherever it is lobe `first` or one of the later ones,
+  /// which are done then. Nothing where `first` is no such lobe or there is no other.
+  std::optional<Facets> facets_of_all(std::size_t first, const std::vector<Choice>& choices,
+                                      Bool& mine, std::vector<bool>& is_done) const {
+    const Facets* const own = scattering_[first].lobe->reflecting_facets();
+    if (own == nullptr || request_.lobes_wanted) return std::nullopt;
+    Facets all = *own;
+    bool has_other = false;
+    for (std::size_t k = first + 1; k < choices.size(); ++k) {
+      const Facets* const other = scattering_[k].lobe->reflecting_facets();
+      if (other == nullptr || !have_one_frame(all, *other)) continue;
+      const Float x = select(choices[k].mine, other->alpha.x, all.alpha.x);
+      const Float y = all.isotropic ? x : select(choices[k].mine, other->alpha.y, all.alpha.y);
+      all.alpha = {x, y};
+      mine = mine | choices[k].mine;
+      is_done[k] = has_other = true;
+    }
+    return has_other ? std::optional(all) : std::nullopt;
   }
 
   void finish_sample(const LobeSample& chosen, Int lobe, Color3 weight, Float probability) {

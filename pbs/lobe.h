@@ -10,6 +10,7 @@ namespace nacre {
 
 class Lobe;
 class ThinFilm;
+struct Facets;
 using LobePtr = std::shared_ptr<const Lobe>;  ///< Shared by all that read its node.
 
 /// What a host may ask for or switch off.
@@ -84,8 +85,12 @@ class Lobe {
 
   /// wi: unit, world space, on any side.
   virtual LobeValue evaluate(const View& view, Float3 wi) const = 0;
+  /// Records what evaluate() has in common with that of other lobes, where all of them see it.
+  virtual void share(const View& view, Float3 wi) const { (void)view, (void)wi; }
   /// u: three independent numbers in [0, 1).
   virtual LobeSample sample(const View& view, Float3 u) const = 0;
+  /// Facets that sample() reflects about, whatever else the lobe is; null of other lobes.
+  virtual const Facets* reflecting_facets() const { return nullptr; }
   /// Fraction of the light from wo that leaves again: in [0, 1]. What lobes are
   /// selected by, and the `albedo` kernel's answer.
   virtual Color3 albedo(const View& view) const = 0;

@@ -13,8 +13,8 @@ Float3 sample_cap(Float3 wi, Float bottom, Float u, Float v) {
   const Float above = max(u * span, 0.0f);                                       // 1 - z
   const Float below = max(fma(1.0f - u, span, max(1.0f - bottom, 0.0f)), 0.0f);  // 1 + z
   const Float ring = sqrt(above * below);
-  const Float phi = 2 * pi * v;
-  return {fma(ring, cos(phi), wi.x), fma(ring, sin(phi), wi.y), (1.0f - above) + wi.z};
+  const Float2 on = on_circle(v);
+  return {fma(ring, on.x, wi.x), fma(ring, on.y, wi.y), (1.0f - above) + wi.z};
 }
 
 /// Of any length.

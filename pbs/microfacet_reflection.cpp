@@ -74,14 +74,30 @@ Float3 MicrofacetReflection::turned(Float3 wi) const {
   return {select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};
 }
 
+/// Directions in the frame of the facets, which lobes of one normal have in common.
+struct MicrofacetReflection::Pair {
+  Float3 wi, h;  ///< h of any length.
+  Float length2;
+  Float cosine;  ///< Of either to the facet between them, in [0, 1].
+};
+
+MicrofacetReflection::Pair MicrofacetReflection::pair(const LocalView& local,
+                                                      Float3 wi_world) const {
+  const Float3 wi = turned(local.frame.to_local(wi_world));
+  const Float3 h = local.wo + wi;
+  const Float length2 = dot(h, h);
+  return {wi, h, length2, saturate(0.5f * sqrt(length2))};
+}
+
+void MicrofacetReflection::share(const View& view, Float3 wi) const {
+  (void)pair(facets_.look(view), wi);
+}
+
 LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) const {
   const Terms terms = this->terms(view);
   const LocalView local = facets_.look(view);
   const Float3 wo = local.wo;
-  const Float3 wi = turned(local.frame.to_local(wi_world));
-  const Float3 h = wo + wi;
-  const Float length2 = dot(h, h);
-  const Float cosine = saturate(0.5f * sqrt(length2));
+  const auto [wi, h, length2, cosine] = pair(local, wi_world);
   const Float root = facets_.root(wo);
   const Float half_d = 0.5f * facets_.density(h);
   // Density and f over their common denominator, for divisions are what this takes its time with.
@@ -99,7 +115,23 @@ LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) cons
           .pdf = select(seen, finite(pdf), 0.0f)};
 }
 
+LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u) {
+  const LocalView local = facets.look(view);
+  const Float3 h = facets.sample_reflecting(*view.recorder, local.wo, u.x, u.y);
+  const Float3 wi = reflect_about(local.wo, h);
+  const Float3 world = local.frame.to_world(wi);
+  return {.wi = world, .valid = (local.wo.z > 0.0f) & (wi.z > 0.0f) & is_unit(world)};
+}
+
+/// Not of mirrors, nor of light that is sent back.
+const Facets* MicrofacetReflection::reflecting_facets() const {
+  const bool is_plain =
+      facets_.delta.is_constant(false) && options_.retroreflective.is_constant(false);
+  return is_plain ? &facets_ : nullptr;
+}
+
 LobeSample MicrofacetReflection::sample(const View& view, Float3 u) const {
+  if (reflecting_facets() != nullptr) return sample_reflection(facets_, view, u);
   const LocalView local = facets_.look(view);
   const Float3 wo = local.wo;
   const Float3 h = facets_.sample_reflecting(*view.recorder, wo, u.x, u.y);

@@ -6,6 +6,9 @@
 
 namespace nacre {
 
+/// A direction that facets reflect a view to.
+LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u);
+
 /// Light reflected once by GGX facets, scaled up for what several reflections
 /// bring back (pbs/energy.h). Smooth surfaces are mirrors. Reciprocal but for
 /// that scale, which belongs to the view.
@@ -27,7 +30,9 @@ class MicrofacetReflection final : public Lobe {
   LobePtr with_film(Recorder& recorder, const ThinFilm& film) const override;
   void prepare(const View& view, Bool mask) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
+  void share(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
+  const Facets* reflecting_facets() const override;
   Color3 albedo(const View& view) const override;
   Color3 presence(const View&) const override { return options_.tint; }
   Color3 throughput(const View& view) const override;
@@ -63,6 +68,8 @@ class MicrofacetReflection final : public Lobe {
   std::optional<Terms> tabulated(const View& view) const;
   Terms terms(const View& view) const;
   Float3 turned(Float3 wi) const;
+  struct Pair;
+  Pair pair(const LocalView& local, Float3 wi_world) const;
 
   Facets facets_;
   FacetFresnelPtr fresnel_;

@@ -12,6 +12,10 @@ inline constexpr float one_over_pi = 0.318309886183790671538f;
 /// is. An eighth costs a Lambertian 2 % of variance.
 inline constexpr float least_cosine = 0.125f;
 
+/// Cosine and sine of a share of the full circle, within 1e-7 in every mode: less to do than cos()
+/// and sin(), to which angles may be anything.
+Float2 on_circle(Float share);
+
 /// Uniform on the unit disk from two numbers in [0, 1).
 Float2 sample_disk(Float u, Float v);
 

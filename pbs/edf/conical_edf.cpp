@@ -94,8 +94,8 @@ Float3 ConicalEdf::sample(const View& view, Float3 u) const {
   });
   const Float lack = clamp(either, 0.0f, 1.0f);
   const Float across = sqrt(lack * (2.0f - lack));
-  const Float around = 2.0f * pi * u.y;
-  return make_frame(normal_).to_world({across * cos(around), across * sin(around), 1.0f - lack});
+  const Float2 on = on_circle(u.y);
+  return make_frame(normal_).to_world({across * on.x, across * on.y, 1.0f - lack});
 }
 
 /// Cosine of half an angle in degrees.

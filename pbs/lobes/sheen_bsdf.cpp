@@ -49,6 +49,12 @@ Float polynomial(const Rows& rows, Float x, Float y) {
   return sum;
 }
 
+/// x in [0, 1] raised to a positive exponent. The product's rounding is part of pow's extra digits;
+/// here it is at most 1e-5 of what is no denormal, which `standard` does not promise more than.
+Float raise(Float x, Float exponent, Accuracy accuracy) {
+  return accuracy == Accuracy::standard ? exp2(exponent * log2(x)) : pow(x, exponent);
+}
+
 class ContyKullaSheen final : public Lobe {
  public:
   /// All prepared; roughness in [lowest_roughness, 1].
@@ -73,7 +79,7 @@ class ContyKullaSheen final : public Lobe {
     // |n x h|^2 keeps the digits that 1 - (n.h)^2 loses near the normal.
     const Float sine2 = saturate(dot(across, across) / length2);
     const Float power = 1.0f / roughness_;
-    const Float d = (2.0f + power) * pow(sine2, 0.5f * power);
+    const Float d = (2.0f + power) * raise(sine2, 0.5f * power, view.accuracy);
     const Float slope = cos_i / max(fma(-cos_i, cos_o, cos_i + cos_o), 1e-20f);
     const Bool seen = (cos_i > 0.0f) & (length2 > 1e-8f) & is_unit(wi);
     const Float f = d * slope * terms.scale * (0.125f * one_over_pi);
@@ -86,9 +92,9 @@ class ContyKullaSheen final : public Lobe {
   LobeSample sample(const View& view, Float3 u) const override {
     const Float z = 1.0f - u.x;
     const Float radius = safe_sqrt(u.x * (2.0f - u.x));
-    const Float phi = 2.0f * pi * u.y;
+    const Float2 on = on_circle(u.y);
     const Frame frame = make_frame(facing(normal_, view.wo));
-    const Float3 wi = frame.to_world({radius * cos(phi), radius * sin(phi), z});
+    const Float3 wi = frame.to_world({radius * on.x, radius * on.y, z});
     return {.wi = wi, .valid = is_unit(wi)};
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pbs/sampling.h"
 #include "tests/support/run_kernel.h"
 
 namespace nacre {
@@ -130,6 +131,22 @@ TEST(Ggx, SampledNormalsFollowTheirDensity) {
         EXPECT_NEAR(sampled[k], expected[k], 3e-3) << alpha << " " << angle << " " << k;
       }
     }
+  }
+}
+
+TEST(Sampling, GoesRoundTheCircle) {
+  Columns in;
+  for (int i = -100'000; i <= 200'000; ++i) {
+    in["share"].push_back(static_cast<float>(i) / 100'000.0f);
+  }
+  const auto out = evaluate(in, [](Recorder& r) {
+    const Float2 on = on_circle(input(r, "share"));
+    return std::vector<SliceOutput>{{"x", on.x.ref()}, {"y", on.y.ref()}};
+  });
+  for (std::size_t i = 0; i < in["share"].size(); ++i) {
+    const double angle = 2.0 * pi_d * double(in["share"][i]);
+    ASSERT_NEAR(out.at("x")[i], std::cos(angle), 1e-7) << in["share"][i];
+    ASSERT_NEAR(out.at("y")[i], std::sin(angle), 1e-7) << in["share"][i];
   }
 }
 

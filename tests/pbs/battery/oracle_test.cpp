@@ -83,7 +83,8 @@ TEST(OracleFormulas, AreWhatTheirIntegralsSay) {
     return integral([&](Vec wi) { return lobe.at(wi); }) + integral(below);
   };
   for (const bool beckmann : {false, true}) {
-    for (const Facets& facets : {Facets{beckmann, 0.6, 0.6}, Facets{beckmann, 1.0, 0.4}}) {
+    for (const reference::Facets& facets :
+         {reference::Facets{beckmann, 0.6, 0.6}, reference::Facets{beckmann, 1.0, 0.4}}) {
       for (const double index : {1.5, 1.0 / 1.5}) {
         for (const double sine : {0.3, 0.95}) {
           const Vec wo{0.6 * sine, 0.8 * sine, std::sqrt(1.0 - sine * sine)};
