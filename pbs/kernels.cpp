@@ -164,7 +164,7 @@ class SurfaceRecorder {
     for (const Term& term : terms) {
       if (terms.size() < 2) break;
       const ScopedOrigin origin(recorder_, term.origin);
-      term.lobe->share(wanting(view, term), wi);
+      term.lobe->share_direction(wanting(view, term), wi);
     }
     for (const Term& term : terms) {
       if (!may_go_on()) break;
@@ -204,7 +204,15 @@ class SurfaceRecorder {
     return evaluate(reversed, terms, view_.wo).pdf;
   }
 
+  void share_view() {
+    for (const Term& term : scattering_) {
+      const ScopedOrigin origin(recorder_, term.origin);
+      term.lobe->share_view(wanting(view_, term));
+    }
+  }
+
   void record_evaluate() {
+    share_view();
     const Float3 wi = channel3(recorder_, "wi");
     const Total total = lit(evaluate(view_, scattering_, wi));
     add_color(kernels_.evaluate, "f", total.f);
@@ -223,6 +231,7 @@ class SurfaceRecorder {
     const Float3 u = channel3(recorder_, "u");
     // Once for all lobes: what is recorded for one of them is not seen by the others.
     (void)on_circle(u.y);
+    share_view();
     Int lobe = -1;
     Color3 weight = Color3(1.0f);
     Float probability = 1.0f;

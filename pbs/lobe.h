@@ -85,8 +85,12 @@ class Lobe {
 
   /// wi: unit, world space, on any side.
   virtual LobeValue evaluate(const View& view, Float3 wi) const = 0;
-  /// Records what evaluate() has in common with that of other lobes, where all of them see it.
-  virtual void share(const View& view, Float3 wi) const { (void)view, (void)wi; }
+  /// Record, where all lobes and both functions see it, what evaluate() and sample() have in common
+  /// with each other of a view, and evaluate() with other lobes' of a direction.
+  /// @{
+  virtual void share_view(const View& view) const { (void)view; }
+  virtual void share_direction(const View& view, Float3 wi) const { (void)view, (void)wi; }
+  /// @}
   /// u: three independent numbers in [0, 1).
   virtual LobeSample sample(const View& view, Float3 u) const = 0;
   /// Facets that sample() reflects about, whatever else the lobe is; null of other lobes.

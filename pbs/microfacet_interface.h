@@ -24,6 +24,7 @@ class MicrofacetInterface final : public Lobe {
   BySide smooth() const override { return {facets_.delta, facets_.delta | straight_}; }
   LobePtr with_film(Recorder& recorder, const ThinFilm& film) const override;
   void prepare(const View& view, Bool mask) const override;
+  void share_view(const View& view) const override { reflection_.share_view(view); }
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;

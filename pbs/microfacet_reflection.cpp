@@ -89,7 +89,13 @@ MicrofacetReflection::Pair MicrofacetReflection::pair(const LocalView& local,
   return {wi, h, length2, saturate(0.5f * sqrt(length2))};
 }
 
-void MicrofacetReflection::share(const View& view, Float3 wi) const {
+void MicrofacetReflection::share_view(const View& view) const {
+  const Float3 wo = facets_.look(view).wo;
+  (void)facets_.root(wo);
+  (void)facets_.bound(wo);
+}
+
+void MicrofacetReflection::share_direction(const View& view, Float3 wi) const {
   (void)pair(facets_.look(view), wi);
 }
 

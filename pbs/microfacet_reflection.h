@@ -30,7 +30,8 @@ class MicrofacetReflection final : public Lobe {
   LobePtr with_film(Recorder& recorder, const ThinFilm& film) const override;
   void prepare(const View& view, Bool mask) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
-  void share(const View& view, Float3 wi) const override;
+  void share_view(const View& view) const override;
+  void share_direction(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   const Facets* reflecting_facets() const override;
   Color3 albedo(const View& view) const override;

@@ -117,6 +117,12 @@ void MicrofacetTransmission::prepare(const View& view, Bool mask) const {
   terms_.prepare(view, mask, [&] { return compute(view); });
 }
 
+void MicrofacetTransmission::share_view(const View& view) const {
+  const Float3 wo = facets_.look(view).wo;
+  if (!view.thin_walled.is_constant(true)) (void)facets_.root(wo);
+  if (!view.thin_walled.is_constant(false)) (void)thin_facets_.root(wo);
+}
+
 Bool MicrofacetTransmission::delta(const View&) const { return facets_.delta | straight_; }
 
 LobeValue MicrofacetTransmission::evaluate(const View& view, Float3 wi_world) const {

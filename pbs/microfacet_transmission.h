@@ -54,6 +54,7 @@ class MicrofacetTransmission final : public Lobe {
   std::int32_t kinds() const override { return lobe_glossy_transmission; }
   BySide smooth() const override { return {false, facets_.delta | straight_}; }
   void prepare(const View& view, Bool mask) const override;
+  void share_view(const View& view) const override;
   LobeValue evaluate(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   Color3 albedo(const View& view) const override;
