@@ -49,8 +49,8 @@ Float polynomial(const Rows& rows, Float x, Float y) {
   return sum;
 }
 
-/// x in [0, 1] raised to a positive exponent. The product's rounding is part of pow's extra digits;
-/// here it is at most 1e-5 of what is no denormal, which `standard` does not promise more than.
+/// x in [0, 1] raised to a positive exponent. pow() has digits more, lest the exponent's product
+/// rounds; what lobes promise in `standard` does without (rounding_test.cpp).
 Float raise(Float x, Float exponent, Accuracy accuracy) {
   return accuracy == Accuracy::standard ? exp2(exponent * log2(x)) : pow(x, exponent);
 }
