@@ -162,7 +162,6 @@ class SurfaceRecorder {
   Total evaluate(const View& view, const std::vector<Term>& terms, Float3 wi) {
     Total total;
     for (const Term& term : terms) {
-      if (terms.size() < 2) break;
       const ScopedOrigin origin(recorder_, term.origin);
       term.lobe->share_direction(wanting(view, term), wi);
     }

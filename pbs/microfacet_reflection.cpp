@@ -121,12 +121,20 @@ LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) cons
           .pdf = select(seen, finite(pdf), 0.0f)};
 }
 
+namespace {
+
+/// A direction in the frame of facets, where it is above them.
+LobeSample sample_along(const LocalView& local, Float3 wi) {
+  const Float3 world = local.frame.to_world(wi);
+  return {.wi = world, .valid = (local.wo.z > 0.0f) & (wi.z > 0.0f) & is_unit(world)};
+}
+
+}  // namespace
+
 LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u) {
   const LocalView local = facets.look(view);
   const Float3 h = facets.sample_reflecting(*view.recorder, local.wo, u.x, u.y);
-  const Float3 wi = reflect_about(local.wo, h);
-  const Float3 world = local.frame.to_world(wi);
-  return {.wi = world, .valid = (local.wo.z > 0.0f) & (wi.z > 0.0f) & is_unit(world)};
+  return sample_along(local, reflect_about(local.wo, h));
 }
 
 /// Not of mirrors, nor of light that is sent back.
@@ -137,15 +145,13 @@ const Facets* MicrofacetReflection::reflecting_facets() const {
 }
 
 LobeSample MicrofacetReflection::sample(const View& view, Float3 u) const {
-  if (reflecting_facets() != nullptr) return sample_reflection(facets_, view, u);
   const LocalView local = facets_.look(view);
   const Float3 wo = local.wo;
   const Float3 h = facets_.sample_reflecting(*view.recorder, wo, u.x, u.y);
   const Float3 mirrored{-wo.x, -wo.y, wo.z};
   const Float3 wi = turned(select(facets_.delta, mirrored, reflect_about(wo, h)));
-  const Float3 world = local.frame.to_world(wi);
-  LobeSample sample{
-      .wi = world, .valid = (wo.z > 0.0f) & (wi.z > 0.0f) & is_unit(world), .delta = facets_.delta};
+  LobeSample sample = sample_along(local, wi);
+  sample.delta = facets_.delta;
   if (!facets_.delta.is_constant(false)) {
     const Bool inside = local.below & !view.thin_walled;
     sample.delta_weight = options_.tint * fresnel_->at(wo.z, inside);

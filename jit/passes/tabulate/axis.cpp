@@ -55,8 +55,10 @@ Axis axis_of(double low, double high, int cells, Axis::Along along) {
 
 Axis with_dense_end(Axis axis, int most) {
   axis.dense = 3;
-  axis.dense_from = axis.cells - (most - axis.cells) / (axis.dense - 1);
-  axis.cells += (axis.cells - axis.dense_from) * (axis.dense - 1);
+  const int more = axis.dense - 1;
+  const int parted = std::min(axis.cells, (most - axis.cells) / more);
+  axis.dense_from = axis.cells - parted;
+  axis.cells += parted * more;
   axis.cost += 2;
   return axis;
 }

@@ -4,8 +4,6 @@
 #include <limits>
 #include <numeric>
 
-#include "jit/passes/tabulate/plan.h"
-
 namespace nacre {
 
 namespace {
@@ -14,6 +12,17 @@ namespace {
 constexpr double least_cost = 8;
 
 }  // namespace
+
+double operation_cost(Op op, double error) {
+  if (is_transcendental(op)) return error < 1e-4 ? 25 : 16;
+  switch (op) {
+    case Op::constant: return 0;
+    case Op::div: return 6;
+    case Op::sqrt: return 8;
+    case Op::table: return 10;
+    default: return 1;
+  }
+}
 
 Computation::Computation(const Program& program, const Groups& groups,
                          const std::vector<ValueId>& outputs, double error) {

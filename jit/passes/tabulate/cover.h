@@ -9,6 +9,10 @@
 
 namespace nacre {
 
+/// What an operation costs, in additions: a weight to choose by. Transcendental functions are
+/// polynomials, and shorter ones where tables may be off by more.
+double operation_cost(Op op, double error);
+
 /// What the outputs of a group are computed from, each value by its place in an order in which
 /// operands come first.
 class Computation {

@@ -9,7 +9,7 @@
 
 namespace nacre {
 
-/// Off relatively by more than that share of a function's largest value, below by a share of it.
+/// Errors are relative to a value, or to that share of the function's largest where it is more.
 inline constexpr double floor_of_peak = 0.01;
 
 /// Functions of one number, each as polynomials in the cells of one axis: as tables that CPUs keep

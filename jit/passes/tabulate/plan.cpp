@@ -70,7 +70,7 @@ class Planner {
       if (computed_[i] || !computation_.is_number(i)) continue;
       const bool is_output = std::ranges::find(outputs_, i) != outputs_.end();
       if (!is_output && computation_.size() > most_values) continue;
-      if (computation_.cost_of(computation_.below(i, nothing)) < least_cost_of_tables(1)) continue;
+      if (computation_.cost_of(computation_.below(i, nothing)) < least_cost_of_a_table) continue;
       candidates_.push_back(i);
     }
   }
@@ -117,9 +117,11 @@ class Planner {
     const Range& range = groups_.range(key);
     add(axis_of(range.low, range.high, most_cells, Axis::Along::number), no_value);
     for (const ValueId place : places) {
-      for (const bool is_dense : {false, true}) {
-        if (const auto axis = given_axis(place, is_dense)) add(*axis, place);
-      }
+      const Axis axis = given_axis(place);
+      if (const auto whole = with_numbers(axis, place)) add(*whole, place);
+      const Axis dense = with_dense_end(axis, most_cells);
+      if (dense.cells == axis.cells) continue;
+      if (const auto whole = with_numbers(dense, place)) add(*whole, place);
     }
     add(axis_of(range.low, range.high, most_cells, Axis::Along::root), no_value);
   }
@@ -134,7 +136,7 @@ class Planner {
       if (op != Op::min && op != Op::max && op != Op::select) continue;
       if (computed_[i] || !groups_.is_bounded(computation_.value(i))) continue;
       const double cost = computation_.cost_of(computation_.of_alone(i));
-      if (cost >= least_cost_of_tables(1) + least_saving) by_cost[cost].push_back(i);
+      if (cost >= least_cost_of_a_table + least_saving) by_cost[cost].push_back(i);
     }
     std::vector<std::size_t> found;
     for (const auto& [cost, alike] : by_cost) {
@@ -168,21 +170,24 @@ class Planner {
         computation_.below(computation_.at(value), std::vector<bool>(computation_.size())));
   }
 
-  /// Its cells; nothing where it does not grow with the number.
-  std::optional<Axis> given_axis(ValueId place, bool is_dense) const {
+  /// Its cells.
+  Axis given_axis(ValueId place) const {
     const Range& range = groups_.range(key_);
+    const double ends_at = groups_.range(place).high;
+    return {.low = range.low,
+            .high = range.high,
+            .cells = static_cast<int>(std::ceil(ends_at * (1 - 1e-5))),
+            .along = Axis::Along::given,
+            .cost = cost_of(place)};
+  }
+
+  /// Nothing where the place does not grow with the number.
+  std::optional<Axis> with_numbers(Axis axis, ValueId place) const {
     const Sampler sampler(program_, cone_of(place), key_, {place});
     const auto places = [&](std::span<const float> numbers) {
       auto all = sampler.run(numbers);
       return all.empty() ? std::vector<double>{} : std::move(all.front());
     };
-    const double ends_at = groups_.range(place).high;
-    Axis axis{.low = range.low,
-              .high = range.high,
-              .cells = static_cast<int>(std::ceil(ends_at * (1 - 1e-5))),
-              .along = Axis::Along::given,
-              .cost = cost_of(place)};
-    if (is_dense) axis = with_dense_end(std::move(axis), most_cells);
     auto numbers = numbers_of_places(axis, places);
     if (!numbers) return std::nullopt;
     axis.numbers = std::move(*numbers);
@@ -223,12 +228,14 @@ class Planner {
     return plan;
   }
 
-  /// Outputs that are computed from what is looked up, and magnify its error.
+  /// Outputs that are computed from what is looked up, or looked up by such a number, and magnify
+  /// its error.
   std::vector<std::size_t> outputs_too_far(const std::vector<Looked>& plan) const {
     std::vector<std::size_t> numbers;
     for (const std::size_t output : outputs_) {
       const bool is_looked_up = std::ranges::any_of(plan, [&](const Looked& looked) {
-        return std::ranges::count(looked.values, computation_.value(output)) > 0;
+        return looked.key == key_ &&
+               std::ranges::count(looked.values, computation_.value(output)) > 0;
       });
       if (!computed_[output] && !is_looked_up) numbers.push_back(output);
     }
@@ -277,17 +284,6 @@ class Planner {
 };
 
 }  // namespace
-
-double operation_cost(Op op, double error) {
-  if (is_transcendental(op)) return error < 1e-4 ? 25 : 16;
-  switch (op) {
-    case Op::constant: return 0;
-    case Op::div: return 6;
-    case Op::sqrt: return 8;
-    case Op::table: return 10;
-    default: return 1;
-  }
-}
 
 Ref record_looked(Recorder& recorder, const Program& program, const Groups& groups,
                   const Looked& looked, std::size_t function, Ref number) {

@@ -29,13 +29,7 @@ Ref record_looked(Recorder& recorder, const Program& program, const Groups& grou
 /// What tables save of a group must be more than that, in operations.
 inline constexpr double least_saving = 12;
 
-/// Of straight lines in equal cells.
-inline double least_cost_of_tables(std::size_t functions) {
-  return 6 + 3 * static_cast<double>(functions);
-}
-
-/// What an operation costs, in additions: a weight to choose by. Transcendental functions are
-/// polynomials, and shorter ones where tables may be off by more.
-double operation_cost(Op op, double error);
+/// In operations: a function in straight lines over equal cells.
+inline constexpr double least_cost_of_a_table = 9;
 
 }  // namespace nacre

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "jit/passes/tabulate/cover.h"
 #include "jit/passes/tabulate/groups.h"
 #include "jit/passes/tabulate/plan.h"
 #include "runtime/program/recorder.h"
@@ -29,7 +30,7 @@ std::vector<ValueId> worthwhile(const Program& program, const Groups& groups, do
     for (const ValueId output : outputs) groups.add_cone(output, cone);
     double cost = 0;
     for (const ValueId value : cone) cost += operation_cost(program.entry().code[value].op, error);
-    if (cost < least_cost_of_tables(1) + least_saving) continue;  // Most groups.
+    if (cost < least_cost_of_a_table + least_saving) continue;  // Most groups.
     by_cost[cost].emplace_back(key, work_of_a_group + work_of_an_operation * double(cone.size()));
   }
   std::vector<ValueId> keys;
