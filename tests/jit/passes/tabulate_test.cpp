@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "jit/passes/tabulate/axis.h"
 #include "runtime/interpreter/interpreter.h"
 #include "runtime/program/digest.h"
 #include "runtime/value/vector.h"
@@ -192,6 +193,17 @@ TEST(Tabulate, LooksUpWhatDependsOnANumberOnTheWay) {
                               fresnel(std::max(1 - 1.3 * x, 0.0), 1.5, 7.6);
                      }),
             1e-5 + 2e-6);
+}
+
+// However many cells a table has, those that are parted are some of its own.
+TEST(Tabulate, PartsTheEndOfAnyTable) {
+  for (int cells = 1; cells <= 32; ++cells) {
+    const Axis axis = with_dense_end({.cells = cells, .along = Axis::Along::given}, 32);
+    EXPECT_GE(axis.dense_from, 0) << cells;
+    EXPECT_LE(axis.dense_from, cells) << cells;
+    EXPECT_LE(axis.cells, 32) << cells;
+    EXPECT_EQ(axis.cells, axis.dense_from + axis.dense * (cells - axis.dense_from)) << cells;
+  }
 }
 
 // Two tables of other numbers, the corners of which are not the same.
