@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <llvm/ADT/StringMap.h>
+#include <llvm/Analysis/TargetLibraryInfo.h>
 #include <llvm/MC/MCSubtargetInfo.h>
 #include <llvm/MC/TargetRegistry.h>
 #include <llvm/Support/ErrorHandling.h>
@@ -32,6 +33,11 @@ void initialize_llvm() {
     llvm::InitializeNativeTargetAsmParser();
     // Else LLVM aborts where its own containers find no memory.
     llvm::install_bad_alloc_error_handler(out_of_memory, nullptr);
+    // Names of library functions, which LLVM else sorts when the first kernel calls one: when the
+    // process ends they must outlive that (runtime/process_end.h).
+    llvm::LibFunc ignored;
+    (void)llvm::TargetLibraryInfoImpl(llvm::Triple(llvm::sys::getProcessTriple()))
+        .getLibFunc("memset", ignored);
   });
 }
 

@@ -12,6 +12,7 @@
 #include "jit/service/threads.h"
 #include "runtime/interpreter/interpreter.h"
 #include "runtime/process.h"
+#include "runtime/process_end.h"
 #include "runtime/program/recorder.h"
 #include "runtime/report_stop.h"
 
@@ -247,12 +248,15 @@ class Service final : public CompileService {
 
 /// What requests look at and what is made once in a process (names of this build and this
 /// CPU, OpenSSL's algorithms, the interpreter's operations) is made now: a child of fork()
-/// would wait for ever for what another thread was about to make.
+/// would wait for ever for what another thread was about to make, and what threads make last goes
+/// first when the process ends.
 void make_what_is_made_once() {
   const Program nothing = Recorder().take();
   (void)code_key(nothing, CodegenOptions());
   (void)make_interpreter(nothing);
   (void)widest_lanes(Target::host());
+  static const bool is_waited_for = (wait_for_work_at_exit(), true);
+  (void)is_waited_for;
 }
 
 }  // namespace

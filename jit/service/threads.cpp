@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/float_environment.h"
+#include "runtime/process_end.h"
 
 namespace nacre {
 
@@ -60,7 +61,7 @@ class CompileThreads::Queue {
     tasks_.erase(tasks_.begin());
     ++running_;
     lock.unlock();
-    task();
+    if (const AtWork process; process) task();
     lock.lock();
     --running_;
     if (ending_) changed_.notify_all();

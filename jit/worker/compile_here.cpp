@@ -1,4 +1,6 @@
 #include "jit/worker/compiler.h"
+#include "runtime/process_end.h"
+#include "runtime/program/recorder.h"
 
 namespace nacre {
 
@@ -14,8 +16,23 @@ class CompilerHere final : public Compiler {
   std::unique_ptr<Compiler> heir() const override { return make_compiler_here(); }
 };
 
+/// LLVM's tables and those of our emitter are made when they are first read: now, because they
+/// must outlive the threads that read them, and because a child of fork() would wait for ever for
+/// what another thread was about to make.
+bool make_what_is_made_once() {
+  const Program nothing = Recorder().take();
+  Diagnostics ignored;
+  (void)compile_object(nothing, CodegenOptions(), ignored);
+  wait_for_work_at_exit();
+  return true;
+}
+
 }  // namespace
 
-std::unique_ptr<Compiler> make_compiler_here() { return std::make_unique<CompilerHere>(); }
+std::unique_ptr<Compiler> make_compiler_here() {
+  static const bool is_ready = make_what_is_made_once();
+  (void)is_ready;
+  return std::make_unique<CompilerHere>();
+}
 
 }  // namespace nacre
