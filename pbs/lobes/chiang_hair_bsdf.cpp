@@ -68,9 +68,22 @@ Float azimuthal(Float angle, Float scale) {
   return x / (scale * square(1.0f + x) * all);
 }
 
-/// In [-pi, pi].
-Float wrapped(Float angle) {
-  return fma(-2.0f * pi, floor(fma(angle, 0.5f * one_over_pi, 0.5f)), angle);
+/// An angle by its cosine and sine, or by what is proportional to both: sums of angles keep the
+/// digits that a narrow logistic asks for, in every mode, where radians are 2.4e-7 apart.
+struct Turn {
+  Float cosine, sine;
+
+  Turn operator+(Turn other) const {
+    return {fma(cosine, other.cosine, -(sine * other.sine)),
+            fma(sine, other.cosine, cosine * other.sine)};
+  }
+  Turn operator-() const { return {cosine, -sine}; }
+  Turn reversed() const { return {-cosine, -sine}; }  ///< By half a turn.
+  Float radians() const { return atan2(sine, cosine); }
+};
+
+Turn select(Bool condition, Turn a, Turn b) {
+  return {nacre::select(condition, a.cosine, b.cosine), nacre::select(condition, a.sine, b.sine)};
 }
 
 /// A direction by the fibre: its elevation from the plane across, and what is in that plane.
@@ -118,15 +131,15 @@ class ChiangHair final : public Lobe {
   LobeValue evaluate(const View& view, Float3 wi_world) const override {
     const Terms terms = get(view);
     const Along wi = along(frame(view), wi_world);
-    const Float turn =
-        atan2(fma(terms.y, wi.z, -(terms.z * wi.y)), fma(terms.y, wi.y, terms.z * wi.z));
+    const Turn turn = Turn{wi.y, wi.z} + -terms.across;
+    const std::array exits = exits_of(terms);
     Color3 f = Color3(0.0f);
     Float pdf = 0.0f;
     for (std::size_t way = 0; way < ways; ++way) {
       const auto [sine, cosine] = tilted(terms, way);
       const Float m = longitudinal(wi.sine, wi.cosine, sine, cosine, variance(way));
       const Float n = way == 3 ? Float(0.5f * one_over_pi)
-                               : azimuthal(wrapped(turn - exit(terms, way)), in_.scale[way]);
+                               : azimuthal((turn + -exits[way]).radians(), in_.scale[way]);
       const Float density = finite(m * n);
       f = fma(terms.share[way], Color3(density), f);
       pdf = fma(terms.chance[way], density, pdf);
@@ -137,7 +150,9 @@ class ChiangHair final : public Lobe {
 
   LobeSample sample(const View& view, Float3 u) const override {
     const Terms terms = get(view);
-    Float below = 0.0f, rest = 0.5f, v = 1.0f, s = 1.0f, out = 0.0f, sine = 0.0f, cosine = 1.0f;
+    const std::array exits = exits_of(terms);
+    Float below = 0.0f, rest = 0.5f, v = 1.0f, s = 1.0f, sine = 0.0f, cosine = 1.0f;
+    Turn exit{1.0f, 0.0f};
     Bool uniform = false;
     for (std::size_t way = 0; way < ways; ++way) {
       const Float chance = terms.chance[way];
@@ -148,7 +163,7 @@ class ChiangHair final : public Lobe {
       sine = select(mine, way_sine, sine), cosine = select(mine, way_cosine, cosine);
       if (way < 3) {
         s = select(mine, in_.scale[way], s);
-        out = select(mine, exit(terms, way), out);
+        exit = select(mine, exits[way], exit);
       } else {
         uniform = mine;
       }
@@ -157,16 +172,15 @@ class ChiangHair final : public Lobe {
     // d'Eon et al. 2013, "Importance Sampling for Physically-Based Hair Fiber Models".
     const Float back = u.x * one_less_exp(2.0f / v);
     const Float height = v * less_log(back, fma(u.x, exp(-2.0f / v), 1.0f - u.x));  // 1 - cosine.
-    const Float slant = safe_sqrt(height * (2.0f - height)) * cos(2.0f * pi * u.y);
+    const Float slant = safe_sqrt(height * (2.0f - height)) * on_circle(u.y).x;
     const Float sin_i = clamp(fma(height - 1.0f, sine, slant * cosine), -1.0f, 1.0f);
     const Float cos_i = safe_sqrt((1.0f - sin_i) * (1.0f + sin_i));
     const Float tail = beyond(s) / (1.0f + beyond(s));
     const Float q = clamp(fma(rest, fma(-2.0f, tail, 1.0f), tail), 1e-8f, 1.0f - 0x1p-24f);
     const Float logistic = clamp(s * log(q / (1.0f - q)), -pi, pi);
-    const Float turn = select(uniform, 2.0f * pi * rest, out + logistic);
-    const Float c = cos(turn), t = sin(turn);
-    const Float3 local{sin_i, cos_i * fma(terms.y, c, -(terms.z * t)),
-                       cos_i * fma(terms.y, t, terms.z * c)};
+    const Float from_exit = select(uniform, 2.0f * pi * rest, logistic);
+    const Turn out = terms.across + exit + Turn{cos(from_exit), sin(from_exit)};
+    const Float3 local{sin_i, cos_i * out.cosine, cos_i * out.sine};
     const Float3 wi = frame(view).to_world(local);
     return {.wi = wi, .valid = is_unit(wi) & (below > 0.0f)};
   }
@@ -185,13 +199,14 @@ class ChiangHair final : public Lobe {
   /// What depends on wo.
   struct Terms {
     Float sine, cosine;                ///< Of its elevation.
-    Float y, z;                        ///< Its direction across the fibre, unit.
-    Float outside, inside;             ///< Angles to the normal across the fibre, before and in it.
+    Turn across;                       ///< Its direction across the fibre, from the bitangent.
+    Turn inside;                       ///< In it, the angle to the normal across the fibre.
     std::array<Color3, ways> share{};  ///< Of the light, tinted.
     std::array<Float, ways> chance{};  ///< To be sampled.
     template <class F>
     friend void visit(Terms& terms, F&& f) {
-      f(terms.sine), f(terms.cosine), f(terms.y), f(terms.z), f(terms.outside), f(terms.inside);
+      f(terms.sine), f(terms.cosine), f(terms.across.cosine), f(terms.across.sine);
+      f(terms.inside.cosine), f(terms.inside.sine);
       for (Color3& each : terms.share) nacre::visit(each, f);
       for (Float& each : terms.chance) f(each);
     }
@@ -212,10 +227,14 @@ class ChiangHair final : public Lobe {
     return {fma(terms.sine, cosine, terms.cosine * sine),
             abs(fma(terms.cosine, cosine, -(terms.sine * sine)))};
   }
-  /// Where a way leaves, from wo on.
-  static Float exit(const Terms& terms, std::size_t way) {
-    const auto p = static_cast<float>(way);
-    return fma(2.0f * p, terms.inside, fma(-2.0f, terms.outside, p * pi));
+  /// Where ways leave, from wo on: by -2 of the angle to the normal, and for each way through the
+  /// fibre by half a turn and 2 of the angle inside (Marschner et al. 2003, section 4).
+  static std::array<Turn, 3> exits_of(const Terms& terms) {
+    const Turn outside{terms.across.sine, -terms.across.cosine};
+    const Turn through = (terms.inside + terms.inside).reversed();
+    const Turn reflected = -(outside + outside);
+    const Turn passed = reflected + through;
+    return {reflected, passed, passed + through};
   }
 
   Terms compute(const View& view) const {
@@ -223,20 +242,19 @@ class ChiangHair final : public Lobe {
     Terms terms;
     terms.sine = wo.sine, terms.cosine = wo.cosine;
     const Bool is_across = wo.cosine > 1e-6f;
-    terms.y = select(is_across, wo.y / wo.cosine, 0.0f);
-    terms.z = select(is_across, wo.z / wo.cosine, 1.0f);
-    terms.outside = atan2(-terms.y, terms.z);
+    terms.across = {select(is_across, wo.y / wo.cosine, 0.0f),
+                    select(is_across, wo.z / wo.cosine, 1.0f)};
     // Across the fibre light bends as if the index were larger: Bravais (Marschner et al. 2003).
     const Float index = sqrt(max(fma(in_.index, in_.index, -square(wo.sine)), 0.0f));
-    const Float sin_t = clamp(-terms.y * wo.cosine / max(index, 1e-6f), -1.0f, 1.0f);
+    const Float sin_t = clamp(-terms.across.cosine * wo.cosine / max(index, 1e-6f), -1.0f, 1.0f);
     const Float cos_t = safe_sqrt((1.0f - sin_t) * (1.0f + sin_t));
-    terms.inside = asin(sin_t);
+    terms.inside = {cos_t, sin_t};
     const Float straight = max(safe_sqrt(1.0f - square(wo.sine / in_.index)), 1e-6f);
     const Float path = 2.0f * cos_t / straight;
     const auto passes = [&](Float absorption) { return exp(-absorption * path); };
     const Color3 passed{passes(in_.absorption.x), passes(in_.absorption.y),
                         passes(in_.absorption.z)};
-    share_out(terms, fresnel_dielectric(saturate(wo.cosine * terms.z), in_.index), passed);
+    share_out(terms, fresnel_dielectric(saturate(wo.cosine * terms.across.sine), in_.index), passed);
     return terms;
   }
 
