@@ -9,27 +9,31 @@ namespace nacre {
 
 FacetView facet_view(Float3 wo, FacetDistribution distribution, Float2 alpha, bool isotropic) {
   const Float cosine = saturate(wo.z);
-  if (isotropic) {
-    return {.distribution = distribution, .cosine = cosine, .masked = cosine, .alpha = alpha.x};
-  }
-  const Float x2 = square(alpha.x * wo.x);
-  const Float y2 = square(alpha.y * wo.y);
-  const auto masked = [&](Float roughness) {
-    const Float z = roughness * cosine;
-    return saturate(z / max(sqrt(x2 + y2 + square(z)), 1e-15f));
-  };
+  FacetView equal{
+      .distribution = distribution, .cosine = cosine, .masked = cosine, .alpha = alpha.x};
+  if (isotropic) return equal;
+  equal.anisotropic = true;
+  equal.wide_masked = cosine;
+  equal.wide = max(alpha.x, alpha.y);
+  equal.ratio = min(alpha.x, alpha.y) / equal.wide;
+  const Bool is_stretched = alpha.x != alpha.y;
   const Float mean = sqrt(0.5f * fma(alpha.x, alpha.x, square(alpha.y)));
-  const Float wide = max(alpha.x, alpha.y);
-  const Float narrow2 = select(alpha.x < alpha.y, x2, y2);
-  return {.distribution = distribution,
-          .cosine = cosine,
-          .masked = masked(mean),
-          .alpha = mean,
-          .anisotropic = true,
-          .wide_masked = masked(wide),
-          .wide = wide,
-          .ratio = min(alpha.x, alpha.y) / wide,
-          .across = narrow2 / max(x2 + y2, 1e-30f)};
+  equal.alpha = select(is_stretched, mean, alpha.x);
+  // Materials whose roughness varies are mostly equal on both axes.
+  return if_any(is_stretched, equal, [&] {
+    const Float x2 = square(alpha.x * wo.x);
+    const Float y2 = square(alpha.y * wo.y);
+    const auto masked = [&](Float roughness) {
+      const Float z = roughness * cosine;
+      return saturate(z / max(sqrt(x2 + y2 + square(z)), 1e-15f));
+    };
+    FacetView stretched = equal;
+    stretched.masked = masked(mean);
+    stretched.wide_masked = masked(equal.wide);
+    const Float narrow2 = select(alpha.x < alpha.y, x2, y2);
+    stretched.across = narrow2 / max(x2 + y2, 1e-30f);
+    return stretched;
+  });
 }
 
 namespace {
@@ -56,7 +60,6 @@ FacetReflection facet_reflection(Recorder& recorder, const FacetView& view) {
               table_axes::angle(view.masked, view.alpha), table_axes::roughness(view.alpha));
   Float albedo = found[0];
   if (view.anisotropic) {
-    // Materials whose roughness varies are mostly equal on both axes.
     albedo = if_any(view.ratio < 1.0f, albedo, [&] { return stretched_albedo(recorder, view); });
   }
   return {clamp(albedo, 0.05f, 1.0f), saturate(found[1] + view.cosine),

@@ -28,6 +28,10 @@ struct FacetView {
   Float ratio = 1.0f;        ///< The narrower over it.
   Float across = 0.0f;       ///< Part of the masking that the narrower axis has, in [0, 1].
 };
+template <class F>
+void visit(FacetView& view, F&& f) {
+  f(view.masked), f(view.wide_masked), f(view.across);  // The rest is of the surface.
+}
 FacetView facet_view(Float3 wo, FacetDistribution distribution, Float2 alpha, bool isotropic);
 
 /// Measured against quadrature (tests/pbs/energy_test.cpp: alpha 0.01 to 1, cosines from 0.05):

@@ -53,21 +53,26 @@ Polarised fresnel_conductor_polarised(Float cosine, Float n, Float k) {
   const Float grazing = fma(cosine, cosine, fma(-k, k, excess(n)));
   const Float t = select(cosine2 < 0.25f, grazing, fma(n - k, n + k, -sine2));
   const Float product = n * k;
-  const Float modulus = sqrt(fma(t, t, 4.0f * square(product)));
-  const Float greater = sqrt(0.5f * (modulus + abs(t)));
-  const Float smaller = product / max(greater, tiny);
+  const Float product2 = square(product);
+  const Float modulus = sqrt(fma(t, t, 4.0f * product2));
+  const Float greater2 = 0.5f * (modulus + abs(t));
+  const Float greater = sqrt(greater2);
   const Bool mostly_real = t > 0.0f;
-  const Float a = select(mostly_real, greater, smaller);
-  const Float b2 = square(select(mostly_real, smaller, greater));
-  // r_s^2 and r_p^2 / r_s^2, over their common denominator: the first is 1 at least where the other
-  // is small.
-  const Float below_s = square(a + cosine) + b2 + tiny;
-  const Float ac = a * cosine;
-  const Float bc2 = b2 * cosine2;
-  const Float below_p = square(ac + sine2) + bc2 + tiny;
-  const Float s = (square(a - cosine) + b2 + tiny) / (below_s * below_p);
-  const Float p = square(ac - sine2) + bc2 + tiny;
-  return {min(s * below_p, 1.0f), min(s * p, 1.0f)};
+  // Times the greater: so the other needs no division, nor does anything but the whole, over the
+  // common denominator of r_s^2 and r_p^2 / r_s^2.
+  const Float a = select(mostly_real, greater2, product);
+  const Float b2 = select(mostly_real, product2, square(greater2)) + tiny;
+  const Float sum_s = fma(cosine, greater, a), difference_s = fma(-cosine, greater, a);
+  const Float below_s = fma(sum_s, sum_s, b2);
+  const Float above_s = fma(difference_s, difference_s, b2);
+  const Float slope = sine2 * greater;
+  const Float sum_p = fma(a, cosine, slope), difference_p = fma(a, cosine, -slope);
+  const Float bc2 = fma(b2, cosine2, tiny);
+  const Float below_p = fma(sum_p, sum_p, bc2);
+  const Float above_p = fma(difference_p, difference_p, bc2);
+  // The first is 1 at least where the other is small.
+  const Float s = above_s / (below_s * below_p);
+  return {min(s * below_p, 1.0f), min(s * above_p, 1.0f)};
 }
 
 Color3 fresnel_conductor(Float cosine, Color3 n, Color3 k) {

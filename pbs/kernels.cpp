@@ -7,9 +7,9 @@
 #include <string>
 
 #include "pbs/color_channels.h"
+#include "pbs/common_facets.h"
 #include "pbs/emission.h"
 #include "pbs/enclosed.h"
-#include "pbs/microfacet_reflection.h"
 #include "pbs/sampling.h"
 #include "pbs/term.h"
 #include "pbs/transport.h"
@@ -235,7 +235,7 @@ class SurfaceRecorder {
     Color3 weight = Color3(1.0f);
     Float probability = 1.0f;
     Float below = 0.0f;
-    std::vector<Choice> choices;
+    std::vector<LobeChoice> choices;
     for (std::size_t i = 0; i < scattering_.size(); ++i) {
       const Term& term = scattering_[i];
       const ScopedOrigin of_lobe(recorder_, term.origin);
@@ -254,13 +254,7 @@ class SurfaceRecorder {
     finish_sample(sample_chosen(u, choices), lobe, weight, probability);
   }
 
-  /// Where a lobe was chosen, and what is left of the number that chose it: in [0, 1).
-  struct Choice {
-    Bool mine;
-    Float again;
-  };
-
-  LobeSample sample_chosen(Float3 u, const std::vector<Choice>& choices) {
+  LobeSample sample_chosen(Float3 u, const std::vector<LobeChoice>& choices) {
     LobeSample chosen{.wi = Float3(0.0f, 0.0f, 1.0f), .valid = false};
     std::vector<bool> is_done(choices.size(), false);
     for (std::size_t i = 0; i < choices.size() && may_go_on(); ++i) {
@@ -268,9 +262,11 @@ class SurfaceRecorder {
       const Term& term = scattering_[i];
       const ScopedOrigin of_lobe(recorder_, term.origin);
       Bool mine = choices[i].mine;
-      const std::optional<Facets> facets = facets_of_all(i, choices, mine, is_done);
+      const std::optional<Facets> facets =
+          request_.lobes_wanted ? std::nullopt
+                                : common_facets(scattering_, choices, i, mine, is_done);
       chosen = if_any(mine, chosen, [&] {
-        if (facets) return sample_reflection(*facets, view_, u);
+        if (facets) return sample_common(*facets, scattering_, choices, view_, u);
         LobeSample sample = term.lobe->sample(wanting(view_, term), {u.x, u.y, choices[i].again});
         if (request_.lobes_wanted) {
           sample.valid = sample.valid & is_wanted_side(term, view_, sample.wi);
@@ -279,27 +275,6 @@ class SurfaceRecorder {
       });
     }
     return chosen;
-  }
-
-  /// Of lobes that do nothing but reflect about facets of one frame, one is sampled: with the
-  /// roughness of that which was chosen, wherever it is lobe `first` or one of the later ones,
-  /// which are done then. Nothing where `first` is no such lobe or there is no other.
-  std::optional<Facets> facets_of_all(std::size_t first, const std::vector<Choice>& choices,
-                                      Bool& mine, std::vector<bool>& is_done) const {
-    const Facets* const own = scattering_[first].lobe->reflecting_facets();
-    if (own == nullptr || request_.lobes_wanted) return std::nullopt;
-    Facets all = *own;
-    bool has_other = false;
-    for (std::size_t k = first + 1; k < choices.size(); ++k) {
-      const Facets* const other = scattering_[k].lobe->reflecting_facets();
-      if (other == nullptr || !have_one_frame(all, *other)) continue;
-      const Float x = select(choices[k].mine, other->alpha.x, all.alpha.x);
-      const Float y = all.isotropic ? x : select(choices[k].mine, other->alpha.y, all.alpha.y);
-      all.alpha = {x, y};
-      mine = mine | choices[k].mine;
-      is_done[k] = has_other = true;
-    }
-    return has_other ? std::optional(all) : std::nullopt;
   }
 
   void finish_sample(const LobeSample& chosen, Int lobe, Color3 weight, Float probability) {

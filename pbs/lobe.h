@@ -95,6 +95,8 @@ class Lobe {
   virtual LobeSample sample(const View& view, Float3 u) const = 0;
   /// Facets that sample() reflects about, whatever else the lobe is; null of other lobes.
   virtual const Facets* reflecting_facets() const { return nullptr; }
+  /// LobeSample::delta_weight of such a lobe where it is smooth.
+  virtual Color3 mirrored(const View& view) const { return (void)view, Color3(0.0f); }
   /// Fraction of the light from wo that leaves again: in [0, 1]. What lobes are
   /// selected by, and the `albedo` kernel's answer.
   virtual Color3 albedo(const View& view) const = 0;

@@ -29,10 +29,13 @@ MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view,
   const Color3 albedo(perfect.albedo);
   const Color3 kept = is_scaled ? fma(fresnel, Color3(1.0f) - albedo, albedo) : albedo;
   const Color3 rough = saturate(fresnel * kept);
-  if (facets_.delta.is_constant(false)) return {factor, rough};
+  return {factor, if_any(facets_.delta, rough, [&] { return mirror_fresnel(view); })};
+}
+
+/// What a mirror reflects.
+Color3 MicrofacetReflection::mirror_fresnel(const View& view) const {
   const LocalView local = facets_.look(view);
-  const Bool inside = local.below & !view.thin_walled;
-  return {factor, select(facets_.delta, fresnel_->at(local.wo.z, inside), rough)};
+  return fresnel_->at(local.wo.z, local.below & !view.thin_walled);
 }
 
 MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view) const {
@@ -68,11 +71,14 @@ void MicrofacetReflection::adopt(const View& view, Bool mask, const Terms& terms
   terms_.prepare(view, mask, [&] { return terms; });
 }
 
+namespace {
+
 /// A lobe that is turned half round the normal sends light back.
-Float3 MicrofacetReflection::turned(Float3 wi) const {
-  const Bool back = options_.retroreflective;
+Float3 turned(Float3 wi, Bool back) {
   return {select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};
 }
+
+}  // namespace
 
 /// Directions in the frame of the facets, which lobes of one normal have in common.
 struct MicrofacetReflection::Pair {
@@ -83,7 +89,7 @@ struct MicrofacetReflection::Pair {
 
 MicrofacetReflection::Pair MicrofacetReflection::pair(const LocalView& local,
                                                       Float3 wi_world) const {
-  const Float3 wi = turned(local.frame.to_local(wi_world));
+  const Float3 wi = turned(local.frame.to_local(wi_world), options_.retroreflective);
   const Float3 h = local.wo + wi;
   const Float length2 = dot(h, h);
   return {wi, h, length2, saturate(0.5f * sqrt(length2))};
@@ -131,32 +137,30 @@ LobeSample sample_along(const LocalView& local, Float3 wi) {
 
 }  // namespace
 
-LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u) {
+LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u, Bool back) {
   const LocalView local = facets.look(view);
-  const Float3 h = facets.sample_reflecting(*view.recorder, local.wo, u.x, u.y);
-  return sample_along(local, reflect_about(local.wo, h));
+  const Float3 wo = local.wo;
+  const Float3 h = facets.sample_reflecting(*view.recorder, wo, u.x, u.y);
+  const Float3 mirrored{-wo.x, -wo.y, wo.z};
+  const Float3 wi = select(facets.delta, mirrored, reflect_about(wo, h));
+  LobeSample sample = sample_along(local, turned(wi, back));
+  sample.delta = facets.delta;
+  if (!facets.delta.is_constant(false)) sample.delta_probability = 1.0f;
+  return sample;
 }
 
-/// Not of mirrors, nor of light that is sent back.
+/// Not of light that is sent back.
 const Facets* MicrofacetReflection::reflecting_facets() const {
-  const bool is_plain =
-      facets_.delta.is_constant(false) && options_.retroreflective.is_constant(false);
-  return is_plain ? &facets_ : nullptr;
+  return options_.retroreflective.is_constant(false) ? &facets_ : nullptr;
+}
+
+Color3 MicrofacetReflection::mirrored(const View& view) const {
+  return if_any(facets_.delta, Color3(0.0f), [&] { return options_.tint * mirror_fresnel(view); });
 }
 
 LobeSample MicrofacetReflection::sample(const View& view, Float3 u) const {
-  const LocalView local = facets_.look(view);
-  const Float3 wo = local.wo;
-  const Float3 h = facets_.sample_reflecting(*view.recorder, wo, u.x, u.y);
-  const Float3 mirrored{-wo.x, -wo.y, wo.z};
-  const Float3 wi = turned(select(facets_.delta, mirrored, reflect_about(wo, h)));
-  LobeSample sample = sample_along(local, wi);
-  sample.delta = facets_.delta;
-  if (!facets_.delta.is_constant(false)) {
-    const Bool inside = local.below & !view.thin_walled;
-    sample.delta_weight = options_.tint * fresnel_->at(wo.z, inside);
-    sample.delta_probability = 1.0f;
-  }
+  LobeSample sample = sample_reflection(facets_, view, u, options_.retroreflective);
+  sample.delta_weight = mirrored(view);
   return sample;
 }
 

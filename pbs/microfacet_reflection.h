@@ -6,8 +6,9 @@
 
 namespace nacre {
 
-/// A direction that facets reflect a view to.
-LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u);
+/// A direction that facets reflect a view to, or send it `back`; of smooth ones without
+/// LobeSample::delta_weight.
+LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u, Bool back = false);
 
 /// Light reflected once by GGX facets, scaled up for what several reflections
 /// bring back (pbs/energy.h). Smooth surfaces are mirrors. Reciprocal but for
@@ -34,6 +35,7 @@ class MicrofacetReflection final : public Lobe {
   void share_direction(const View& view, Float3 wi) const override;
   LobeSample sample(const View& view, Float3 u) const override;
   const Facets* reflecting_facets() const override;
+  Color3 mirrored(const View& view) const override;
   Color3 albedo(const View& view) const override;
   Color3 presence(const View&) const override { return options_.tint; }
   Color3 throughput(const View& view) const override;
@@ -65,10 +67,10 @@ class MicrofacetReflection final : public Lobe {
 
  private:
   Terms compute(const View& view) const;
+  Color3 mirror_fresnel(const View& view) const;
   /// From a table, where they may come of one.
   std::optional<Terms> tabulated(const View& view) const;
   Terms terms(const View& view) const;
-  Float3 turned(Float3 wi) const;
   struct Pair;
   Pair pair(const LocalView& local, Float3 wi_world) const;
 

@@ -30,6 +30,11 @@ void FunctionEmitter::emit(ValueId id) {
     if (parts_->home[id] != 0) enter_part(parts_->home[id]);
   }
   say_line(id + 1);
+  if (rows_ != nullptr && rows_->is_in_group[id]) {
+    const auto group = rows_->groups.find(id);
+    if (group != rows_->groups.end()) emit_group(group->second);
+    return;
+  }
   if (llvm::Value* value = op(*this, id)) define(id, to_stored(value));
   // Not before: several phis stand together.
   for (const ValueId made : to_store_) {

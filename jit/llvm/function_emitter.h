@@ -9,6 +9,7 @@
 #include "jit/llvm/module_emitter.h"
 #include "jit/llvm/parts.h"
 #include "jit/llvm/region.h"
+#include "jit/llvm/rows.h"
 #include "runtime/kernel.h"
 
 namespace nacre::codegen {
@@ -22,6 +23,9 @@ class FunctionEmitter {
 
   /// Cuts what is emitted from here on into parts, which have to live as long.
   void cut(const Parts& parts);
+  /// Has what is emitted from here on read rows, which have to live as long, and makes those where
+  /// there are as many points as they are worth. Not of an entry that is cut.
+  void fill(const Rows& rows, llvm::Value* points);
   /// Emits instruction `id` where the builder stands, or in its part.
   void emit(ValueId id);
   /// The builder stands in the function itself again.
@@ -108,6 +112,11 @@ class FunctionEmitter {
   llvm::Value* place_of(ValueId id);
   llvm::Align align_of(ValueId id) const;
 
+  void emit_group(const RowGroup& group);
+  /// Emits steps of rows, anew, of the index as it is defined now. Who calls sees to it that what
+  /// was defined before is so again.
+  void compute(const std::vector<ValueId>& steps);
+
   ModuleEmitter& module_;
   const Function& function_;
   llvm::Function* into_;
@@ -120,6 +129,9 @@ class FunctionEmitter {
   std::optional<Outside> outside_;
   llvm::Value* frame_ = nullptr;
   std::vector<ValueId> to_store_;  ///< Defined by what is being emitted, for other parts.
+  const Rows* rows_ = nullptr;
+  std::vector<llvm::Value*> row_arrays_;  ///< Of Rows::rows.
+  llvm::Value* has_rows_ = nullptr;       ///< Whether they are filled.
 };
 
 /// Emits one instruction and returns its value, or null if it has none.

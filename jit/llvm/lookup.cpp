@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <vector>
 
+#include "jit/llvm/gather.h"
 #include "runtime/program/fold.h"
 
 namespace nacre::codegen {
@@ -32,8 +34,15 @@ bool is_of_bytes(Permute cpu) { return cpu.lanes == 4; }
 /// Pieces of a table that are worth permuting and blending.
 std::size_t most_pieces(Permute cpu) { return is_of_bytes(cpu) ? 1 : 4; }
 
-/// Table entries first ... first + count - 1; beyond the end, zeros nobody asks for.
-Value* entries(FunctionEmitter& e, const std::vector<float>& values, std::size_t first, int count) {
+/// What is looked up in.
+struct Entries {
+  std::size_t size;
+  /// Those from `first` on as a vector of `count`; beyond the end, what nobody asks for.
+  std::function<Value*(std::size_t first, int count)> from;
+};
+
+Value* constant_entries(FunctionEmitter& e, const std::vector<float>& values, std::size_t first,
+                        int count) {
   std::vector<llvm::Constant*> elements;
   for (std::size_t k = first; k < first + static_cast<std::size_t>(count); ++k) {
     const float value = k < values.size() ? values[k] : 0.0f;
@@ -44,17 +53,17 @@ Value* entries(FunctionEmitter& e, const std::vector<float>& values, std::size_t
 
 /// The piece of the table from `first` on, permuted. Only the low bits of the
 /// index count.
-Value* permute(FunctionEmitter& e, const std::vector<float>& values, std::size_t first,
-               Value* index, Permute cpu) {
+Value* permute(FunctionEmitter& e, const Entries& entries, std::size_t first, Value* index,
+               Permute cpu) {
   Builder& b = e.builder();
-  Value* low = entries(e, values, first, cpu.lanes);
+  Value* low = entries.from(first, cpu.lanes);
   const bool one_register =
-      cpu.entries == cpu.lanes || values.size() <= first + static_cast<std::size_t>(cpu.lanes);
+      cpu.entries == cpu.lanes || entries.size <= first + static_cast<std::size_t>(cpu.lanes);
   if (one_register && cpu.lanes == 16) {
     return b.CreateIntrinsic(llvm::Intrinsic::x86_avx512_permvar_sf_512, {}, {low, index});
   }
   if (one_register) return b.CreateIntrinsic(llvm::Intrinsic::x86_avx2_permps, {}, {low, index});
-  Value* high = entries(e, values, first + static_cast<std::size_t>(cpu.lanes), cpu.lanes);
+  Value* high = entries.from(first + static_cast<std::size_t>(cpu.lanes), cpu.lanes);
   const auto both = cpu.lanes == 16 ? llvm::Intrinsic::x86_avx512_vpermi2var_ps_512
                                     : llvm::Intrinsic::x86_avx512_vpermi2var_ps_256;
   return b.CreateIntrinsic(both, {}, {low, index, high});
@@ -88,15 +97,13 @@ Value* permute_bytes(FunctionEmitter& e, const std::vector<float>& values, Value
 }
 
 /// For as many lanes as the CPU permutes at once.
-Value* look_up_native(FunctionEmitter& e, const std::vector<float>& values, Value* index,
-                      Permute cpu) {
-  if (is_of_bytes(cpu)) return permute_bytes(e, values, index, cpu);
+Value* look_up_native(FunctionEmitter& e, const Entries& entries, Value* index, Permute cpu) {
   const auto step = static_cast<std::size_t>(cpu.entries);
-  Value* result = permute(e, values, 0, index, cpu);
-  for (std::size_t first = step; first < values.size(); first += step) {
+  Value* result = permute(e, entries, 0, index, cpu);
+  for (std::size_t first = step; first < entries.size; first += step) {
     Value* reaches =
         e.builder().CreateICmpUGE(index, e.i32(static_cast<std::uint32_t>(first), cpu.lanes));
-    result = e.builder().CreateSelect(reaches, permute(e, values, first, index, cpu), result);
+    result = e.builder().CreateSelect(reaches, permute(e, entries, first, index, cpu), result);
   }
   return result;
 }
@@ -107,20 +114,21 @@ std::vector<int> range(int first, int count) {
   return indices;
 }
 
-Value* look_up_parts(FunctionEmitter& e, const std::vector<float>& values, Value* index, int lanes,
-                     Permute cpu) {
+/// native(index): look_up_native() or the like.
+Value* look_up_parts(FunctionEmitter& e, const std::function<Value*(Value* index)>& native,
+                     Value* index, int lanes, Permute cpu) {
   Builder& b = e.builder();
-  if (lanes == cpu.lanes) return look_up_native(e, values, index, cpu);
+  if (lanes == cpu.lanes) return native(index);
   if (lanes < cpu.lanes) {
     std::vector<int> widened = range(0, cpu.lanes);
     for (int& k : widened) k = std::min(k, lanes);
     Value* wide = b.CreateShuffleVector(index, e.i32(0, lanes), widened);
-    return b.CreateShuffleVector(look_up_native(e, values, wide, cpu), range(0, lanes));
+    return b.CreateShuffleVector(native(wide), range(0, lanes));
   }
   const int half = lanes / 2;
   const auto part = [&](int first) {
     Value* indices = b.CreateShuffleVector(index, range(first, half));
-    return look_up_parts(e, values, indices, half, cpu);
+    return look_up_parts(e, native, indices, half, cpu);
   };
   Value* low = part(0);
   return b.CreateShuffleVector(low, part(half), range(0, lanes));
@@ -143,7 +151,35 @@ bool ignores_high_bits(const Features& features, std::size_t entries, int lanes)
 
 llvm::Value* look_up_in_registers(FunctionEmitter& e, const std::vector<float>& values,
                                   llvm::Value* index, int lanes) {
-  return look_up_parts(e, values, index, lanes, permute_of(e.module().features(), lanes));
+  const Permute cpu = permute_of(e.module().features(), lanes);
+  const Entries entries{values.size(), [&](std::size_t first, int count) {
+                          return constant_entries(e, values, first, count);
+                        }};
+  const auto native = [&](Value* part) {
+    return is_of_bytes(cpu) ? permute_bytes(e, values, part, cpu)
+                            : look_up_native(e, entries, part, cpu);
+  };
+  return look_up_parts(e, native, index, lanes, cpu);
+}
+
+llvm::Value* look_up_in_row(FunctionEmitter& e, llvm::Value* row, std::uint32_t count,
+                            llvm::Value* index, int lanes) {
+  const Permute cpu = permute_of(e.module().features(), lanes);
+  const bool fits = fits_registers(e.module().features(), count, lanes) && !is_of_bytes(cpu);
+  if (!fits) return gather(e, Scalar::f32, row, index, lanes);
+  const Entries entries{
+      count, [&](std::size_t first, int width) -> Value* {
+        Value* from = e.byte_offset(row, first * sizeof(float));
+        const llvm::Align align(static_cast<std::uint64_t>(width) * sizeof(float));
+        return e.builder().CreateAlignedLoad(e.module().type(Scalar::f32, width), from, align);
+      }};
+  const auto native = [&](Value* part) { return look_up_native(e, entries, part, cpu); };
+  return look_up_parts(e, native, index, lanes, cpu);
+}
+
+std::uint32_t row_room(std::uint32_t count) {
+  constexpr std::uint32_t step = 32;  // The most that are permuted at once.
+  return (count + step - 1) / step * step;
 }
 
 }  // namespace nacre::codegen

@@ -20,4 +20,11 @@ bool ignores_high_bits(const Features& features, std::size_t entries, int lanes)
 llvm::Value* look_up_in_registers(FunctionEmitter& emitter, const std::vector<float>& values,
                                   llvm::Value* index, int lanes);
 
+/// Number `index` of a row in memory, for each lane; the index is in range. There is room for
+/// row_room() of them.
+llvm::Value* look_up_in_row(FunctionEmitter& emitter, llvm::Value* row, std::uint32_t count,
+                            llvm::Value* index, int lanes);
+/// `count` and what is loaded beyond.
+std::uint32_t row_room(std::uint32_t count);
+
 }  // namespace nacre::codegen

@@ -254,7 +254,8 @@ class ChiangHair final : public Lobe {
     const auto passes = [&](Float absorption) { return exp(-absorption * path); };
     const Color3 passed{passes(in_.absorption.x), passes(in_.absorption.y),
                         passes(in_.absorption.z)};
-    share_out(terms, fresnel_dielectric(saturate(wo.cosine * terms.across.sine), in_.index), passed);
+    share_out(terms, fresnel_dielectric(saturate(wo.cosine * terms.across.sine), in_.index),
+              passed);
     return terms;
   }
 

@@ -72,12 +72,14 @@ std::vector<Float> interpolate(Recorder& recorder, std::uint32_t table,
           Float(recorder.emit(Op::table, std::span(&index, 1), table));
     }
   }
-  for (const Float& fraction : fractions) {
-    for (std::size_t k = 0; k < corners.size() / 2; ++k) {
-      const std::size_t low = 2 * (k / per_node) * per_node + k % per_node;
-      corners[k] = lerp(corners[low], corners[low + per_node], fraction);
+  // The last axis first: of those on which all points of a call have one place, engines make rows
+  // along the first.
+  for (std::size_t axis = fractions.size(); axis-- > 0;) {
+    const std::size_t half = corners.size() / 2;
+    for (std::size_t k = 0; k < half; ++k) {
+      corners[k] = lerp(corners[k], corners[k + half], fractions[axis]);
     }
-    corners.resize(corners.size() / 2);
+    corners.resize(half);
   }
   return corners;
 }

@@ -35,4 +35,15 @@ std::vector<bool> once_per_call(const Function& entry) {
   return once;
 }
 
+std::vector<bool> once_out_of_regions(const Function& entry) {
+  std::vector<bool> once = once_per_call(entry);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    const Op op = entry.code[i].op;
+    const bool stays = is_structural(op) || op == Op::call || op == Op::texture_call ||
+                       op == Op::result || op == Op::keep;
+    once[i] = once[i] || (!stays && uniform(entry, i, i + 1, once));
+  }
+  return once;
+}
+
 }  // namespace nacre

@@ -85,8 +85,8 @@ Answers answers_of(const Shader& shader, const std::vector<Direction>& wo,
 }
 
 /// The relative difference that 999 of 1000 stay below, of numbers that are at least a millionth of
-/// the largest. Differences of less than a squared rounding are none: a reflectance of 0, which is a
-/// square, may come out as that.
+/// the largest. Differences of less than a squared rounding are none: a reflectance of 0, which is
+/// a square, may come out as that.
 double apart(const std::vector<float>& a, const std::vector<float>& b) {
   const double peak = *std::ranges::max_element(a), least = 0x1p-48 / most_apart;
   std::vector<double> differences;
