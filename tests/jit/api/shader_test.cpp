@@ -61,6 +61,33 @@ TEST(ApiShader, ListedPointsGetWhatAllOfThemGet) {
   EXPECT_TRUE(parts.same_results(all));
 }
 
+// Calls of many points make tables of their own; of few points they do not.
+TEST(ApiShader, CallsOfAnySizeGiveTheSameBits) {
+  for (const int accuracy : {NACRE_PRECISE, NACRE_STANDARD, NACRE_FAST}) {
+    CompileOptions options = live({"*"});
+    options.accuracy = accuracy;
+    const Shader shader = compiled(surface_document("0.8, 0.3, 0.1", "0.5"), options);
+    SurfacePoints all(count);
+    all.shade(shader);
+    const std::vector<std::uint32_t> sizes{1, 7, 30, 100, 150};
+    std::uint32_t first = 0;
+    for (std::size_t k = 0; first < count; ++k) {
+      std::vector<std::uint32_t> list;
+      for (std::uint32_t i = 0; i < sizes[k % sizes.size()] && first < count; ++i) {
+        list.push_back(first++);
+      }
+      SurfacePoints some(count);
+      some.shade(shader, nullptr, &list);
+      for (const std::uint32_t i : list) {
+        ASSERT_EQ(some.f[3 * i], all.f[3 * i]) << accuracy << ' ' << i;
+        ASSERT_EQ(some.weight[3 * i + 1], all.weight[3 * i + 1]) << accuracy << ' ' << i;
+        ASSERT_EQ(some.sample_pdf[i], all.sample_pdf[i]) << accuracy << ' ' << i;
+        ASSERT_EQ(some.albedo[3 * i + 2], all.albedo[3 * i + 2]) << accuracy << ' ' << i;
+      }
+    }
+  }
+}
+
 TEST(ApiShader, AnInstanceIsTheDocumentWithItsValues) {
   const Shader shader = compiled(surface_document("0.8, 0.3, 0.1"), live({"S/*"}));
   Instance instance(shader);
