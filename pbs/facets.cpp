@@ -136,8 +136,10 @@ Color3 FacetFresnel::mean(Recorder& recorder, const FacetReflection& reflection,
     const Bool from_inside = index() < 1.0f;
     const Color3 two = reflection.mean([&](Float c) { return at(c, from_inside); });
     if (!has_sum || !covers_dielectric()) return two;
-    const Color3 all = with_rest(reflection.dielectric, max(index(), 1.0f / index()), false);
-    return fma(all - two, Color3(reflection.summed), two);
+    return if_any(reflection.summed > 0.0f, two, [&] {
+      const Color3 all = with_rest(reflection.dielectric, max(index(), 1.0f / index()), false);
+      return fma(all - two, Color3(reflection.summed), two);
+    });
   };
   return choose(inside ^ (index() < 1.0f), leaving, entering);
 }

@@ -31,14 +31,17 @@ void emit_entry(ModuleEmitter& module, llvm::Function& into) {
     return e.load_invariant(type, e.byte_offset(e.kernel_arguments, offset), name);
   };
   Value* count = field(offsetof(KernelArguments, count), b.getInt64Ty(), "count");
-  const std::vector<bool> once = once_out_of_regions(e.function());
+  std::vector<bool> once = once_per_call(e.function());
   const Parts parts = cut_into_parts(e.function(), once, module.options());
   e.cut(parts);
-  emit_part(e, once, true);
   Rows rows;
   const bool has_rows =
       parts.count == 0 && module.lanes() > 1 && module.options().tier == Tier::full;
-  if (has_rows) rows = find_rows(e.function(), once, module.lanes());
+  if (has_rows) {
+    rows = find_rows(e.function(), module.lanes());
+    once = rows.once;
+  }
+  emit_part(e, once, true);
   e.fill(rows, count);
 
   BasicBlock* before = b.GetInsertBlock();

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "runtime/program/once.h"
 #include "runtime/program/region.h"
 
 namespace nacre::codegen {
@@ -35,16 +36,20 @@ struct Linear {
 
 class Finder {
  public:
-  Finder(const Function& entry, const std::vector<bool>& once, int lanes)
-      : entry_(entry), once_(once), lanes_(static_cast<std::uint32_t>(lanes)) {}
+  Finder(const Function& entry, int lanes)
+      : entry_(entry),
+        once_(once_out_of_regions(entry)),
+        lanes_(static_cast<std::uint32_t>(lanes)) {}
 
   Rows find() {
+    result_.once = once_per_call(entry_);
     look_at_all();
     find_reads();
     if (!reads_.empty()) {
       make_rows();
       make_groups();
       find_what_only_groups_need();
+      take_out_of_regions();
       weigh();
     }
     return std::move(result_);
@@ -266,6 +271,23 @@ class Finder {
     }
   }
 
+  /// What rows are computed of is there before them.
+  void take_out_of_regions() {
+    std::vector<ValueId> open;
+    for (const auto& [first, group] : result_.groups) {
+      open.insert(open.end(), group.steps.begin(), group.steps.end());
+    }
+    while (!open.empty()) {
+      const ValueId id = open.back();
+      open.pop_back();
+      for (const ValueId operand : entry_.operands(at(id))) {
+        if (!once_[operand] || result_.once[operand]) continue;
+        result_.once[operand] = true;
+        open.push_back(operand);
+      }
+    }
+  }
+
   void weigh() {
     std::uint64_t filling = 0, saved = 0;
     for (const Row& row : result_.rows) {
@@ -279,7 +301,7 @@ class Finder {
   }
 
   const Function& entry_;
-  const std::vector<bool>& once_;
+  const std::vector<bool> once_;
   const std::uint32_t lanes_;
   std::vector<std::optional<Linear>> linear_;
   std::vector<ValueId> index_;
@@ -290,8 +312,6 @@ class Finder {
 
 }  // namespace
 
-Rows find_rows(const Function& entry, const std::vector<bool>& once, int lanes) {
-  return Finder(entry, once, lanes).find();
-}
+Rows find_rows(const Function& entry, int lanes) { return Finder(entry, lanes).find(); }
 
 }  // namespace nacre::codegen

@@ -35,10 +35,11 @@ struct Rows {
   std::map<ValueId, RowGroup> groups;  ///< By the first value.
   /// By instruction: only groups need it, and emit it themselves.
   std::vector<bool> is_in_group;
+  std::vector<bool> once;          ///< once_per_call, and what rows need out of regions.
   std::uint64_t least_points = 0;  ///< From so many on rows take less time than they save.
 };
 
-/// Of an entry that is emitted for so many lanes; `once`: see once_out_of_regions.
-Rows find_rows(const Function& entry, const std::vector<bool>& once, int lanes);
+/// Of an entry that is emitted for so many lanes.
+Rows find_rows(const Function& entry, int lanes);
 
 }  // namespace nacre::codegen

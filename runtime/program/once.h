@@ -10,9 +10,8 @@ namespace nacre {
 /// every region that are uniform and need only such ones, and regions in which all are.
 std::vector<bool> once_per_call(const Function& entry);
 
-/// The same with what regions compute of such values alone, and nobody can tell whether it was
-/// computed: for engines that take it out of them. A region that no lane wants may then cost
-/// something, but once a call.
+/// The same with what regions compute of such values alone and nobody can tell whether it was: what
+/// an engine may take out of them.
 std::vector<bool> once_out_of_regions(const Function& entry);
 
 }  // namespace nacre

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "runtime/interpreter/interpreter.h"
-#include "runtime/program/once.h"
 #include "runtime/program/slice.h"
 #include "runtime/value/control.h"
 #include "runtime/value/vector.h"
@@ -92,9 +91,7 @@ std::vector<float> places(std::size_t count) {
   return x;
 }
 
-codegen::Rows rows_of(const Program& program) {
-  return codegen::find_rows(program.entry(), once_out_of_regions(program.entry()), 16);
-}
+codegen::Rows rows_of(const Program& program) { return codegen::find_rows(program.entry(), 16); }
 
 TEST(Rows, AreFoundWhereOneAxisVaries) {
   const codegen::Rows found = rows_of(look_up_where_positive(24, 0.3f, false));

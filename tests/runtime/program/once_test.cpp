@@ -12,8 +12,9 @@ namespace nacre {
 namespace {
 
 /// The operations of a kind that are computed once a call, and all of them.
-std::pair<int, int> counted(const Program& program, Op op) {
-  const std::vector<bool> once = once_per_call(program.entry());
+std::pair<int, int> counted(const Program& program, Op op, bool out_of_regions = false) {
+  const std::vector<bool> once =
+      out_of_regions ? once_out_of_regions(program.entry()) : once_per_call(program.entry());
   std::pair<int, int> count;
   for (std::size_t i = 0; i < once.size(); ++i) {
     if (program.entry().code[i].op != op) continue;
@@ -46,6 +47,10 @@ TEST(Once, RegionsThatNeedAPointAreNot) {
   const Program program = slice(recorder.program(), "test", outputs);
   EXPECT_EQ(counted(program, Op::if_any).first, 0);
   EXPECT_EQ(counted(program, Op::sqrt).first, 0);
+  // But what they compute of parameters alone can be known before.
+  EXPECT_EQ(counted(program, Op::sqrt, true), std::pair(1, 1));
+  EXPECT_EQ(counted(program, Op::mul, true), std::pair(0, 1));
+  EXPECT_EQ(counted(program, Op::merge, true).first, 0);
 }
 
 }  // namespace
