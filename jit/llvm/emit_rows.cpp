@@ -19,6 +19,8 @@ void FunctionEmitter::compute(const std::vector<ValueId>& steps) {
 
 void FunctionEmitter::fill(const Rows& rows, Value* points) {
   if (rows.rows.empty()) return;
+  // As of a frame of parts.
+  into_->addFnAttr("probe-stack", "inline-asm");
   Builder& b = builder_;
   BasicBlock* filling = BasicBlock::Create(module_.context(), "rows", into_);
   BasicBlock* filled = BasicBlock::Create(module_.context(), "filled", into_);

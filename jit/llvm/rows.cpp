@@ -24,6 +24,8 @@ constexpr std::uint32_t most_numbers = 256;
 /// Places that values of one row lie apart: the two nodes of a look-up, and a few more.
 constexpr std::uint32_t most_shift = 3;
 
+constexpr std::uint32_t of_several = 1u << 31;
+
 constexpr std::array row_ops{Op::add, Op::sub, Op::mul, Op::div, Op::fma,
                              Op::min, Op::max, Op::neg, Op::abs, Op::sqrt};
 
@@ -58,8 +60,8 @@ class Finder {
  private:
   struct Read {
     ValueId value;
-    std::uint32_t base;  ///< The least offset of the tables' indices.
-    std::uint32_t stride;
+    std::uint32_t base;    ///< The least offset of the tables' indices.
+    std::uint32_t stride;  ///< Of all of them, or of_several: then no other is a place apart.
   };
 
   const Instruction& at(ValueId id) const { return entry_.code[id]; }
@@ -166,12 +168,14 @@ class Finder {
   }
 
   void look_at_step(ValueId step, Read& read, bool& is_of_call) const {
-    for (const ValueId operand : entry_.operands(at(step)))
+    for (const ValueId operand : entry_.operands(at(step))) {
       is_of_call = is_of_call || once_[operand];
+    }
     if (at(step).op != Op::table) return;
     const Linear& place = *linear_[at(step).operands[0]];
     read.base = std::min(read.base, place.offset);
-    read.stride = place.stride;
+    const bool is_other = read.stride != 0 && read.stride != place.stride;
+    read.stride = is_other ? of_several : place.stride;
   }
 
   /// What differs by the index on the way to values of one index, in order.

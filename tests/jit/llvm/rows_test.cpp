@@ -102,6 +102,30 @@ TEST(Rows, AreFoundWhereOneAxisVaries) {
   EXPECT_TRUE(rows_of(look_up_where_positive(24, 0.3f, true)).rows.empty());
 }
 
+/// Two tables of one index, whose nodes lie other ways apart: a node further is no place further.
+TEST(Rows, OfTablesWithOtherStridesAreApart) {
+  Recorder recorder;
+  const Cell of_x = cell(input(recorder, "x"), 24);
+  const Float p(recorder.parameter("p", Scalar::f32, std::bit_cast<std::uint32_t>(0.3f)));
+  const std::uint32_t table = recorder.table("table", table_values(24));
+  const auto entry = [&](int stride, int offset) {
+    const Ref index = (of_x.first * Int(stride) + Int(offset)).ref();
+    return Float(recorder.emit(Op::table, std::span(&index, 1), table));
+  };
+  const auto both = [&](int offset) {
+    const Float threes = entry(3, offset), twos = entry(2, offset + 1);
+    return fma(threes, p, twos);
+  };
+  const std::vector<SliceOutput> outputs{{"a", lerp(both(0), both(2), of_x.fraction).ref()}};
+  const Program program = slice(recorder.program(), "look_up", outputs);
+  EXPECT_EQ(rows_of(program).rows.size(), 2u);
+  const auto kernel = compiled(program, {});
+  ASSERT_NE(kernel, nullptr);
+  Columns in{{"x", places(8 * rows_of(program).least_points)}};
+  for (float& x : in["x"]) x = std::isfinite(x) ? x : 0.5f;
+  EXPECT_EQ(run(*kernel, in).at("a"), run(*make_interpreter(program), in).at("a"));
+}
+
 TEST(Rows, GiveTheSameBitsOnEveryCpu) {
   for (const int nodes : {3, 24, 40, 150}) {
     for (const float p : {0.31f, std::nanf("")}) {
