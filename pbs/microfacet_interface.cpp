@@ -63,12 +63,15 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
         sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta, LobeOfFacets::joint);
     return lerp(light, sum, share);
   });
-  Color3 total = Color3(light.total);
-  if (!fresnel_->is_dielectric()) {
+  const auto inverse = [](Float total) { return 1.0f / max(total, 0.005f); };
+  const Color3 bare(inverse(light.total));
+  if (fresnel_->is_dielectric()) return bare;
+  const Float film = fresnel_->film_share();
+  const Bool is_other = fresnel_->covers_dielectric() ? film > 0.0f : Bool(true);
+  return if_any(is_other, bare, [&] {
     Color3 more = product(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed));
     // What a film does to the mean is not what it does to the facets that let light pass.
     const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
-    const Float film = fresnel_->film_share();
     const Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(10.0f, alpha, -1.0f));
     const Float by_sum = facets_.isotropic ? rough : max(facet_stretch(facets_.alpha), rough);
     more = if_any(by_sum > 0.0f, more, [&] {
@@ -76,9 +79,9 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
           sum_over_fresnel(recorder, view.accuracy, local.wo, facets_, *fresnel_, local.below);
       return fma(sum - more, Color3(by_sum), more);
     });
-    total = total + more;
-  }
-  return Color3(1.0f) / max(total, Color3(0.005f));
+    const Color3 total = Color3(light.total) + more;
+    return Color3{inverse(total.x), inverse(total.y), inverse(total.z)};
+  });
 }
 
 MicrofacetInterface::Terms MicrofacetInterface::compute(const View& from) const {
