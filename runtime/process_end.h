@@ -22,7 +22,8 @@ class AtWork {
 
 /// Has the end of the process wait for all who are at work, before it destroys any static object
 /// that exists now: to be called, once or more often, when what they read has been made. A child
-/// of fork() waits for its own threads alone, who ends the process not for itself.
+/// of fork() waits for none of its parent's threads, and a thread at work that ends the process
+/// does not wait for itself.
 void wait_for_work_at_exit();
 
 }  // namespace nacre
