@@ -85,13 +85,12 @@ Answers answers_of(const Shader& shader, const std::vector<Direction>& wo,
 }
 
 /// The relative difference that 999 of 1000 stay below, of numbers that are at least a millionth of
-/// the largest. Differences of less than a squared rounding are none: a reflectance of 0, which is
-/// a square, may come out as that.
+/// the largest.
 double apart(const std::vector<float>& a, const std::vector<float>& b) {
-  const double peak = *std::ranges::max_element(a), least = 0x1p-48 / most_apart;
+  const double peak = *std::ranges::max_element(a);
   std::vector<double> differences;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double scale = std::max({double(std::abs(a[i])), 1e-6 * peak, least});
+    const double scale = std::max({double(std::abs(a[i])), 1e-6 * peak, 1e-30});
     differences.push_back(std::abs(double(a[i]) - b[i]) / scale);
   }
   std::ranges::sort(differences);
