@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "jit/compile/fact_kernel.h"
 #include "jit/compile/lower.h"
 #include "jit/compile/two_widths.h"
 #include "jit/llvm/codegen.h"
@@ -42,10 +46,30 @@ bool is_refused(const Program& program, const CompileOptions& options, Diagnosti
 /// What code is known by that is made of a Program which lower_to_interface() has given.
 std::string key_of(const Program& program, const CompileOptions& options,
                    const CodegenOptions& codegen) {
-  return code_key(
-      program, codegen,
+  std::string way =
       fmt::format("lowered, at most {} instructions, tables within {}{}", options.max_instructions,
-                  table_error_of(options), options.all_varying ? ", all varying" : ""));
+                  table_error_of(options), options.all_varying ? ", all varying" : "");
+  for (const Fact& fact : facts_of(options.facts, program)) way += "; " + to_string(fact);
+  return code_key(program, codegen, way);
+}
+
+/// A kernel of a Program that lower_to_interface() has given, without what facts leave out: the
+/// interpreter's until there is machine code. `service` may be gone.
+std::shared_ptr<const Kernel> general_kernel(const Program& program, CompileOptions options,
+                                             const std::weak_ptr<CompileService>& service) {
+  options.facts.clear();
+  options.asynchronous = true;
+  options.whole = options.keep_text = options.dump_ir = options.dump_assembly = false;
+  options.stop = {};
+  const std::shared_ptr<CompileService> alive = service.lock();
+  if (alive != nullptr && options.backend == Backend::jit) {
+    Diagnostics said;
+    if (auto kernel = compile(program, options, alive.get(), said)) return kernel;
+  }
+  // What is too large for others is interpreted.
+  options.backend = Backend::interpreter;
+  options.max_instructions = std::size_t{1} << 31;
+  return make_interpreter(lower(program, options), options.max_steps);
 }
 
 /// LLVM's text of a Program as a stage more.
@@ -127,13 +151,17 @@ class Kernels {
   bool add(std::size_t place, Program program, std::vector<StageReport>* reports) {
     program = lower_to_interface(std::move(program), options_, reports);
     if (is_over(program)) return false;
+    if (has_check(program, options_)) note_general(place, program);
     std::vector<std::string> keys;
     if (!is_too_large(program, options_)) {
       const bool may_skip = !options_.whole && !options_.dump_ir && !options_.dump_assembly;
       std::size_t found = 0;
+      std::optional<Program> checked;
+      if (generals_.contains(place)) checked = with_checked_output(program);
+      const Program& bound = checked ? *checked : program;
       for (Width& width : widths_) {
         keys.push_back(key_of(program, options_, width.codegen()));
-        found += may_skip && width.find(place, program, keys.back(), *service_, diagnostics_);
+        found += may_skip && width.find(place, bound, keys.back(), *service_, diagnostics_);
       }
       if (found != 0 && found == widths_.size()) return true;
       program = lower_to_engine(std::move(program), options_, reports);
@@ -163,10 +191,29 @@ class Kernels {
       made_[i] = has_single ? of_two_widths(std::move(kernel), std::move(made.back()[i]))
                             : std::move(kernel);
     }
+    for (auto& [place, general] : generals_) {
+      if (made_[place] == nullptr) continue;
+      made_[place] = std::make_shared<FactKernel>(std::move(made_[place]), std::move(general));
+    }
     return std::move(made_);
   }
 
  private:
+  /// What its facts may not hold for.
+  void note_general(std::size_t place, const Program& program) {
+    std::weak_ptr<CompileService> service;
+    if (service_ != nullptr) service = service_->weak_from_this();
+    generals_[place] = [program, options = options_, service] {
+      return general_kernel(program, options, service);
+    };
+  }
+
+  /// What is bound to code that is there, of what is not lowered any further.
+  static Program with_checked_output(Program program) {
+    program.outputs.push_back({outside_facts_channel, Scalar::i32});
+    return program;
+  }
+
   bool is_over(const Program& program) {
     return report_if_due(options_.stop, fmt::format("making the kernel '{}'", program.name), {},
                          diagnostics_);
@@ -181,8 +228,9 @@ class Kernels {
   const CompileOptions& options_;
   CompileService* service_;
   Diagnostics& diagnostics_;
-  List made_;                  ///< By place; null where refused.
-  std::vector<Width> widths_;  ///< None but for the JIT.
+  List made_;                                                ///< By place; null where refused.
+  std::map<std::size_t, FactKernel::MakeGeneral> generals_;  ///< By place, where there are facts.
+  std::vector<Width> widths_;                                ///< None but for the JIT.
 };
 
 }  // namespace

@@ -3,10 +3,14 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "jit/compile/facts.h"
 #include "jit/compile/stages.h"
 #include "jit/passes/contract.h"
+#include "jit/passes/decide.h"
 #include "jit/passes/derive.h"
 #include "jit/passes/expand_math.h"
 #include "jit/passes/flatten.h"
@@ -25,11 +29,12 @@ class Passes {
       : program_(std::move(program)), options_(options), stages_(reports) {}
 
   template <class Pass>
-  void run(const char* name, const Pass& pass) {
+  void run(const char* name, const Pass& pass, std::vector<FactUse> facts = {}) {
     if (is_over()) return;
     program_ = stages_.run(
         name, [&] { return pass(program_); },
         [&](const Program& made, StageReport& report) {
+          report.facts = std::move(facts);
           report.instructions = instruction_count(made);
           const bool is_wanted = options_.keep_text && !is_over(made);
           if (is_wanted) report.text = to_string(made);
@@ -48,6 +53,36 @@ class Passes {
   Stages stages_;
 };
 
+/// Transcendental functions become polynomials of the accuracy asked for, and what cannot happen is
+/// left out.
+Program expand_and_decide(const Program& program, const CompileOptions& options,
+                          std::span<const Fact> facts) {
+  const Known known = known_by(facts, program);
+  const Program made = expand_math(program, options.accuracy, known, options.max_instructions);
+  if (is_too_large(made, options)) return made;
+  return decide(made, known, options.max_instructions);
+}
+
+/// Those facts that leave out something which the others do not, each with what it does.
+std::vector<FactUse> used_facts(const Program& program, const CompileOptions& options) {
+  std::vector<Fact> facts = facts_of(options.facts, program);
+  std::vector<FactUse> uses;
+  const auto size_with = [&] {
+    return instruction_count(expand_and_decide(program, options, facts));
+  };
+  const std::size_t least = facts.empty() ? 0 : size_with();
+  for (std::size_t i = 0; i < facts.size() && !options.stop.is_due();) {
+    const Fact fact = facts[i];
+    facts.erase(facts.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::size_t without = size_with();
+    if (without == least) continue;
+    uses.push_back({fact, without - least});
+    facts.insert(facts.begin() + static_cast<std::ptrdiff_t>(i), fact);
+    ++i;
+  }
+  return uses;
+}
+
 }  // namespace
 
 double table_error_of(const CompileOptions& options) {
@@ -55,6 +90,10 @@ double table_error_of(const CompileOptions& options) {
   constexpr std::array by_accuracy{0.0, 1e-5, 1e-3};
   if (options.backend == Backend::reference) return 0;
   return options.table_error.value_or(by_accuracy[static_cast<std::size_t>(options.accuracy)]);
+}
+
+bool has_check(const Program& program, const CompileOptions& options) {
+  return options.backend != Backend::reference && !facts_of(options.facts, program).empty();
 }
 
 bool is_too_large(const Program& program, const CompileOptions& options) {
@@ -96,10 +135,22 @@ Program lower_to_engine(Program program, const CompileOptions& options,
     passes.run("tabulate", [&](const Program& p) { return tabulate(p, error); });
   }
 
-  // Transcendental functions become polynomials of the accuracy asked for.
+  // What is known of what is read changes no bit, so it comes after what rounds.
+  std::vector<FactUse> uses;
+  std::vector<Fact> facts;
+  if (!options.facts.empty() && !passes.is_over()) uses = used_facts(passes.program(), options);
+  for (const FactUse& use : uses) facts.push_back(use.fact);
+  const auto known = [&](const Program& p) { return known_by(facts, p); };
   passes.run("expand_math", [&](const Program& p) {
-    return expand_math(p, options.accuracy, options.max_instructions);
+    return expand_math(p, options.accuracy, known(p), options.max_instructions);
   });
+  passes.run(
+      "decide", [&](const Program& p) { return decide(p, known(p), options.max_instructions); },
+      std::move(uses));
+  if (has_check(passes.program(), options)) {
+    passes.run("check",
+               [&](const Program& p) { return with_check(p, facts, options.max_instructions); });
+  }
   Program made = scale();
   if (options.all_varying && !is_too_large(made, options) && !options.stop.is_due()) {
     mark_varying(made, true);

@@ -23,6 +23,10 @@ Program lower_to_engine(Program program, const CompileOptions& options,
 Program lower(Program program, const CompileOptions& options,
               std::vector<StageReport>* stages = nullptr);
 
+/// Whether CompileOptions::facts say something of what it reads: then lower_to_engine() gives it
+/// the output of with_check().
+bool has_check(const Program& program, const CompileOptions& options);
+
 bool is_too_large(const Program& program, const CompileOptions& options);
 
 }  // namespace nacre

@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "jit/compile/facts.h"
 #include "runtime/kernel.h"
 #include "runtime/program/cost.h"
 #include "runtime/stop.h"
@@ -25,6 +27,10 @@ struct CompileOptions {
   /// to it or to a hundredth of its largest (see tabulate()); 0: there are none. Not of the
   /// reference engine. Nothing: what the accuracy is worth, table_error_of().
   std::optional<double> table_error = std::nullopt;
+  /// What is known of what kernels read: they leave out what cannot happen then, and have the same
+  /// bits. Points of which it is not true are computed as if nothing had been said. Not of the
+  /// reference engine.
+  std::vector<Fact> facts = {};
   /// 1, 4, 8, 16; 0: the widest that pays on this machine; else an error. JIT only.
   int lanes = 0;
   /// Code of one lane as well, which runs of one point take. JIT only.

@@ -2,6 +2,9 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
+
+#include "jit/compile/facts.h"
 
 namespace nacre {
 
@@ -12,6 +15,7 @@ struct StageReport {
   std::size_t nodes = 0;      ///< Of the graph, after that stage.
   std::size_t instructions = 0;  ///< Of all functions, after the stage.
   std::string text;              ///< What came out; only if asked for.
+  std::vector<FactUse> facts;    ///< Of the stage "decide": those that kernels have less for.
 };
 
 }  // namespace nacre

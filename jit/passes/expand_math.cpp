@@ -19,8 +19,8 @@ namespace {
 
 class Expander {
  public:
-  Expander(const Program& program, Accuracy accuracy)
-      : entry_(program.entry()), ranges_(ranges_of(program)), accuracy_(accuracy) {}
+  Expander(const Program& program, Accuracy accuracy, const Known& known)
+      : entry_(program.entry()), ranges_(ranges_of(program, known)), accuracy_(accuracy) {}
 
   std::optional<Ref> expand(Recorder& recorder, const Instruction& instruction,
                             std::span<const Ref> operands) {
@@ -82,8 +82,9 @@ class Expander {
 
 }  // namespace
 
-Program expand_math(const Program& program, Accuracy accuracy, std::size_t most) {
-  Expander expander(program, accuracy);
+Program expand_math(const Program& program, Accuracy accuracy, const Known& known,
+                    std::size_t most) {
+  Expander expander(program, accuracy, known);
   const auto expand = [&](Recorder& recorder, const Instruction& instruction,
                           std::span<const Ref> operands) {
     return expander.expand(recorder, instruction, operands);

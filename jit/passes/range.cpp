@@ -5,10 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "jit/passes/range_arithmetic.h"
+#include "jit/passes/range_dots.h"
 #include "jit/passes/range_parts.h"
 #include "runtime/program/fold.h"
 #include "runtime/program/region.h"
@@ -34,6 +36,41 @@ bool is_arithmetic(Op op) {
     case Op::neg:
     case Op::abs: return true;
     default: return false;
+  }
+}
+
+/// Whether a product that is never negative may be -0.
+bool product_may_be_minus_zero(const Instruction& x, const Operands& in) {
+  if (x.operands[0] == x.operands[1]) return false;
+  if (in[0].low < 0 || in[1].low < 0) return true;
+  return may_be_minus_zero(in[0]) || may_be_minus_zero(in[1]);
+}
+
+/// Whether the result of an operation may be -0, where its range says that it is not negative:
+/// else it may be what was rounded away. Of sums both have to be +0, since x + 0 is x.
+bool gives_minus_zero(const Instruction& x, const Operands& in) {
+  switch (x.op) {
+    case Op::abs:
+    case Op::exp:
+    case Op::i_to_f:
+    case Op::u_to_f: return false;
+    case Op::constant: return x.imm == std::bit_cast<std::uint32_t>(-0.0f);
+    case Op::mul: return product_may_be_minus_zero(x, in);
+    case Op::fma: return product_may_be_minus_zero(x, in) || may_be_minus_zero(in[2]);
+    case Op::add:
+    case Op::min:
+    case Op::merge: return may_be_minus_zero(in[0]) || may_be_minus_zero(in[1]);
+    case Op::max:
+      // a > b ? a : b
+      if (in[1].low >= 0 && !may_be_minus_zero(in[1])) return false;
+      return may_be_minus_zero(in[0]) || may_be_minus_zero(in[1]);
+    case Op::select: return may_be_minus_zero(in[1]) || may_be_minus_zero(in[2]);
+    case Op::div: return in[0].low < 0 || in[1].low < 0 || may_be_minus_zero(in[0]);
+    case Op::sub:
+    case Op::sqrt:
+    case Op::floor:
+    case Op::keep: return may_be_minus_zero(in[0]);
+    default: return true;
   }
 }
 
@@ -67,6 +104,13 @@ class Ranges {
         list_(code_.size()),
         sources_(code_.size(), no_value) {
     if (is_known) ends_ = region_ends(function_);
+  }
+
+  /// Of the entry, of which more is known.
+  Ranges(const Program& program, const Known& known, Effort& effort)
+      : Ranges(program, 0, known.inputs, true, effort) {
+    parameters_ = known.parameters;
+    if (!known.dots.empty()) dots_.emplace(program, known);
   }
 
   std::vector<Range> run() {
@@ -105,11 +149,14 @@ class Ranges {
     if (is_known_ && x.op == Op::carry) {
       range = carried(id);
     } else if (x.type == Scalar::f32) {
-      range = of(x, operands_of(x));
+      const Operands operands = operands_of(x);
+      range = of(x, operands);
+      range.minus_zero = !(range.low >= 0) || gives_minus_zero(x, operands);
     } else if (x.type == Scalar::i32 && is_known_) {
       range = of_integer(x, operands_of(x));
     }
     list_[id] = range;
+    if (dots_) narrow(id, dots_->look_at(id));
     if (is_known_ && x.type == Scalar::f32) look_closer(id);
   }
 
@@ -194,7 +241,8 @@ class Ranges {
         return std::isfinite(value) ? Range{value, value, false} : Range{};
       }
       case Op::input:
-      case Op::argument: return is_known_ ? given_[x.imm] : Range{};
+      case Op::argument: return given(x);
+      case Op::parameter: return parameter(x);
       case Op::result: return result(x);
       case Op::floor: return is_known_ ? floored(in[0]) : Range{};
       case Op::add: return total(in[0], in[1]);
@@ -226,7 +274,9 @@ class Ranges {
         const auto value = static_cast<double>(std::bit_cast<std::int32_t>(x.imm));
         return {value, value, false};
       }
-      case Op::argument: return given_[x.imm];
+      case Op::input:
+      case Op::argument: return given(x);
+      case Op::parameter: return parameter(x);
       case Op::result: return result(x);
       case Op::f_to_i: return whole(in[0]);
       case Op::iadd: return integer_sum(in[0], in[1]);
@@ -238,6 +288,13 @@ class Ranges {
       case Op::merge: return hull(in[0], in[1]);
       default: return {};
     }
+  }
+
+  Range given(const Instruction& x) const {
+    return x.imm < given_.size() ? given_[x.imm] : Range{};
+  }
+  Range parameter(const Instruction& x) const {
+    return x.imm < parameters_.size() ? parameters_[x.imm] : Range{};
   }
 
   Range result(const Instruction& x) const {
@@ -304,7 +361,14 @@ class Ranges {
     for (const ValueId each : cone) parts_[each] = {source, parts_of_value(each, source)};
     Range closer = parts_[id].second[0].value;
     for (const Part& each : parts_[id].second) closer = hull(closer, each.value);
-    if (closer.is_bounded()) list_[id] = closer;
+    if (closer.is_bounded()) narrow(id, closer);
+  }
+
+  /// What else is known of it.
+  void narrow(ValueId id, const Range& more) {
+    const bool minus_zero = list_[id].minus_zero;
+    list_[id] = intersection(list_[id], more);
+    list_[id].minus_zero = minus_zero;
   }
 
   /// What a value is computed from, back to `source`, and whose parts are not known: in order.
@@ -359,6 +423,8 @@ class Ranges {
   const Function& function_;
   const std::vector<Instruction>& code_;
   const std::span<const Range> given_;
+  std::span<const Range> parameters_;
+  std::optional<Dots> dots_;
   const bool is_known_;
   Effort& effort_;
   std::vector<std::size_t> ends_;
@@ -378,9 +444,14 @@ std::vector<Range> ranges_of(const Program& program) {
   return Ranges(program, 0, {}, false, effort).run();
 }
 
-std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs) {
+std::vector<Range> ranges_of(const Program& program, const Known& known) {
   Effort effort;
-  return Ranges(program, 0, inputs, true, effort).run();
+  return Ranges(program, known, effort).run();
+}
+
+std::vector<Range> ranges_of(const Program& program, std::span<const Range> inputs) {
+  return ranges_of(program,
+                   Known{.inputs = {inputs.begin(), inputs.end()}, .parameters = {}, .dots = {}});
 }
 
 std::vector<Range> output_ranges(const Program& program, std::span<const Range> inputs) {

@@ -12,14 +12,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Larger than what rounding to float moves a number by, in parts of it.
 constexpr double rounding = 1e-6;
 
-/// Wider by what floats round, which makes zero of what is denormal; nothing is known of what
-/// leaves their range.
-Range rounded(double low, double high) {
+/// Wider by what floats round, which makes zero of what is denormal and infinities of what is
+/// large. No end is a NaN.
+Range rounded(double low, double high, bool nan = false) {
   constexpr double largest = 1e38, smallest = 1.2e-38;
-  if (!(low >= -largest && high <= largest)) return {};
+  low = std::min(low, largest), high = std::max(high, -largest);
   low -= rounding * std::abs(low);
   high += rounding * std::abs(high);
-  return {low > 0 && low < smallest ? 0 : low, high < 0 && high > -smallest ? 0 : high, false};
+  if (low > 0 && low < smallest) low = 0;
+  if (high < 0 && high > -smallest) high = 0;
+  return {low < -largest ? -infinity : low, high > largest ? infinity : high, nan};
 }
 
 /// Of integers, which wrap around: nothing is known of what may.
@@ -27,11 +29,32 @@ Range integers(double low, double high) {
   return low >= -0x1p31 && high < 0x1p31 ? Range{low, high, false} : Range{};
 }
 
-double largest_size(const Range& a) { return std::max(std::abs(a.low), std::abs(a.high)); }
+bool has_infinity(const Range& a) { return a.low == -infinity || a.high == infinity; }
+
+/// Of what is monotonic in each operand, at the ends of both; `nan` where some numbers of the two
+/// give NaN, and what others near them give is about 0.
+template <class Operation>
+Range of_corners(const Range& a, const Range& b, bool nan, const Operation& operation) {
+  Range range{infinity, -infinity, nan || a.nan || b.nan};
+  for (const double x : {a.low, a.high}) {
+    for (const double y : {b.low, b.high}) {
+      const double corner = operation(x, y);
+      range.low = std::min(range.low, std::isnan(corner) ? 0 : corner);
+      range.high = std::max(range.high, std::isnan(corner) ? 0 : corner);
+    }
+  }
+  return rounded(range.low, range.high, range.nan);
+}
 
 }  // namespace
 
+double largest_size(const Range& a) { return std::max(std::abs(a.low), std::abs(a.high)); }
+
 bool Range::is_bounded() const { return !nan && low > -infinity && high < infinity; }
+
+bool has_zero(const Range& a) { return a.low <= 0 && a.high >= 0; }
+
+bool may_be_minus_zero(const Range& a) { return a.minus_zero && has_zero(a); }
 
 bool is_point(const Range& a) { return a.is_bounded() && a.low == a.high; }
 
@@ -44,29 +67,32 @@ Range intersection(const Range& a, const Range& b) {
 }
 
 Range sum(const Range& a, const Range& b) {
-  if (!a.is_bounded() || !b.is_bounded()) return {};
-  return rounded(a.low + b.low, a.high + b.high);
+  // Of infinities of two signs.
+  const bool nan = a.nan || b.nan || (a.high == infinity && b.low == -infinity) ||
+                   (a.low == -infinity && b.high == infinity);
+  const bool falls = a.low == -infinity || b.low == -infinity;
+  const bool rises = a.high == infinity || b.high == infinity;
+  return rounded(falls ? -infinity : a.low + b.low, rises ? infinity : a.high + b.high, nan);
 }
 
 Range negated(const Range& a) { return {-a.high, -a.low, a.nan}; }
 
 Range product(const Range& a, const Range& b) {
-  if (!a.is_bounded() || !b.is_bounded()) return {};
-  const auto [low, high] =
-      std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-  return rounded(low, high);
+  return of_corners(a, b, (has_zero(a) && has_infinity(b)) || (has_infinity(a) && has_zero(b)),
+                    [](double x, double y) { return x * y; });
 }
 
 Range square(const Range& a) {
   const Range size = absolute(a);
-  return product(size, size);
+  Range squared = product(size, size);
+  squared.nan = a.nan;  // No zero meets an infinity.
+  return squared;
 }
 
 Range quotient(const Range& a, const Range& b) {
-  if (!a.is_bounded() || !b.is_bounded() || (b.low <= 0 && b.high >= 0)) return {};
-  const auto [low, high] =
-      std::minmax({a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high});
-  return rounded(low, high);
+  if (has_zero(b)) return {};  // Of either sign.
+  return of_corners(a, b, has_infinity(a) && has_infinity(b),
+                    [](double x, double y) { return x / y; });
 }
 
 Range mixed(const Range& a, const Range& b, const Range& t) {
@@ -92,13 +118,12 @@ Range most(const Range& a, const Range& b) {
 }
 
 Range absolute(const Range& a) {
-  const bool has_zero = a.low <= 0 && a.high >= 0;
-  return {has_zero ? 0.0 : std::min(std::abs(a.low), std::abs(a.high)), largest_size(a), a.nan};
+  return {has_zero(a) ? 0.0 : std::min(std::abs(a.low), std::abs(a.high)), largest_size(a), a.nan};
 }
 
 Range root(const Range& a) {
-  if (!a.is_bounded() || a.low < 0) return {0, infinity, true};
-  return rounded(std::sqrt(a.low), std::sqrt(a.high));
+  if (a.low < 0) return {0, infinity, true};
+  return rounded(std::sqrt(a.low), std::sqrt(a.high), a.nan);
 }
 
 Range floored(const Range& a) {
@@ -108,9 +133,8 @@ Range floored(const Range& a) {
 Range fraction(const Range& x) { return x.is_bounded() ? Range{0, 1, false} : Range{}; }
 
 Range exponential(const Range& a) {
-  if (!a.is_bounded()) return {};
-  const Range exact = rounded(std::exp(a.low), std::exp(a.high));
-  return exact.is_bounded() ? rounded(exact.low, exact.high) : exact;
+  const Range exact = rounded(std::exp(a.low), std::exp(a.high), a.nan);
+  return rounded(exact.low, exact.high, a.nan);
 }
 
 Range of_table(const Table& table) {

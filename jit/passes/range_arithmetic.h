@@ -12,6 +12,10 @@ Range hull(const Range& a, const Range& b);
 Range intersection(const Range& a, const Range& b);
 /// One number that is known.
 bool is_point(const Range& a);
+bool has_zero(const Range& a);
+bool may_be_minus_zero(const Range& a);
+/// How far the farther end is from 0.
+double largest_size(const Range& a);
 
 Range sum(const Range& a, const Range& b);
 Range negated(const Range& a);

@@ -70,7 +70,7 @@ struct ServiceOptions {
 /// In a child of fork() ready kernels stay, those under way are interpreted, and what is
 /// requested is compiled by threads of the child's own; but interpreted, with a warning, if
 /// one was being compiled at the fork.
-class CompileService {
+class CompileService : public std::enable_shared_from_this<CompileService> {
  public:
   /// Never null. Where the system allows no code to be made at run time, and
   /// where the cache is not to be trusted, that is a warning.

@@ -23,7 +23,7 @@ struct SystemParts {
   std::shared_ptr<const ColorConfig> colors;
   std::unique_ptr<TextureStore> textures;
   FileResolver resolver;
-  std::unique_ptr<CompileService> service;
+  std::shared_ptr<CompileService> service;
 
   /// Null, with diagnostics, if the library or the colour configuration cannot be read.
   static std::unique_ptr<SystemParts> create(const SystemOptions& options,

@@ -4,11 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <memory>
 #include <span>
 #include <utility>
 
 #include "runtime/batch/index_runs.h"
+#include "runtime/batch/room.h"
 #include "runtime/batch/words.h"
 
 namespace nacre {
@@ -22,20 +22,6 @@ constexpr std::size_t staged_words = 32768;
 constexpr std::size_t usual_words = 4096;
 /// Channels that need no memory from the heap.
 constexpr std::size_t usual_channels = 96;
-
-/// Room for `count` elements, on the stack as long as they are few.
-template <class T, std::size_t usual>
-class Room {
- public:
-  explicit Room(std::size_t count) {
-    if (count > usual) heap_ = std::make_unique_for_overwrite<T[]>(count);
-  }
-  T* data() { return heap_ != nullptr ? heap_.get() : stack_.data(); }
-
- private:
-  std::array<T, usual> stack_;
-  std::unique_ptr<T[]> heap_;
-};
 
 /// Collects what a list picks, until there is enough to be copied together.
 template <class Make>

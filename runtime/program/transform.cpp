@@ -25,12 +25,13 @@ class Transformer {
     recorder_.adopt_interface(program);
   }
 
-  Program run() {
+  Program run(const Finish& finish) {
     // Callees stand before their callers; the entry is first but comes last.
     for (std::size_t i = 1; i < program_.functions.size(); ++i) {
       if (!outlined(i)) return too_large(most_);
     }
     if (!body(program_.entry())) return too_large(most_);
+    if (finish) finish(recorder_);
     Program result = recorder_.take();
     remove_dead(result, true);
     assert(verify(result).empty());
@@ -63,7 +64,11 @@ class Transformer {
         operands.push_back(values_[operand]);
       }
       if (instruction.op == Op::if_any) {
-        const bool is_flat = flattens_ && flattens_(function, i);
+        if (operands[0].is_constant(0u)) {
+          i = past_region(function, i);
+          continue;
+        }
+        const bool is_flat = operands[0].is_constant() || (flattens_ && flattens_(function, i));
         ifs_.push_back(is_flat ? std::optional(operands[0]) : std::nullopt);
       }
       values_[i] = again(instruction, operands);
@@ -72,6 +77,21 @@ class Transformer {
     }
     done_ += here;
     return true;
+  }
+
+  /// Of an if_any region that no lane enters: what is merged is what there was. Its last
+  /// instruction.
+  std::size_t past_region(const Function& function, std::size_t open) {
+    std::size_t depth = 1, i = open;
+    while (depth > 0) {
+      const Instruction& instruction = function.code[++i];
+      if (opens_region(instruction.op)) ++depth;
+      if (closes_region(instruction.op)) --depth;
+      // Literals stand where they are used.
+      if (instruction.op == Op::constant) values_[i] = again(instruction, {});
+      if (depth == 1 && instruction.op == Op::merge) values_[i] = values_[instruction.operands[1]];
+    }
+    return i;
   }
 
   Ref again(const Instruction& instruction, std::span<const Ref> operands) {
@@ -129,8 +149,8 @@ class Transformer {
 }  // namespace
 
 Program transform(const Program& program, const Replacement& replace, std::size_t most,
-                  const Flattening& flattens) {
-  return Transformer(program, replace, most, flattens).run();
+                  const Flattening& flattens, const Finish& finish) {
+  return Transformer(program, replace, most, flattens).run(finish);
 }
 
 Program too_large(std::size_t most) {

@@ -21,14 +21,19 @@ using Replacement = std::function<std::optional<Ref>(
 /// flattened: its body is recorded for all lanes, and its merges become selects.
 using Flattening = std::function<bool(const Function& function, std::size_t open)>;
 
+/// Records something more, after everything else.
+using Finish = std::function<void(Recorder& recorder)>;
+
 /// Records a Program again, instruction by instruction, with some replaced.
 /// Folding, simplification and sharing happen on the way; what becomes unused
 /// is removed. What is varying is not marked: see mark_varying(). Channels, slots and textures
 /// stay as they are, so what is bound to one Program fits the other. This is the frame of most
 /// passes. Ends early, with as many instructions and one that no engine is to run, once there are
-/// more than `most`. `flattens` may be empty.
+/// more than `most`. `flattens` and `finish` may be empty. A region that is entered for no lane, as
+/// is then known, is left out; one that is entered for all stands without its mask.
 Program transform(const Program& program, const Replacement& replace,
-                  std::size_t most = std::size_t{1} << 31, const Flattening& flattens = {});
+                  std::size_t most = std::size_t{1} << 31, const Flattening& flattens = {},
+                  const Finish& finish = {});
 
 /// What a pass gives that would make more than `most` instructions: so many and one more,
 /// which mean nothing.

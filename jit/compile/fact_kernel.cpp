@@ -1,0 +1,174 @@
+#include "jit/compile/fact_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cstddef>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "jit/compile/facts.h"
+#include "runtime/batch/room.h"
+
+namespace nacre {
+
+namespace {
+
+/// Points that are checked, and where one is outside computed again, together: enough for what is
+/// computed once a call not to count, few enough for what they are to stay in a level-1 cache.
+constexpr std::size_t block = 2048;
+/// Channels that need no memory from the heap.
+constexpr std::size_t usual_channels = 96;
+
+Program without_check(Program program) {
+  assert(program.outputs.back().name == outside_facts_channel);
+  auto& code = program.entry().code;
+  // Of code that was in the cache there may be the Program as it was before the check.
+  const auto number = static_cast<std::uint32_t>(program.outputs.size() - 1);
+  std::erase_if(code, [&](const Instruction& x) { return x.op == Op::store && x.imm == number; });
+  program.outputs.pop_back();
+  return program;
+}
+
+/// A call's points, block by block.
+class Blocks {
+ public:
+  Blocks(const Program& program, const KernelArguments& arguments)
+      : arguments_(arguments),
+        channels_(program.inputs.size() + program.outputs.size() + 1),
+        inputs_(channels_.data(), program.inputs.size()),
+        outputs_(channels_.data() + program.inputs.size(), program.outputs.size()) {
+    for (std::size_t k = 0; k < inputs_.size(); ++k) {
+      inputs_[k] = const_cast<void*>(arguments.inputs[k]);
+    }
+    std::copy_n(arguments.outputs, outputs_.size(), outputs_.begin());
+    outputs_.data()[outputs_.size()] = outside_.data();
+  }
+
+  RunStatus run(const Kernel& narrow, const std::function<const Kernel&(std::size_t)>& general) {
+    for (std::uint64_t first = 0; first < arguments_.count; first += block) {
+      const auto count =
+          static_cast<std::size_t>(std::min<std::uint64_t>(block, arguments_.count - first));
+      RunStatus status = run_one(narrow, count);
+      // Of numbers that were not foreseen a loop may take longer than it would.
+      const bool is_done = status == RunStatus::done;
+      if (status == RunStatus::too_many_steps || (is_done && is_outside(count))) {
+        status = run_one(general(count), count);
+      }
+      if (status != RunStatus::done) return status;
+      for (const auto arrays : {inputs_, outputs_}) {
+        for (void*& array : arrays) array = static_cast<std::byte*>(array) + 4 * block;
+      }
+    }
+    return RunStatus::done;
+  }
+
+ private:
+  RunStatus run_one(const Kernel& kernel, std::size_t count) const {
+    KernelArguments some = arguments_;
+    some.inputs = inputs_.data();
+    some.outputs = outputs_.data();
+    some.count = count;
+    return kernel.run(some);
+  }
+
+  bool is_outside(std::size_t count) const {
+    std::uint32_t any = 0;
+    for (std::size_t i = 0; i < count; ++i) any |= outside_[i];
+    return any != 0;
+  }
+
+  const KernelArguments& arguments_;
+  Room<void*, usual_channels> channels_;
+  std::span<void*> inputs_;
+  std::span<void*> outputs_;  ///< One more follows: where `outside_` is written.
+  std::array<std::uint32_t, block> outside_;
+};
+
+}  // namespace
+
+class FactKernel::General {
+ public:
+  explicit General(MakeGeneral make) : make_(std::move(make)) {}
+
+  const std::shared_ptr<const Kernel>& kernel() {
+    std::call_once(once_, [this] {
+      kernel_ = make_();
+      make_ = nullptr;
+      is_made_ = true;
+    });
+    return kernel_;
+  }
+  /// Null where nobody has needed it yet.
+  const Kernel* kernel_if_made() const { return is_made_ ? kernel_.get() : nullptr; }
+
+  std::atomic<std::uint64_t> points = 0;
+
+ private:
+  std::once_flag once_;
+  MakeGeneral make_;
+  std::shared_ptr<const Kernel> kernel_;
+  std::atomic<bool> is_made_ = false;
+};
+
+FactKernel::FactKernel(std::shared_ptr<const Kernel> narrow, MakeGeneral general)
+    : narrow_(std::move(narrow)),
+      program_(without_check(narrow_->program())),
+      general_(std::make_unique<General>(std::move(general))) {}
+
+FactKernel::~FactKernel() = default;
+
+RunStatus FactKernel::run(const KernelArguments& arguments) const {
+  return Blocks(program_, arguments).run(*narrow_, [this](std::size_t count) -> const Kernel& {
+    general_->points.fetch_add(count, std::memory_order_relaxed);
+    return *general_->kernel();
+  });
+}
+
+const Program& FactKernel::program() const { return program_; }
+
+CompiledKernel* FactKernel::compiled() const {
+  // What it computes stays the same, whoever cancels or waits.
+  return dynamic_cast<CompiledKernel*>(const_cast<Kernel*>(narrow_.get()));
+}
+
+CompiledKernel::State FactKernel::state() const {
+  return compiled() != nullptr ? compiled()->state() : State::ready;
+}
+
+std::optional<CompiledKernel::Code> FactKernel::code(bool single) const {
+  auto* made = dynamic_cast<const CompiledKernel*>(general_->kernel().get());
+  if (made == nullptr || !made->wait()) return std::nullopt;
+  return made->code(single);
+}
+
+bool FactKernel::wait() const { return compiled() == nullptr || compiled()->wait(); }
+
+void FactKernel::cancel() {
+  if (compiled() != nullptr) compiled()->cancel();
+}
+
+void FactKernel::when_ended(std::function<void()> call) {
+  if (compiled() == nullptr) return call();
+  compiled()->when_ended(std::move(call));
+}
+
+CompileStats FactKernel::stats() const {
+  return compiled() != nullptr ? compiled()->stats() : CompileStats{};
+}
+
+Diagnostics FactKernel::diagnostics() const {
+  Diagnostics all = compiled() != nullptr ? compiled()->diagnostics() : Diagnostics{};
+  const auto* general = dynamic_cast<const CompiledKernel*>(general_->kernel_if_made());
+  if (general == nullptr) return all;
+  const Diagnostics more = general->diagnostics();
+  for (const Diagnostic& one : more.all()) all.add(one);
+  return all;
+}
+
+std::uint64_t FactKernel::points_outside() const { return general_->points; }
+
+}  // namespace nacre

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "jit/passes/range.h"
+#include "runtime/program/program.h"
+
+namespace nacre {
+
+/// Leaves out what cannot happen where so much is known of what a Program reads: comparisons
+/// whose outcome is certain and what hangs on them, clamps that change nothing, regions that no
+/// lane enters. Every result keeps its bits, but for the sign of zeros that op.h leaves open: what
+/// has become a literal is simplified. For Programs without transcendental
+/// functions, which engines round as they like. Stops as transform() does beyond `most`
+/// instructions.
+Program decide(const Program& program, const Known& known, std::size_t most);
+
+}  // namespace nacre
