@@ -76,7 +76,10 @@ Facts facts_of(const CommonOptions& options) {
   // The interpreter gives the same bits.
   facts["backend"] = options.backend == "reference" ? "reference" : "jit";
   // Only then do results depend on it.
-  if (options.accuracy == "fast") facts["lanes"] = fmt::format("{}", options.lanes);
+  if (options.accuracy == "fast") {
+    facts["lanes"] = fmt::format("{}", options.lanes);
+    for (const Fact& fact : options.facts) facts["facts"] += to_string(fact) + "; ";
+  }
   facts["missing-images"] =
       options.missing_images == MissingImages::error ? "error" : "use_default";
   facts["prefer"] = name_of(options.graph_limits.prefer);

@@ -79,6 +79,15 @@ Json stage_list(const std::vector<StageReport>& stages) {
   return list;
 }
 
+Json fact_list(const std::vector<FactUse>& facts) {
+  Json list = Json::array();
+  for (const auto& [fact, saved] : facts) {
+    list.push_back({{"name", fact.name}, {"minimum", fact.low}, {"maximum", fact.high}});
+    list.back()["saved"] = saved ? Json(*saved) : Json(nullptr);
+  }
+  return list;
+}
+
 Json lobe_names(const MaterialKernels& kernels) {
   Json names = Json::array();
   for (const LobeInfo& lobe : kernels.lobes) names.push_back(lobe.name);
@@ -94,7 +103,8 @@ Json inspect_material(const Opened& opened, const std::string& material,
   Json result{{"material", material},
               {"lobes", lobe_names(*kernels)},
               {"state_channels", kernels->state.size()},
-              {"left_out", kernels->manifest}};
+              {"left_out", kernels->manifest},
+              {"facts", fact_list(kernels->facts)}};
   Json list = Json::object();
   const std::pair<const char*, const std::optional<BoundKernel>*> all[]{
       {"begin", &kernels->begin},
@@ -131,6 +141,7 @@ Json inspect_output(const Opened& opened, const std::string& output, const Shade
   if (kernel == nullptr) return nullptr;
   Json result{{"output", output},
               {"type", type_name(kernel->outputs.front().type)},
+              {"facts", fact_list(kernel->facts)},
               {"kernel", describe(kernel->kernel)}};
   if (for_cost != nullptr) {
     result["cost"] =
@@ -152,6 +163,15 @@ void print_kernel(const std::string& name, const Json& kernel) {
   }
   for (const Json& texture : kernel["textures"]) {
     fmt::print("    texture: {}\n", texture.get<std::string>());
+  }
+}
+
+void print_facts(const Json& facts) {
+  for (const Json& fact : facts) {
+    fmt::print("  fact: {} in [{}, {}]: {} instructions less\n", fact["name"].get<std::string>(),
+               fact["minimum"].get<double>(), fact["maximum"].get<double>(),
+               fact["saved"].is_null() ? std::string("unknown, from the cache,")
+                                       : fmt::format("{}", fact["saved"].get<std::size_t>()));
   }
 }
 
@@ -204,6 +224,7 @@ void print_text(const Json& result) {
                result["type"].get<std::string>());
     print_kernel("kernel", result["kernel"]);
   }
+  print_facts(result["facts"]);
   if (result.contains("cost")) print_costs(result["cost"]);
   if (result.contains("error") && !result["error"].is_null()) print_error(result["error"]);
   fmt::print("  stages:\n");

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "examples/common/materialx_libraries.h"
+#include "examples/tool/fact_option.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/stop.h"
 #include "jit/cache/kernel_cache.h"
@@ -143,6 +144,9 @@ void CommonOptions::add_lobes(CLI::App& command) {
 void CommonOptions::add_compile(CLI::App& command) {
   add_exactness(command);
   add_machine(command);
+  command.option_defaults()->group(what_runs);
+  add_facts(command, facts);
+  command.option_defaults()->group("Options");
 }
 
 void CommonOptions::add_exactness(CLI::App& command) {
@@ -222,6 +226,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.kernels.compensation = compensation;
   options.compile.backend = parsed_backend();
   options.compile.lanes = lanes;
+  options.compile.facts = facts;
   options.compile.max_instructions = compile_limits.max_instructions;
   options.compile.max_steps = compile_limits.max_steps;
   options.compile.max_seconds = compile_limits.max_seconds;

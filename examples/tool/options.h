@@ -33,6 +33,7 @@ struct CommonOptions {
   std::string accuracy = "standard";
   std::string profile;  ///< A file that `nacre tune` wrote; then that says the accuracy.
   Compensation compensation = Compensation::all;
+  std::vector<Fact> facts;
   std::string backend = "jit";
   std::optional<std::string> working_space;
   std::string ocio;  ///< A file, or "env".

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "examples/render/nested_solids.h"
 #include "examples/tool/neutral.h"
 #include "examples/tool/not_rendered.h"
+#include "examples/tool/scene_facts.h"
 #include "examples/tool/technique_options.h"
 #include "examples/tool/varying_slots.h"
 #include "jit/document/inheritance.h"
@@ -172,6 +174,7 @@ bool RenderShaders::make(const Request& request, Made& made, Diagnostics& diagno
   shader.varying = request.varying;
   if (request.is_nested) shader.varying.emplace_back("exterior_index");
   ask_for_techniques(options_.settings.techniques, shader);
+  std::ranges::move(scene_facts(request.meshes), std::back_inserter(shader.compile.facts));
   const auto compile = [&] {
     return opened_.system->compile_material(*opened_.document, material, shader, diagnostics);
   };

@@ -66,6 +66,10 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   if (asked.max_instructions != 0) options.compile.max_instructions = asked.max_instructions;
   if (asked.max_steps != 0) options.compile.max_steps = asked.max_steps;
   if (asked.max_seconds > 0) options.compile.max_seconds = asked.max_seconds;
+  for (std::size_t i = 0; asked.facts != nullptr && i < asked.fact_count; ++i) {
+    const nacre_fact& fact = asked.facts[i];
+    options.compile.facts.push_back({text_or_empty(fact.name), fact.minimum, fact.maximum});
+  }
   options.live = texts_of(asked.live, asked.live_count);
   options.varying = texts_of(asked.varying, asked.varying_count);
   if (asked.lobes != 0) options.kernels.lobes = asked.lobes;

@@ -88,6 +88,29 @@ const char* nacre_shader_left_out(const nacre_shader* shader, size_t index, int*
   return line.c_str();
 }
 
+size_t nacre_shader_fact_count(const nacre_shader* shader) {
+  return shader != nullptr ? shader->data->facts().size() : 0;
+}
+
+nacre_status nacre_shader_fact(const nacre_shader* shader, size_t index, nacre_fact_info* info) {
+  if (index >= nacre_shader_fact_count(shader)) return NACRE_WRONG_ARGUMENTS;
+  const auto& [fact, saved] = shader->data->facts()[index];
+  return give(info, {.size = 0,
+                     .name = fact.name.c_str(),
+                     .minimum = fact.low,
+                     .maximum = fact.high,
+                     .saved = saved ? std::uint64_t{*saved} : NACRE_NOT_KNOWN});
+}
+
+uint64_t nacre_shader_points_outside_facts(const nacre_shader* shader) {
+  std::uint64_t points = 0;
+  for (int entry = 0; entry < NACRE_ENTRY_COUNT; ++entry) {
+    const BoundKernel* kernel = kernel_of(shader, static_cast<nacre_entry>(entry));
+    if (kernel != nullptr) points += kernel->points_outside_facts();
+  }
+  return points;
+}
+
 int nacre_shader_is_pending(const nacre_shader* shader) {
   for (int entry = 0; entry < NACRE_ENTRY_COUNT; ++entry) {
     const BoundKernel* kernel = kernel_of(shader, static_cast<nacre_entry>(entry));

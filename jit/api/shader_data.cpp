@@ -48,6 +48,7 @@ ShaderData::ShaderData(std::unique_ptr<MaterialKernels> kernels)
     : point_channels_(std::move(kernels->of_point)),
       state_(std::move(kernels->state)),
       lobes_(std::move(kernels->lobes)),
+      facts_(std::move(kernels->facts)),
       has_back_(kernels->has_back) {
   add(NACRE_BEGIN, std::move(kernels->begin));
   add(NACRE_SAMPLE, std::move(kernels->sample));
@@ -71,7 +72,7 @@ ShaderData::ShaderData(std::unique_ptr<MaterialKernels> kernels)
   lay_out(std::move(kernels->parameters));
 }
 
-ShaderData::ShaderData(std::unique_ptr<OutputKernel> kernel) {
+ShaderData::ShaderData(std::unique_ptr<OutputKernel> kernel) : facts_(std::move(kernel->facts)) {
   add(NACRE_OUTPUTS, std::move(kernel->kernel));
   lay_out(std::move(kernel->parameters));
 }

@@ -41,6 +41,7 @@ class ShaderData {
   const std::vector<LobeInfo>& lobes() const { return lobes_; }
   /// What is left out, and whether that changes the picture.
   const std::vector<std::pair<std::string, bool>>& left_out() const { return left_out_; }
+  const std::vector<FactUse>& facts() const { return facts_; }
   const std::vector<ShaderParameter>& parameters() const { return parameters_; }
 
   /// The block as the document has it.
@@ -61,6 +62,7 @@ class ShaderData {
   std::vector<std::uint32_t> state_;
   std::vector<LobeInfo> lobes_;
   std::vector<std::pair<std::string, bool>> left_out_;
+  std::vector<FactUse> facts_;
   std::vector<ShaderParameter> parameters_;
   std::vector<std::uint32_t> block_;
   bool has_back_ = false;

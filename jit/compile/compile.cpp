@@ -49,7 +49,9 @@ std::string key_of(const Program& program, const CompileOptions& options,
   std::string way =
       fmt::format("lowered, at most {} instructions, tables within {}{}", options.max_instructions,
                   table_error_of(options), options.all_varying ? ", all varying" : "");
-  for (const Fact& fact : facts_of(options.facts, program)) way += "; " + to_string(fact);
+  for (const Fact& fact : facts_of(options.facts, program)) {
+    way += (fact.is_implied ? "; implied " : "; ") + to_string(fact);
+  }
   return code_key(program, codegen, way);
 }
 
@@ -266,6 +268,7 @@ std::vector<std::shared_ptr<const Kernel>> compile_all(
     diagnostics.error("no-service", {}, "machine code is made by a CompileService", "one", "null");
     return Kernels::List(count);
   }
+  if (!check_facts(options.facts, diagnostics)) return Kernels::List(count);
   Kernels kernels(count, options, service, diagnostics);
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<StageReport>* reports = stages != nullptr ? &(*stages)[i] : nullptr;

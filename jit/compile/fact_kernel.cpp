@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "jit/compile/facts.h"
@@ -17,9 +16,11 @@ namespace nacre {
 
 namespace {
 
-/// Points that are checked, and where one is outside computed again, together: enough for what is
-/// computed once a call not to count, few enough for what they are to stay in a level-1 cache.
+/// Points that are checked together: enough for what is computed once a call not to count, few
+/// enough for what they are to stay in a level-1 cache.
 constexpr std::size_t block = 2048;
+/// Points that are computed again where one of them is outside: as wide as code is.
+constexpr std::size_t group = 16;
 /// Channels that need no memory from the heap.
 constexpr std::size_t usual_channels = 96;
 
@@ -36,55 +37,75 @@ Program without_check(Program program) {
 /// A call's points, block by block.
 class Blocks {
  public:
+  /// Who computes so many points that facts are not true of.
+  using GeneralFor = std::function<const Kernel&(std::size_t count)>;
+
   Blocks(const Program& program, const KernelArguments& arguments)
       : arguments_(arguments),
-        channels_(program.inputs.size() + program.outputs.size() + 1),
-        inputs_(channels_.data(), program.inputs.size()),
-        outputs_(channels_.data() + program.inputs.size(), program.outputs.size()) {
-    for (std::size_t k = 0; k < inputs_.size(); ++k) {
-      inputs_[k] = const_cast<void*>(arguments.inputs[k]);
-    }
-    std::copy_n(arguments.outputs, outputs_.size(), outputs_.begin());
-    outputs_.data()[outputs_.size()] = outside_.data();
-  }
+        inputs_(program.inputs.size()),
+        channels_(inputs_ + program.outputs.size()),
+        arrays_(channels_ + 1) {}
 
-  RunStatus run(const Kernel& narrow, const std::function<const Kernel&(std::size_t)>& general) {
+  RunStatus run(const Kernel& narrow, const GeneralFor& general) {
     for (std::uint64_t first = 0; first < arguments_.count; first += block) {
       const auto count =
           static_cast<std::size_t>(std::min<std::uint64_t>(block, arguments_.count - first));
-      RunStatus status = run_one(narrow, count);
-      // Of numbers that were not foreseen a loop may take longer than it would.
-      const bool is_done = status == RunStatus::done;
-      if (status == RunStatus::too_many_steps || (is_done && is_outside(count))) {
-        status = run_one(general(count), count);
+      RunStatus status = run_part(narrow, first, count);
+      if (status == RunStatus::too_many_steps) {
+        // Of numbers that were not foreseen a loop may take longer than it would.
+        status = run_part(general(count), first, count);
+      } else if (status == RunStatus::done) {
+        status = run_outside(general, first, count);
       }
       if (status != RunStatus::done) return status;
-      for (const auto arrays : {inputs_, outputs_}) {
-        for (void*& array : arrays) array = static_cast<std::byte*>(array) + 4 * block;
-      }
     }
     return RunStatus::done;
   }
 
  private:
-  RunStatus run_one(const Kernel& kernel, std::size_t count) const {
+  /// Groups of which a point is outside, as many as stand side by side at once.
+  RunStatus run_outside(const GeneralFor& general, std::uint64_t first, std::size_t count) {
+    RunStatus status = RunStatus::done;
+    for (std::size_t at = 0; at < count && status == RunStatus::done;) {
+      std::size_t end = at;
+      while (end < count && is_outside(end, count)) end += group;
+      if (end == at) {
+        at += group;
+        continue;
+      }
+      end = std::min(end, count);
+      status = run_part(general(end - at), first + at, end - at);
+      at = end;
+    }
+    return status;
+  }
+
+  bool is_outside(std::size_t at, std::size_t count) const {
+    std::uint32_t any = 0;
+    for (std::size_t i = at; i < std::min(at + group, count); ++i) any |= outside_[i];
+    return any != 0;
+  }
+
+  RunStatus run_part(const Kernel& kernel, std::uint64_t first, std::size_t count) {
+    void** const arrays = arrays_.data();
+    const auto place = [first](const void* array) {
+      return static_cast<std::byte*>(const_cast<void*>(array)) + 4 * first;
+    };
+    for (std::size_t k = 0; k < inputs_; ++k) arrays[k] = place(arguments_.inputs[k]);
+    for (std::size_t k = inputs_; k < channels_; ++k) {
+      arrays[k] = place(arguments_.outputs[k - inputs_]);
+    }
+    arrays[channels_] = outside_.data();  // Which a general kernel does not know.
     KernelArguments some = arguments_;
-    some.inputs = inputs_.data();
-    some.outputs = outputs_.data();
+    some.inputs = arrays;
+    some.outputs = arrays + inputs_;
     some.count = count;
     return kernel.run(some);
   }
 
-  bool is_outside(std::size_t count) const {
-    std::uint32_t any = 0;
-    for (std::size_t i = 0; i < count; ++i) any |= outside_[i];
-    return any != 0;
-  }
-
   const KernelArguments& arguments_;
-  Room<void*, usual_channels> channels_;
-  std::span<void*> inputs_;
-  std::span<void*> outputs_;  ///< One more follows: where `outside_` is written.
+  const std::size_t inputs_, channels_;
+  Room<void*, usual_channels> arrays_;
   std::array<std::uint32_t, block> outside_;
 };
 

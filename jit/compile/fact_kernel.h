@@ -33,8 +33,8 @@ class FactKernel final : public CompiledKernel {
   CompileStats stats() const override;
   Diagnostics diagnostics() const override;
 
-  /// Points so far that the general kernel had to compute: those of blocks in which one was outside
-  /// of what was said.
+  /// Points so far that the general kernel had to compute: those of groups of 16 of which one was
+  /// outside of what was said.
   std::uint64_t points_outside() const;
 
  private:

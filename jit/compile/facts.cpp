@@ -79,17 +79,6 @@ void each_leaf(const std::vector<Leaf>& leaves, const Fact& fact, const Act& act
   }
 }
 
-bool concerns(const Fact& fact, const Program& program) {
-  if (const auto factors = factors_of(fact.name)) {
-    return vector_of(program, factors->first) && vector_of(program, factors->second);
-  }
-  bool found = false;
-  const auto note = [&](auto&&...) { found = true; };
-  each_leaf(program.inputs, fact, note);
-  each_leaf(program.parameters, fact, note);
-  return found;
-}
-
 /// Records whether numbers are within ranges.
 class Check {
  public:
@@ -189,16 +178,54 @@ bool check_facts(std::span<const Fact> facts, Diagnostics& diagnostics) {
 }
 
 std::vector<Fact> facts_of(std::span<const Fact> facts, const Program& program) {
+  std::vector<Fact> parts;
+  for (const Fact& fact : facts) {
+    if (const auto factors = factors_of(fact.name)) {
+      const bool is_read =
+          vector_of(program, factors->first) && vector_of(program, factors->second);
+      if (is_read) parts.push_back(fact);
+      continue;
+    }
+    const auto add = [&](const auto& leaves) {
+      each_leaf(leaves, fact, [&](std::uint32_t i, auto&&...) {
+        parts.push_back({leaves[i].name, fact.low, fact.high, fact.is_implied});
+      });
+    };
+    add(program.inputs);
+    add(program.parameters);
+  }
+  return parts;
+}
+
+bool is_part_of(const Fact& part, const Fact& whole) {
+  return part.low == whole.low && part.high == whole.high && is_of(whole.name, part.name);
+}
+
+std::size_t cost_of_check(const Fact& part, const Program& program) {
+  if (part.is_implied) return 0;
+  if (factors_of(part.name)) return 7;  // A sum of products, two comparisons, and both to others.
+  // What is of the call is looked at once a call.
+  const bool is_of_points =
+      std::ranges::find(program.inputs, part.name, &Channel::name) != program.inputs.end();
+  return is_of_points ? 4 : 0;
+}
+
+std::vector<Fact> facts_of_parameters(std::span<const Fact> facts, const Program& program) {
   std::vector<Fact> found;
-  std::ranges::copy_if(facts, std::back_inserter(found),
-                       [&](const Fact& fact) { return concerns(fact, program); });
+  for (const Fact& fact : facts) {
+    bool is_of_slot = false;
+    each_leaf(program.parameters, fact, [&](auto&&...) { is_of_slot = true; });
+    if (is_of_slot) found.push_back(fact);
+  }
   return found;
 }
 
-Known known_by(std::span<const Fact> facts, const Program& program) {
-  Known known{.inputs = std::vector<Range>(program.inputs.size()),
-              .parameters = std::vector<Range>(program.parameters.size()),
-              .dots = {}};
+Known known_by(std::span<const Fact> facts, const Program& program, Accuracy accuracy) {
+  Known known{
+      .inputs = std::vector<Range>(program.inputs.size()),
+      .parameters = std::vector<Range>(program.parameters.size()),
+      .dots = {},
+      .arithmetic = accuracy == Accuracy::fast ? Arithmetic::reassociated : Arithmetic::as_written};
   const auto narrow = [](Range& range, const Range& more) {
     const bool minus_zero = range.minus_zero && more.minus_zero;
     range = intersection(range, more);
@@ -229,7 +256,9 @@ Program with_check(const Program& program, std::span<const Fact> facts, std::siz
   };
   Program checked = transform(program, same, most, {}, [&](Recorder& recorder) {
     Check check(recorder, program);
-    for (const Fact& fact : facts) check.add(fact);
+    for (const Fact& fact : facts) {
+      if (!fact.is_implied) check.add(fact);
+    }
     recorder.store(outside_facts_channel, check.result());
   });
   mark_varying(checked);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,26 +20,37 @@ struct Fact {
   std::string name;
   double low = 0.0;   ///< None is less.
   double high = 0.0;  ///< None is more, and none is NaN.
+  /// It holds wherever those of parameters do, as what is stored of these: nobody looks.
+  bool is_implied = false;
   bool operator==(const Fact&) const = default;
 };
 
 /// "texcoord.x in [0, 1]".
 std::string to_string(const Fact& fact);
 
-/// What of a fact is used: what kernels have less for it, of instructions.
+/// How many instructions kernels have less for a fact, beside what all the others leave out and
+/// without what it implies; 0 where that is less than to look whether it is so. Nothing is known of
+/// code that was in the cache.
 struct FactUse {
   Fact fact;
-  std::size_t saved = 0;
+  std::optional<std::size_t> saved;
 };
 
 /// Whether they can be read; an error for each that cannot.
 bool check_facts(std::span<const Fact> facts, Diagnostics& diagnostics);
 
-/// Those that say something of what a Program reads.
+/// What they say of what a Program reads: a fact for each channel or slot.
 std::vector<Fact> facts_of(std::span<const Fact> facts, const Program& program);
+/// Whether facts_of() has made one of the other.
+bool is_part_of(const Fact& part, const Fact& whole);
+/// Instructions that look, for each point, whether such a part is so.
+std::size_t cost_of_check(const Fact& part, const Program& program);
 
-/// What they say.
-Known known_by(std::span<const Fact> facts, const Program& program);
+/// Those of slots of its parameter block.
+std::vector<Fact> facts_of_parameters(std::span<const Fact> facts, const Program& program);
+
+/// What they say of a Program that is to be so exact.
+Known known_by(std::span<const Fact> facts, const Program& program, Accuracy accuracy);
 
 /// The output channel of with_check().
 inline constexpr const char* outside_facts_channel = "outside_facts";

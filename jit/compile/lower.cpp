@@ -1,5 +1,6 @@
 #include "jit/compile/lower.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -57,15 +58,21 @@ class Passes {
 /// left out.
 Program expand_and_decide(const Program& program, const CompileOptions& options,
                           std::span<const Fact> facts) {
-  const Known known = known_by(facts, program);
+  const Known known = known_by(facts, program, options.accuracy);
   const Program made = expand_math(program, options.accuracy, known, options.max_instructions);
   if (is_too_large(made, options)) return made;
   return decide(made, known, options.max_instructions);
 }
 
-/// Those facts that leave out something which the others do not, each with what it does.
+/// Those facts that leave out more which the others do not than it takes to look at them, each with
+/// what it does; and those that others are implied by.
 std::vector<FactUse> used_facts(const Program& program, const CompileOptions& options) {
   std::vector<Fact> facts = facts_of(options.facts, program);
+  const auto of_parameters = facts_of_parameters(facts, program);
+  const bool has_implied = std::ranges::any_of(facts, &Fact::is_implied);
+  const auto is_needed = [&](const Fact& fact) {
+    return has_implied && std::ranges::count(of_parameters, fact) != 0;
+  };
   std::vector<FactUse> uses;
   const auto size_with = [&] {
     return instruction_count(expand_and_decide(program, options, facts));
@@ -74,8 +81,9 @@ std::vector<FactUse> used_facts(const Program& program, const CompileOptions& op
   for (std::size_t i = 0; i < facts.size() && !options.stop.is_due();) {
     const Fact fact = facts[i];
     facts.erase(facts.begin() + static_cast<std::ptrdiff_t>(i));
-    const std::size_t without = size_with();
-    if (without == least) continue;
+    const std::size_t without = fact.is_implied ? least : size_with();
+    const bool pays = without - least > cost_of_check(fact, program);
+    if (!pays && !fact.is_implied && !is_needed(fact)) continue;
     uses.push_back({fact, without - least});
     facts.insert(facts.begin() + static_cast<std::ptrdiff_t>(i), fact);
     ++i;
@@ -140,7 +148,7 @@ Program lower_to_engine(Program program, const CompileOptions& options,
   std::vector<Fact> facts;
   if (!options.facts.empty() && !passes.is_over()) uses = used_facts(passes.program(), options);
   for (const FactUse& use : uses) facts.push_back(use.fact);
-  const auto known = [&](const Program& p) { return known_by(facts, p); };
+  const auto known = [&](const Program& p) { return known_by(facts, p, options.accuracy); };
   passes.run("expand_math", [&](const Program& p) {
     return expand_math(p, options.accuracy, known(p), options.max_instructions);
   });

@@ -110,7 +110,13 @@ class Ranges {
   Ranges(const Program& program, const Known& known, Effort& effort)
       : Ranges(program, 0, known.inputs, true, effort) {
     parameters_ = known.parameters;
+    use(known.arithmetic);
     if (!known.dots.empty()) dots_.emplace(program, known);
+  }
+
+  void use(Arithmetic arithmetic) {
+    arithmetic_ = arithmetic;
+    rounding_ = arithmetic == Arithmetic::as_written ? Rounding::to_nearest : Rounding::about;
   }
 
   std::vector<Range> run() {
@@ -219,7 +225,9 @@ class Ranges {
     if (!effort_.spend(program_.functions[code_[id].imm].code.size())) return;
     std::vector<Range> arguments;
     for (const ValueId operand : function_.operands(code_[id])) arguments.push_back(list_[operand]);
-    results_[id] = Ranges(program_, code_[id].imm, arguments, true, effort_).results();
+    Ranges callee(program_, code_[id].imm, arguments, true, effort_);
+    callee.use(arithmetic_);
+    results_[id] = callee.results();
   }
 
   Operands operands_of(const Instruction& x) const {
@@ -249,10 +257,10 @@ class Ranges {
       case Op::sub: return difference(x, in);
       case Op::mul: return of_product(x, in);
       case Op::fma: return of_fma(x, in);
-      case Op::div: return quotient(in[0], in[1]);
+      case Op::div: return quotient(in[0], in[1], rounding_);
       case Op::min: return least(in[0], in[1]);
       case Op::max: return most(in[0], in[1]);
-      case Op::sqrt: return root(in[0]);
+      case Op::sqrt: return root(in[0], rounding_);
       case Op::neg: return negated(in[0]);
       case Op::abs: return absolute(in[0]);
       case Op::select: return hull(in[1], in[2]);
@@ -304,7 +312,7 @@ class Ranges {
 
   /// Numbers that are known add up to one that is: so it stays the number of a tile.
   Range total(const Range& a, const Range& b) const {
-    if (!is_known_ || !is_point(a) || !is_point(b)) return sum(a, b);
+    if (!is_known_ || !is_point(a) || !is_point(b)) return reassociated(sum(a, b, rounding_), a, b);
     const double exact = static_cast<float>(a.low + b.low);
     return std::isfinite(exact) ? Range{exact, exact, false} : Range{};
   }
@@ -320,18 +328,34 @@ class Ranges {
   }
 
   Range of_product(const Instruction& x, const Operands& in) const {
-    return is_known_ && x.operands[0] == x.operands[1] ? square(in[0]) : product(in[0], in[1]);
+    return of_product(x, in, rounding_);
+  }
+  Range of_product(const Instruction& x, const Operands& in, Rounding rounding) const {
+    return is_known_ && x.operands[0] == x.operands[1] ? square(in[0], rounding)
+                                                       : product(in[0], in[1], rounding);
+  }
+
+  /// A sum that may have been made of other parts, and rounds as they do.
+  Range reassociated(Range total, const Range& a, const Range& b) const {
+    if (arithmetic_ != Arithmetic::reassociated) return total;
+    const double room = 1e-6 * (largest_size(a) + largest_size(b));
+    if (!(room < std::numeric_limits<double>::infinity())) return {};
+    total.low -= room, total.high += room;
+    return total;
   }
 
   Range of_fma(const Instruction& x, const Operands& in) const {
-    const Range plain = sum(of_product(x, in), in[2]);
+    const bool is_rounded_once = arithmetic_ == Arithmetic::as_written;
+    const Range part = of_product(x, in, is_rounded_once ? Rounding::none : rounding_);
+    const Range plain = reassociated(sum(part, in[2], rounding_), part, in[2]);
     if (!is_known_) return plain;
     const Instruction& rest = code_[x.operands[2]];
     const bool is_mixed = rest.op == Op::fma && rest.operands[1] == rest.operands[2] &&
                           code_[rest.operands[0]].op == Op::neg &&
                           code_[rest.operands[0]].operands[0] == x.operands[0];
     if (!is_mixed) return plain;
-    const Range between = mixed(list_[rest.operands[1]], in[1], in[0]);
+    const Range& from = list_[rest.operands[1]];
+    const Range between = reassociated(mixed(from, in[1], in[0]), from, in[1]);
     return plain.is_bounded() ? intersection(plain, between) : between;
   }
 
@@ -344,6 +368,7 @@ class Ranges {
       return;
     }
     if (!is_arithmetic(x.op) || is_fraction(x)) return;
+    if (arithmetic_ == Arithmetic::reassociated) return;  // By no derivative.
     ValueId source = no_value;
     int ways = 0;
     for (std::size_t k = 0; k < x.count; ++k) {
@@ -425,6 +450,8 @@ class Ranges {
   const std::span<const Range> given_;
   std::span<const Range> parameters_;
   std::optional<Dots> dots_;
+  Arithmetic arithmetic_ = Arithmetic::unknown;
+  Rounding rounding_ = Rounding::about;
   const bool is_known_;
   Effort& effort_;
   std::vector<std::size_t> ends_;
@@ -455,7 +482,12 @@ std::vector<Range> ranges_of(const Program& program, std::span<const Range> inpu
 }
 
 std::vector<Range> output_ranges(const Program& program, std::span<const Range> inputs) {
-  const std::vector<Range> all = ranges_of(program, inputs);
+  return output_ranges(
+      program, Known{.inputs = {inputs.begin(), inputs.end()}, .parameters = {}, .dots = {}});
+}
+
+std::vector<Range> output_ranges(const Program& program, const Known& known) {
+  const std::vector<Range> all = ranges_of(program, known);
   std::vector<Range> outputs(program.outputs.size());
   const std::vector<Instruction>& code = program.entry().code;
   for (const Instruction& instruction : code) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
@@ -30,12 +31,20 @@ struct DotRange {
   bool operator==(const DotRange&) const = default;
 };
 
+/// How engines round the operations of a Program.
+enum class Arithmetic : std::uint8_t {
+  unknown,      ///< By some units in the last place.
+  as_written,   ///< Each to the nearest float, as op.h says.
+  reassociated  ///< As LLVM likes, whose sums are of other parts: `fast`.
+};
+
 /// What is known of the numbers that a Program reads. Lists are as long as the Program's, or empty:
 /// then nothing is known of those.
 struct Known {
   std::vector<Range> inputs;      ///< Of Program::inputs, in order.
   std::vector<Range> parameters;  ///< Of Program::parameters.
   std::vector<DotRange> dots;
+  Arithmetic arithmetic = Arithmetic::unknown;
 };
 
 /// Of each value of the entry, in order; of what is no f32 nothing is known. Conservative, by
@@ -52,6 +61,9 @@ std::vector<Range> ranges_of(const Program& program, std::span<const Range> inpu
 /// @}
 
 /// Of each of Program::outputs, where so much is known of each of Program::inputs.
+/// @{
+std::vector<Range> output_ranges(const Program& program, const Known& known);
 std::vector<Range> output_ranges(const Program& program, std::span<const Range> inputs);
+/// @}
 
 }  // namespace nacre

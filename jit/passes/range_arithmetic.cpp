@@ -10,18 +10,40 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Larger than what rounding to float moves a number by, in parts of it.
-constexpr double rounding = 1e-6;
+constexpr double rounding_about = 1e-6;
+/// Larger than what rounding to double does.
+constexpr double rounding_of_double = 0x1p-51;
 
 /// Wider by what floats round, which makes zero of what is denormal and infinities of what is
 /// large. No end is a NaN.
 Range rounded(double low, double high, bool nan = false) {
   constexpr double largest = 1e38, smallest = 1.2e-38;
   low = std::min(low, largest), high = std::max(high, -largest);
-  low -= rounding * std::abs(low);
-  high += rounding * std::abs(high);
+  low -= rounding_about * std::abs(low);
+  high += rounding_about * std::abs(high);
   if (low > 0 && low < smallest) low = 0;
   if (high < 0 && high > -smallest) high = 0;
   return {low < -largest ? -infinity : low, high > largest ? infinity : high, nan};
+}
+
+/// To the nearest float, which is no more than that of any larger number.
+double nearest_float(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (std::abs(x) > largest) return std::copysign(infinity, x);
+  return static_cast<float>(x);
+}
+
+Range rounded(Rounding how, double low, double high, bool nan) {
+  if (how == Rounding::about) return rounded(low, high, nan);
+  constexpr double smallest = std::numeric_limits<float>::min();
+  // NaN comes of infinities alone, which stay.
+  if (std::isfinite(low)) low -= rounding_of_double * std::abs(low);
+  if (std::isfinite(high)) high += rounding_of_double * std::abs(high);
+  if (how == Rounding::none) return {low, high, nan};
+  // What is denormal is 0, or rounds to the smallest that is not.
+  if (std::abs(low) < smallest) low = low < 0 ? -smallest : 0;
+  if (std::abs(high) < smallest) high = high > 0 ? smallest : 0;
+  return {nearest_float(low), nearest_float(high), nan};
 }
 
 /// Of integers, which wrap around: nothing is known of what may.
@@ -34,7 +56,8 @@ bool has_infinity(const Range& a) { return a.low == -infinity || a.high == infin
 /// Of what is monotonic in each operand, at the ends of both; `nan` where some numbers of the two
 /// give NaN, and what others near them give is about 0.
 template <class Operation>
-Range of_corners(const Range& a, const Range& b, bool nan, const Operation& operation) {
+Range of_corners(const Range& a, const Range& b, bool nan, Rounding how,
+                 const Operation& operation) {
   Range range{infinity, -infinity, nan || a.nan || b.nan};
   for (const double x : {a.low, a.high}) {
     for (const double y : {b.low, b.high}) {
@@ -43,7 +66,7 @@ Range of_corners(const Range& a, const Range& b, bool nan, const Operation& oper
       range.high = std::max(range.high, std::isnan(corner) ? 0 : corner);
     }
   }
-  return rounded(range.low, range.high, range.nan);
+  return rounded(how, range.low, range.high, range.nan);
 }
 
 }  // namespace
@@ -66,32 +89,33 @@ Range intersection(const Range& a, const Range& b) {
   return {std::max(a.low, b.low), std::min(a.high, b.high), a.nan && b.nan};
 }
 
-Range sum(const Range& a, const Range& b) {
+Range sum(const Range& a, const Range& b, Rounding rounding) {
   // Of infinities of two signs.
   const bool nan = a.nan || b.nan || (a.high == infinity && b.low == -infinity) ||
                    (a.low == -infinity && b.high == infinity);
   const bool falls = a.low == -infinity || b.low == -infinity;
   const bool rises = a.high == infinity || b.high == infinity;
-  return rounded(falls ? -infinity : a.low + b.low, rises ? infinity : a.high + b.high, nan);
+  return rounded(rounding, falls ? -infinity : a.low + b.low, rises ? infinity : a.high + b.high,
+                 nan);
 }
 
 Range negated(const Range& a) { return {-a.high, -a.low, a.nan}; }
 
-Range product(const Range& a, const Range& b) {
+Range product(const Range& a, const Range& b, Rounding rounding) {
   return of_corners(a, b, (has_zero(a) && has_infinity(b)) || (has_infinity(a) && has_zero(b)),
-                    [](double x, double y) { return x * y; });
+                    rounding, [](double x, double y) { return x * y; });
 }
 
-Range square(const Range& a) {
+Range square(const Range& a, Rounding rounding) {
   const Range size = absolute(a);
-  Range squared = product(size, size);
+  Range squared = product(size, size, rounding);
   squared.nan = a.nan;  // No zero meets an infinity.
   return squared;
 }
 
-Range quotient(const Range& a, const Range& b) {
+Range quotient(const Range& a, const Range& b, Rounding rounding) {
   if (has_zero(b)) return {};  // Of either sign.
-  return of_corners(a, b, has_infinity(a) && has_infinity(b),
+  return of_corners(a, b, has_infinity(a) && has_infinity(b), rounding,
                     [](double x, double y) { return x / y; });
 }
 
@@ -106,7 +130,7 @@ Range mixed(const Range& a, const Range& b, const Range& t) {
     high = std::max(high, to + most);
   }
   // What (1 - t) a rounds by may be more than the sum has digits for.
-  const double lost = rounding * (largest_size(a) * (1 + largest_size(t)));
+  const double lost = rounding_about * (largest_size(a) * (1 + largest_size(t)));
   return rounded(low - lost, high + lost);
 }
 
@@ -121,9 +145,9 @@ Range absolute(const Range& a) {
   return {has_zero(a) ? 0.0 : std::min(std::abs(a.low), std::abs(a.high)), largest_size(a), a.nan};
 }
 
-Range root(const Range& a) {
+Range root(const Range& a, Rounding rounding) {
   if (a.low < 0) return {0, infinity, true};
-  return rounded(std::sqrt(a.low), std::sqrt(a.high), a.nan);
+  return rounded(rounding, std::sqrt(a.low), std::sqrt(a.high), a.nan);
 }
 
 Range floored(const Range& a) {

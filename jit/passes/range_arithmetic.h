@@ -17,11 +17,18 @@ bool may_be_minus_zero(const Range& a);
 /// How far the farther end is from 0.
 double largest_size(const Range& a);
 
-Range sum(const Range& a, const Range& b);
+/// How far the results of floats are from what numbers give.
+enum class Rounding {
+  about,       ///< By a few units in the last place, as estimates are.
+  to_nearest,  ///< By half of one at most: what is between two floats stays between them.
+  none,        ///< Not at all: of what is rounded later.
+};
+
+Range sum(const Range& a, const Range& b, Rounding rounding = Rounding::about);
 Range negated(const Range& a);
-Range product(const Range& a, const Range& b);
-Range square(const Range& a);
-Range quotient(const Range& a, const Range& b);
+Range product(const Range& a, const Range& b, Rounding rounding = Rounding::about);
+Range square(const Range& a, Rounding rounding = Rounding::about);
+Range quotient(const Range& a, const Range& b, Rounding rounding = Rounding::about);
 /// fma(t, b, fma(-t, a, a)): between a and b for t in [0, 1], which sums and products forget.
 Range mixed(const Range& a, const Range& b, const Range& t);
 /// a < b ? a : b, and a > b ? a : b: of NaN the second.
@@ -30,7 +37,7 @@ Range least(const Range& a, const Range& b);
 Range most(const Range& a, const Range& b);
 /// @}
 Range absolute(const Range& a);
-Range root(const Range& a);
+Range root(const Range& a, Rounding rounding = Rounding::about);
 Range floored(const Range& a);
 /// Of x - floor(x), which rounds to 1 just below a whole number.
 Range fraction(const Range& x);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "jit/compile/fact_kernel.h"
 #include "jit/passes/reached_tiles.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
@@ -43,6 +44,11 @@ void BoundKernel::when_ended(std::function<void()> call) const {
 
 Diagnostics BoundKernel::diagnostics() const {
   return made() != nullptr ? made()->diagnostics() : Diagnostics();
+}
+
+std::uint64_t BoundKernel::points_outside_facts() const {
+  const auto* checked = dynamic_cast<const FactKernel*>(kernel_.get());
+  return checked != nullptr ? checked->points_outside() : 0;
 }
 
 std::unique_ptr<const BoundCode> BoundKernel::code(std::vector<std::uint32_t> parameters,

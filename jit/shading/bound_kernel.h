@@ -58,6 +58,10 @@ class BoundKernel {
   /// say. Without `asynchronous`, compiling has said that already.
   Diagnostics diagnostics() const;
 
+  /// Points so far that were computed as if CompileOptions::facts had said nothing: those of groups
+  /// of 16 of which one was outside.
+  std::uint64_t points_outside_facts() const;
+
   /// The parameter block as the document has it, to be changed and passed to run().
   const std::vector<std::uint32_t>& parameters() const { return parameters_; }
   /// Index of a slot in the block, if this kernel reads it.

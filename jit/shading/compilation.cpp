@@ -14,6 +14,7 @@
 #include "jit/record/pattern.h"
 #include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
+#include "jit/shading/state_facts.h"
 #include "pbs/exterior.h"
 #include "pbs/shader_channels.h"
 #include "runtime/node/live_anisotropy.h"
@@ -68,9 +69,9 @@ std::unique_ptr<OutputKernel> Compilation::make_outputs(const Graph& graph) {
   if (!recorded) return nullptr;
   auto kernel = std::move(compile(std::move(recorded->programs)).front());
   if (!kernel || !is_complete(errors)) return nullptr;
-  return std::make_unique<OutputKernel>(OutputKernel{std::move(*kernel),
-                                                     std::move(recorded->outputs),
-                                                     live_parameters(graph), std::move(stages_)});
+  return std::make_unique<OutputKernel>(
+      OutputKernel{std::move(*kernel), std::move(recorded->outputs), live_parameters(graph),
+                   std::move(facts_), std::move(stages_)});
 }
 
 std::unique_ptr<MaterialKernels> Compilation::make_material(const Graph& graph,
@@ -87,6 +88,7 @@ std::unique_ptr<MaterialKernels> Compilation::finish(const Graph& graph,
     (*kernels).*recorded.places[i] = std::move(compiled[i]);
   }
   kernels->parameters = live_parameters(graph);
+  kernels->facts = std::move(facts_);
   kernels->stages = std::move(stages_);
   return is_complete(errors_before_) ? std::move(kernels) : nullptr;
 }
@@ -197,11 +199,14 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
   }
   std::vector<std::vector<StageReport>> reports;
   Diagnostics said;
-  auto compiled =
-      compile_all(std::move(programs), options_.compile, parts_.service.get(), said, &reports);
+  CompileOptions options = options_.compile;
+  std::ranges::move(state_facts(programs, options), std::back_inserter(options.facts));
+  auto compiled = compile_all(std::move(programs), options, parts_.service.get(), said, &reports);
   add_located(said);
+  for (const Fact& fact : options_.compile.facts) facts_.push_back({fact, 0});
   std::vector<std::optional<BoundKernel>> kernels(compiled.size());
   for (std::size_t i = 0; i < compiled.size(); ++i) {
+    add_uses(reports[i]);
     for (StageReport& report : reports[i]) {
       report.name = names[i] + ": " + report.name;
       stages_.push_back(std::move(report));
@@ -209,6 +214,19 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
     if (compiled[i] != nullptr) kernels[i].emplace(std::move(compiled[i]), textures_);
   }
   return kernels;
+}
+
+void Compilation::add_uses(const std::vector<StageReport>& reports) {
+  const auto decided = std::ranges::find(reports, "decide", &StageReport::name);
+  for (FactUse& use : facts_) {
+    if (decided == reports.end()) {
+      use.saved.reset();
+      continue;
+    }
+    for (const FactUse& part : decided->facts) {
+      if (use.saved && is_part_of(part.fact, use.fact)) *use.saved += part.saved.value_or(0);
+    }
+  }
 }
 
 void Compilation::try_stages(std::vector<Program> programs) {

@@ -79,6 +79,8 @@ class Compilation {
   bool is_complete(std::size_t errors_before) const;
   /// Whether there is time and room for more; false, with an error, once there is not.
   bool may_go_on();
+  /// What facts have left out of a kernel, by its reports.
+  void add_uses(const std::vector<StageReport>& reports);
   /// Who compiles Programs does not know what document they come from.
   void add_located(const Diagnostics& said);
 
@@ -89,7 +91,8 @@ class Compilation {
   std::shared_ptr<RecordedTextures> textures_;
   SourceLocation where_;  ///< Of what is compiled.
   std::vector<StageReport> stages_;
-  std::size_t errors_before_;  ///< What was wrong before there was anything to compile.
+  std::vector<FactUse> facts_;  ///< Of all kernels.
+  std::size_t errors_before_;   ///< What was wrong before there was anything to compile.
 };
 
 }  // namespace nacre

@@ -126,6 +126,7 @@ struct OutputKernel {
   BoundKernel kernel;                 ///< All outputs at once.
   std::vector<Output> outputs;        ///< In the order asked for.
   std::vector<Parameter> parameters;  ///< Those that are live.
+  std::vector<FactUse> facts;         ///< CompileOptions::facts, in order.
   std::vector<StageReport> stages;    ///< Of all that was done, in order.
 };
 
@@ -184,6 +185,7 @@ struct MaterialKernels {
   /// Those lines of it that a renderer would have to do itself, for the picture lacks them.
   std::vector<std::string> not_modelled;
   std::vector<Parameter> parameters;  ///< Those that are live; each kernel has slots of some.
+  std::vector<FactUse> facts;         ///< CompileOptions::facts, in order, for all kernels.
   std::vector<StageReport> stages;    ///< Of all kernels, one after another.
 };
 

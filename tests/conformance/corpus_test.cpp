@@ -1,20 +1,18 @@
+#include "tests/conformance/corpus.h"
+
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <iostream>
 #include <map>
-#include <set>
+#include <string>
+#include <vector>
 
 #include "examples/bake/bake.h"
-#include "examples/common/materialx_libraries.h"
-#include "jit/document/read.h"
 #include "jit/graph/find.h"
-#include "jit/shading/shading_system.h"
-#include "tests/support/materialx_samples.h"
 
 namespace nacre {
 namespace {
@@ -31,50 +29,10 @@ const Reasons& uncompilable() {
   return known;
 }
 
-/// All of MaterialX's own documents: every numeric output through the compiler
-/// and the interpreter, whose texels must be the same bits.
-class Corpus : public ::testing::Test {
+/// Every numeric output through the compiler and the interpreter, whose texels must be the same
+/// bits.
+class CorpusBakes : public Corpus {
  protected:
-  void SetUp() override {
-    folder_ = materialx_sample("Materials");
-    if (folder_.empty()) GTEST_SKIP() << "the MaterialX sample documents are not here";
-    system_ = ShadingSystem::create({.libraries = {find_materialx_libraries()}}, diagnostics_);
-    ASSERT_NE(system_, nullptr) << diagnostics_.to_string();
-    // The documents name images as "resources/Images/..." from MaterialX's own root.
-    images_ = fs::temp_directory_path() / std::to_string(getpid()).append("_nacre_corpus");
-    fs::create_directories(images_);
-    fs::create_directory_symlink(fs::absolute(folder_.parent_path()), images_ / "resources");
-  }
-
-  void TearDown() override {
-    if (!images_.empty()) fs::remove_all(images_);
-  }
-
-  std::unique_ptr<Document> read(const fs::path& file, Diagnostics& diagnostics) const {
-    ReadOptions options;
-    options.includes_anywhere = true;
-    return read_document(file, options, diagnostics);
-  }
-
-  std::string name_of(const fs::path& file) const { return fs::relative(file, folder_).string(); }
-
-  ShaderOptions options(Backend backend) const {
-    ShaderOptions result;
-    result.compile.backend = backend;
-    result.search_paths = {images_};
-    result.files_anywhere = true;
-    return result;
-  }
-
-  std::vector<fs::path> documents() const {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
-      if (entry.path().extension() == ".mtlx") files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-  }
-
   /// The texels of one output; empty if it does not compile.
   std::vector<float> bake(const Document& document, const std::string& output,
                           const ShaderOptions& options, Diagnostics& diagnostics) {
@@ -82,11 +40,6 @@ class Corpus : public ::testing::Test {
     if (kernel == nullptr) return {};
     return host::bake_image(*kernel, 0, {.width = 7, .height = 5, .threads = 1});
   }
-
-  fs::path folder_;
-  fs::path images_;
-  Diagnostics diagnostics_;
-  std::unique_ptr<ShadingSystem> system_;
 };
 
 std::vector<std::uint32_t> bits(const std::vector<float>& texels) {
@@ -95,7 +48,7 @@ std::vector<std::uint32_t> bits(const std::vector<float>& texels) {
   return result;
 }
 
-TEST_F(Corpus, EveryNumericOutputIsFiniteAndTheSameOnBothEngines) {
+TEST_F(CorpusBakes, EveryNumericOutputIsFiniteAndTheSameOnBothEngines) {
   int documents_read = 0;
   int numeric = 0;
   for (const fs::path& file : documents()) {
@@ -130,7 +83,7 @@ TEST_F(Corpus, EveryNumericOutputIsFiniteAndTheSameOnBothEngines) {
 }
 
 /// What a conditional node does not take is not computed; nothing shows of it.
-TEST_F(Corpus, RecordingBranchesApartChangesNoBit) {
+TEST_F(CorpusBakes, RecordingBranchesApartChangesNoBit) {
   for (const fs::path& file : documents()) {
     Diagnostics diagnostics;
     const auto document = read(file, diagnostics);

@@ -112,6 +112,19 @@ void bind_shader(nb::module_& module) {
       .def_prop_ro(
           "left_out", [](const Shader& self) { return texts(self.left_out()); },
           nb::sig("def left_out(self) -> list[str]"), "What the kernels leave out, a line each.")
+      .def("_facts",
+           [](const Shader& self) {
+             nb::list list;
+             for (const FactInfo& each : self.facts()) {
+               list.append(nb::make_tuple(
+                   text(each.fact.name), each.fact.minimum, each.fact.maximum,
+                   each.saved ? nb::object(nb::int_(*each.saved)) : nb::object(nb::none())));
+             }
+             return list;
+           })
+      .def_prop_ro("points_outside_facts", &Shader::points_outside_facts,
+                   "Points so far that were computed as if facts had not been stated, since they "
+                   "were not true of one of them.")
       .def("_error",
            [](const Shader& self) -> nb::object {
              const std::optional<ShaderError> e = self.error();

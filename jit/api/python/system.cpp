@@ -1,8 +1,10 @@
 // What documents share, and how shaders are compiled.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <tuple>
 #include <utility>
 
 #include "jit/api/python/errors.h"
@@ -13,6 +15,9 @@
 namespace nacre::python {
 
 namespace nb = nanobind;
+
+/// Name, least and greatest.
+using StatedFact = std::tuple<std::string, double, double>;
 
 void bind_system(nb::module_& module) {
   nb::class_<System>(module, "System")
@@ -115,6 +120,21 @@ void bind_system(nb::module_& module) {
       .def_rw("error_points", &CompileOptions::error_points)
       .def_rw("error_record", &CompileOptions::error_record)
       .def_rw("measure_error", &CompileOptions::measure_error)
+      .def_prop_rw(
+          "facts",
+          [](const CompileOptions& self) {
+            std::vector<StatedFact> facts;
+            for (const Fact& each : self.facts) {
+              facts.emplace_back(each.name, each.minimum, each.maximum);
+            }
+            return facts;
+          },
+          [](CompileOptions& self, const std::vector<StatedFact>& facts) {
+            self.facts.clear();
+            for (const auto& [name, minimum, maximum] : facts) {
+              self.facts.push_back({name, minimum, maximum});
+            }
+          })
       .def_rw("search_paths", &CompileOptions::search_paths)
       .def_rw("files_anywhere", &CompileOptions::files_anywhere)
       .def_rw("missing_images_pass", &CompileOptions::missing_images_pass)

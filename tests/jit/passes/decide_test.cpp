@@ -41,7 +41,10 @@ TEST(Decide, KeepsTheBitsOfWhatProgramsCompute) {
     for (const ValueId value : top_level_values(program)) {
       const Program part = program_of_value(program, value);
       const Within within(part, random);
-      const Known known{.inputs = within.ranges, .parameters = {}, .dots = {}};
+      const Known known{.inputs = within.ranges,
+                        .parameters = {},
+                        .dots = {},
+                        .arithmetic = Arithmetic::as_written};
       const Program decided = decide(part, known, no_limit);
       ++all;
       shorter += instruction_count(decided) < instruction_count(part) ? 1u : 0u;
@@ -61,7 +64,9 @@ TEST(Decide, KeepsTheBitsOfWhateverComesIn) {
   std::size_t shorter = 0;
   for (std::uint64_t seed = 0; seed < programs; ++seed) {
     const Program program = random_program(seed);
-    const Program decided = decide(program, {}, no_limit);
+    const Known known{
+        .inputs = {}, .parameters = {}, .dots = {}, .arithmetic = Arithmetic::as_written};
+    const Program decided = decide(program, known, no_limit);
     shorter += instruction_count(decided) < instruction_count(program) ? 1u : 0u;
     const RandomBatch batch(program, seed, order);
     const auto found = batch.run(*make_interpreter(decided), 0, order.size());
@@ -138,6 +143,25 @@ TEST(Decide, ZeroKeepsItsSign) {
   const Body product = [](Recorder&, Float x, Float y) { return max(abs(x) * y, 0.0f); };
   EXPECT_TRUE(has(decided(product, {-1, 1, false}, {0, 1, false}), "max"));
   EXPECT_FALSE(has(decided(product, {-1, 1, false}, {0.5, 1, false}), "max"));
+}
+
+// What is below 1 stays below it by rounding to nearest, but not where sums are made of other
+// parts.
+TEST(Decide, RoundingGoesNoFurtherThanItMust) {
+  const auto is_clamped = [](Arithmetic arithmetic, const Body& body) {
+    const Program program = program_of(body);
+    const Range unit{0, 1, false, false};
+    const Known known{
+        .inputs = {unit, unit}, .parameters = {}, .dots = {}, .arithmetic = arithmetic};
+    const std::string text = to_string(decide(program, known, no_limit));
+    return has(text, "min") || has(text, "max");
+  };
+  const Body product = [](Recorder&, Float x, Float y) { return min(x * y, 1.0f); };
+  EXPECT_FALSE(is_clamped(Arithmetic::as_written, product));
+  EXPECT_TRUE(is_clamped(Arithmetic::unknown, product));
+  const Body rest = [](Recorder&, Float x, Float y) { return sqrt(max(1.0f - x * y, 0.0f)); };
+  EXPECT_FALSE(is_clamped(Arithmetic::as_written, rest));
+  EXPECT_TRUE(is_clamped(Arithmetic::reassociated, rest));
 }
 
 TEST(Decide, RegionsThatNoLaneEntersGo) {

@@ -23,6 +23,7 @@
 #include <nacre/channel.h>
 #include <nacre/colors.h>
 #include <nacre/document.h>
+#include <nacre/fact.h>
 #include <nacre/hooks.h>
 #include <nacre/library.h>
 #include <nacre/record.h>
@@ -286,6 +287,8 @@ typedef struct nacre_compile_options {
                                measure where a scene shades them. NULL: at points of every kind. */
   int measure_error;        /* 1: nacre_shader_error is wanted of what is compiled as it is asked
                                for. */
+  const nacre_fact* facts;  /* Not of NACRE_REFERENCE. */
+  size_t fact_count;
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;
@@ -343,6 +346,13 @@ NACRE_API nacre_status nacre_shader_lobe(const nacre_shader* shader, size_t inde
 NACRE_API size_t nacre_shader_left_out_count(const nacre_shader* shader);
 NACRE_API const char* nacre_shader_left_out(const nacre_shader* shader, size_t index,
                                             int* changes_picture);
+/* nacre_compile_options::facts, in their order. */
+NACRE_API size_t nacre_shader_fact_count(const nacre_shader* shader);
+NACRE_API nacre_status nacre_shader_fact(const nacre_shader* shader, size_t index,
+                                         nacre_fact_info* info);
+/* Points so far that were computed as if nothing had been said, since facts were not true of them
+   or of one beside them. */
+NACRE_API uint64_t nacre_shader_points_outside_facts(const nacre_shader* shader);
 /* How far a shader's numbers are from double precision with everything exact: f, albedo, emission,
    opacity and transmission, what media, displacement and lights are, or outputs. Measured at points
    by which nothing was chosen. */

@@ -45,6 +45,18 @@ struct LobeInfo {
   int kinds = 0;
 };
 
+/// What is known of numbers that kernels read; see nacre_fact.
+struct Fact {
+  std::string name;
+  double minimum = 0, maximum = 0;
+};
+
+/// What a fact has left out; see nacre_fact_info.
+struct FactInfo {
+  Fact fact;
+  std::optional<std::uint64_t> saved;
+};
+
 /// How far a shader's numbers are off; see nacre_shader_error_info.
 struct ShaderError {
   double mean = 0, p999 = 0, maximum = 0;
@@ -129,6 +141,21 @@ class Shader {
     }
     return lines;
   }
+  /// CompileOptions::facts, with what they save.
+  std::vector<FactInfo> facts() const {
+    std::vector<FactInfo> list;
+    for (std::size_t i = 0; i < nacre_shader_fact_count(get()); ++i) {
+      nacre_fact_info one{};
+      one.size = sizeof one;
+      detail::check(nacre_shader_fact(get(), i, &one));
+      const auto saved =
+          one.saved != NACRE_NOT_KNOWN ? std::optional<std::uint64_t>(one.saved) : std::nullopt;
+      list.push_back({{one.name, one.minimum, one.maximum}, saved});
+    }
+    return list;
+  }
+  /// Points so far that facts were not true of, with those of their blocks.
+  std::uint64_t points_outside_facts() const { return nacre_shader_points_outside_facts(get()); }
   /// Nothing where neither max_error nor measure_error asked for it.
   std::optional<ShaderError> error() const {
     nacre_shader_error_info one{};

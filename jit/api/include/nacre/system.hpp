@@ -135,6 +135,7 @@ struct CompileOptions {
   std::uint32_t error_points = 0;  ///< 1,000 to 1,000,000; 0: 2048.
   std::string error_record;        ///< The text of `nacre render --record-points`; empty: none.
   bool measure_error = false;      ///< Shader::error() is wanted of what is asked for.
+  std::vector<Fact> facts;         ///< What is known of numbers that kernels read.
 };
 
 /// The data library, textures and the compiler, for any number of documents.
@@ -360,6 +361,12 @@ class System {
     asked.error_points = options.error_points;
     asked.error_record = detail::text_or_null(options.error_record);
     asked.measure_error = options.measure_error;
+    std::vector<nacre_fact> facts;
+    for (const Fact& one : options.facts) {
+      facts.push_back({one.name.c_str(), one.minimum, one.maximum});
+    }
+    asked.facts = facts.data();
+    asked.fact_count = facts.size();
     call(asked);
   }
 

@@ -31,13 +31,13 @@ from ._errors import Diagnostic, DiagnosticWarning, Error, Severity
 from ._options import CompileOptions, LobeKind, SampleFlag, Transport
 from ._parameters import Instance, Parameters, Ui
 from ._points import plane_points, surface_points
-from ._shader import Channel, Lobe, Shader, ShaderError, of_instance, of_place
+from ._shader import Channel, Fact, Lobe, Shader, ShaderError, of_instance, of_place
 from ._system import System, default_system
 from ._tool import bake_files, check_lobes, inspect, render, tune
 
 __all__ = [
     "Binding", "Channel", "CompileOptions", "Diagnostic", "DiagnosticWarning", "Document", "Entry",
-    "Error", "FileResolver", "Instance", "Lobe", "LobeKind", "Parameters", "SampleFlag", "Severity",
+    "Error", "Fact", "FileResolver", "Instance", "Lobe", "LobeKind", "Parameters", "SampleFlag", "Severity",
     "Shader", "ShaderError", "Stop", "System", "Transport", "Ui", "bake", "bake_files", "check_lobes", "data_library", "default_system",
     "inspect", "of_instance", "of_place", "plane_points", "render", "surface_points", "tune",
 ]

@@ -93,6 +93,10 @@ class CompileOptions(TypedDict, total=False):
     # them.
     error_record: str
     measure_error: bool  # Shader.error is wanted of what is compiled as it is asked for.
+    # What is known of numbers that kernels read: least and greatest of a channel, "uv0.x", a group,
+    # "uv0", what is live, "SR_gold/coat", or a scalar product, "dot(N,wo)". Kernels leave out what
+    # cannot happen, with the same bits, and find out where it is not so. See Shader.facts.
+    facts: Mapping[str, tuple[float, float]]
     search_paths: Iterable[str]  # Of images, after the document's own folder.
     files_anywhere: bool  # Images also from outside those folders.
     missing_images_pass: bool  # An image that cannot be had is a warning and no error.
@@ -132,6 +136,8 @@ def _value(name: str, value: Any) -> Any:
         if isinstance(value, str):  # One letter each is never what was meant.
             raise TypeError(f"{name} takes a list of texts, not the text {value!r}")
         return [str(each) for each in value]
+    if name == "facts":
+        return [(str(fact), float(least), float(most)) for fact, (least, most) in value.items()]
     if name == "entries":
         return entry_bits(value)
     return int(value) if name == "lobes" else value

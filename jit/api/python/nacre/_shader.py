@@ -48,6 +48,15 @@ class ShaderError(NamedTuple):
     points: str  # Where that was measured, for people.
 
 
+class Fact(NamedTuple):
+    """What the option `facts` says of numbers that kernels read."""
+
+    name: str
+    minimum: float
+    maximum: float
+    saved: int | None  # Instructions that kernels have less for it; None of code from the cache.
+
+
 class _Placed(NamedTuple):
     array: Any
     element: int
@@ -90,6 +99,11 @@ class Shader(_core.Shader):
         """None where neither max_error nor measure_error asked for it."""
         found = self._error()
         return None if found is None else ShaderError(*found)
+
+    @functools.cached_property
+    def facts(self) -> list[Fact]:
+        """What the option `facts` said, each with what it saves."""
+        return [Fact(*each) for each in self._facts()]
 
     @functools.cached_property
     def lobes(self) -> list[Lobe]:
