@@ -65,10 +65,13 @@ class Blocks {
  private:
   /// Groups of which a point is outside, as many as stand side by side at once.
   RunStatus run_outside(const GeneralFor& general, std::uint64_t first, std::size_t count) {
+    const std::size_t whole = whole_groups(count);
+    std::fill(outside_.begin() + count, outside_.begin() + whole, 0);
     RunStatus status = RunStatus::done;
+    if (!any_outside(whole)) return status;
     for (std::size_t at = 0; at < count && status == RunStatus::done;) {
       std::size_t end = at;
-      while (end < count && is_outside(end, count)) end += group;
+      while (end < count && group_at(end) != 0) end += group;
       if (end == at) {
         at += group;
         continue;
@@ -80,10 +83,19 @@ class Blocks {
     return status;
   }
 
-  bool is_outside(std::size_t at, std::size_t count) const {
+  static std::size_t whole_groups(std::size_t count) { return (count + group - 1) / group * group; }
+
+  bool any_outside(std::size_t whole) const {
     std::uint32_t any = 0;
-    for (std::size_t i = at; i < std::min(at + group, count); ++i) any |= outside_[i];
+    for (std::size_t at = 0; at < whole; at += group) any |= group_at(at);
     return any != 0;
+  }
+
+  /// Not 0 where one of the group is outside.
+  std::uint32_t group_at(std::size_t at) const {
+    std::uint32_t any = 0;
+    for (std::size_t k = 0; k < group; ++k) any |= outside_[at + k];  // Whole vectors.
+    return any;
   }
 
   RunStatus run_part(const Kernel& kernel, std::uint64_t first, std::size_t count) {

@@ -201,7 +201,7 @@ bool is_part_of(const Fact& part, const Fact& whole) {
   return part.low == whole.low && part.high == whole.high && is_of(whole.name, part.name);
 }
 
-std::size_t cost_of_check(const Fact& part, const Program& program) {
+double cost_of_check(const Fact& part, const Program& program) {
   if (part.is_implied) return 0;
   if (factors_of(part.name)) return 7;  // A sum of products, two comparisons, and both to others.
   // What is of the call is looked at once a call.

@@ -43,8 +43,8 @@ bool check_facts(std::span<const Fact> facts, Diagnostics& diagnostics);
 std::vector<Fact> facts_of(std::span<const Fact> facts, const Program& program);
 /// Whether facts_of() has made one of the other.
 bool is_part_of(const Fact& part, const Fact& whole);
-/// Instructions that look, for each point, whether such a part is so.
-std::size_t cost_of_check(const Fact& part, const Program& program);
+/// What it takes for each point to look whether such a part is so, in additions.
+double cost_of_check(const Fact& part, const Program& program);
 
 /// Those of slots of its parameter block.
 std::vector<Fact> facts_of_parameters(std::span<const Fact> facts, const Program& program);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -64,6 +65,27 @@ Program expand_and_decide(const Program& program, const CompileOptions& options,
   return decide(made, known, options.max_instructions);
 }
 
+/// How large a Program is, and what it takes in additions where no lane enters a region: facts that
+/// are so exclude what no lane does then.
+struct Size {
+  std::size_t instructions = 0;
+  double cost = 0;
+};
+
+Size size_of(const Program& program) {
+  Size size{instruction_count(program), 0};
+  int depth = 0;
+  for (const Instruction& instruction : program.entry().code) {
+    if (opens_region(instruction.op)) ++depth;
+    if (closes_region(instruction.op)) --depth;
+    const double cost = cost_of(instruction.op);
+    if (depth == 0 && std::isfinite(cost)) size.cost += cost;
+    // A jump that is foreseen, and what it keeps apart.
+    if (depth == 1 && opens_region(instruction.op)) size.cost += 8;
+  }
+  return size;
+}
+
 /// Those facts that leave out more which the others do not than it takes to look at them, each with
 /// what it does; and those that others are implied by.
 std::vector<FactUse> used_facts(const Program& program, const CompileOptions& options) {
@@ -74,17 +96,17 @@ std::vector<FactUse> used_facts(const Program& program, const CompileOptions& op
     return has_implied && std::ranges::count(of_parameters, fact) != 0;
   };
   std::vector<FactUse> uses;
-  const auto size_with = [&] {
-    return instruction_count(expand_and_decide(program, options, facts));
-  };
-  const std::size_t least = facts.empty() ? 0 : size_with();
+  const auto size_with = [&] { return size_of(expand_and_decide(program, options, facts)); };
+  const Size least = facts.empty() ? Size{} : size_with();
   for (std::size_t i = 0; i < facts.size() && !options.stop.is_due();) {
     const Fact fact = facts[i];
     facts.erase(facts.begin() + static_cast<std::ptrdiff_t>(i));
-    const std::size_t without = fact.is_implied ? least : size_with();
-    const bool pays = without - least > cost_of_check(fact, program);
+    const Size without = fact.is_implied ? least : size_with();
+    const std::size_t saved = without.instructions - least.instructions;
+    const double check = cost_of_check(fact, program);
+    const bool pays = check == 0 ? saved > 0 : without.cost - least.cost > check;
     if (!pays && !fact.is_implied && !is_needed(fact)) continue;
-    uses.push_back({fact, without - least});
+    uses.push_back({fact, saved});
     facts.insert(facts.begin() + static_cast<std::ptrdiff_t>(i), fact);
     ++i;
   }

@@ -1,5 +1,6 @@
 #include "jit/passes/decide.h"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -46,6 +47,7 @@ class Decider {
 
   std::optional<Ref> instead_of(const Instruction& x, std::span<const Ref> operands) const {
     if (!is_of_entry(x)) return std::nullopt;
+    if (const std::optional<Ref> number = number_of(x)) return number;
     if (const Outcome outcome = outcome_of(x)) return Ref::literal(*outcome);
     if (const std::optional<std::size_t> same = same_as(x)) return operands[*same];
     return std::nullopt;
@@ -58,6 +60,17 @@ class Decider {
   }
   const Range& of(const Instruction& x, std::size_t operand) const {
     return ranges_[x.operands[operand]];
+  }
+
+  /// The one number that it is.
+  std::optional<Ref> number_of(const Instruction& x) const {
+    const Range& range = ranges_[static_cast<std::size_t>(&x - code_.data())];
+    if (!is_point(range)) return std::nullopt;
+    if (x.type == Scalar::i32) return Ref::literal(static_cast<std::int32_t>(range.low));
+    const auto number = static_cast<float>(range.low);
+    const bool is_float = x.type == Scalar::f32 && double(number) == range.low;
+    if (!is_float || may_be_minus_zero(range)) return std::nullopt;
+    return Ref::literal(number + 0.0f);  // Of a range from -0 to 0 too.
   }
 
   Outcome outcome_of(const Instruction& x) const {
@@ -95,8 +108,17 @@ class Decider {
         // -0 - -0 is 0.
         if (is_zero(of(x, 1)) && !may_be_minus_zero(of(x, 1))) return 0;
         return std::nullopt;
+      case Op::fma:
+        // Of what is finite 0 makes 0 or -0.
+        if (is_nothing(of(x, 0), of(x, 1)) && !may_be_minus_zero(of(x, 2))) return 2;
+        return std::nullopt;
       default: return std::nullopt;
     }
+  }
+
+  /// Whether the product of both is 0, of either sign.
+  static bool is_nothing(const Range& a, const Range& b) {
+    return (is_zero(a) && b.is_bounded()) || (is_zero(b) && a.is_bounded());
   }
 
   /// Of less < more ? a : b.

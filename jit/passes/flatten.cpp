@@ -19,28 +19,6 @@ constexpr double cost_of_test = 30;
 /// No select stands for these.
 constexpr double never_flat = std::numeric_limits<double>::infinity();
 
-/// In additions, where each lane's numbers are at hand.
-double cost_of(Op op) {
-  if (is_transcendental(op)) return op == Op::pow ? 60 : 30;
-  switch (op) {
-    case Op::constant:
-    case Op::parameter:
-    case Op::input:
-    case Op::argument:
-    case Op::merge:
-    case Op::result:
-    case Op::give:
-    case Op::keep: return 0;
-    case Op::div:
-    case Op::sqrt: return 8;
-    case Op::table:
-    case Op::texel: return 16;
-    case Op::loop:
-    case Op::texture_call: return never_flat;
-    default: return 1;
-  }
-}
-
 /// What the regions of a function cost, by the instruction that opens them, and all of it.
 struct Costs {
   std::vector<double> regions;
@@ -72,6 +50,27 @@ Costs costs_of(const Function& function, const std::vector<Costs>& callees) {
 }
 
 }  // namespace
+
+double cost_of(Op op) {
+  if (is_transcendental(op)) return op == Op::pow ? 60 : 30;
+  switch (op) {
+    case Op::constant:
+    case Op::parameter:
+    case Op::input:
+    case Op::argument:
+    case Op::merge:
+    case Op::result:
+    case Op::give:
+    case Op::keep: return 0;
+    case Op::div:
+    case Op::sqrt: return 8;
+    case Op::table:
+    case Op::texel: return 16;
+    case Op::loop:
+    case Op::texture_call: return never_flat;
+    default: return 1;
+  }
+}
 
 Flattening cheap_regions(const Program& program) {
   std::vector<Costs> costs(program.functions.size());

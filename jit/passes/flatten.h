@@ -7,6 +7,10 @@
 
 namespace nacre {
 
+/// What an operation takes, in additions, where each lane's numbers are at hand; infinite where no
+/// select stands for it.
+double cost_of(Op op);
+
 /// Which if_any regions of a Program, that has to live as long, cost less than a test. This is
 /// the one place that decides what is worth a branch: whoever records marks what only some
 /// lanes need, however little that is.

@@ -157,7 +157,9 @@ class Ranges {
     } else if (x.type == Scalar::f32) {
       const Operands operands = operands_of(x);
       range = of(x, operands);
-      range.minus_zero = !(range.low >= 0) || gives_minus_zero(x, operands);
+      const bool is_given =
+          x.op == Op::input || x.op == Op::parameter || x.op == Op::argument || x.op == Op::result;
+      if (!is_given) range.minus_zero = !(range.low >= 0) || gives_minus_zero(x, operands);
     } else if (x.type == Scalar::i32 && is_known_) {
       range = of_integer(x, operands_of(x));
     }
@@ -232,7 +234,9 @@ class Ranges {
 
   Operands operands_of(const Instruction& x) const {
     Operands ranges;
-    for (std::size_t k = 0; k < x.count; ++k) ranges[k] = list_[x.operands[k]];
+    // `count` is no more than that, which GCC 12 does not know.
+    const std::size_t count = std::min<std::size_t>(x.count, ranges.size());
+    for (std::size_t k = 0; k < count; ++k) ranges[k] = list_[x.operands[k]];
     return ranges;
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "jit/compile/compile.h"
+#include "jit/compile/fact_kernel.h"
 #include "jit/compile/lower.h"
 #include "jit/compile/stages.h"
 #include "jit/passes/scale_footprints.h"
@@ -206,7 +207,7 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
   for (const Fact& fact : options_.compile.facts) facts_.push_back({fact, 0});
   std::vector<std::optional<BoundKernel>> kernels(compiled.size());
   for (std::size_t i = 0; i < compiled.size(); ++i) {
-    add_uses(reports[i]);
+    if (dynamic_cast<const FactKernel*>(compiled[i].get()) != nullptr) add_uses(reports[i]);
     for (StageReport& report : reports[i]) {
       report.name = names[i] + ": " + report.name;
       stages_.push_back(std::move(report));

@@ -79,7 +79,7 @@ class Compilation {
   bool is_complete(std::size_t errors_before) const;
   /// Whether there is time and room for more; false, with an error, once there is not.
   bool may_go_on();
-  /// What facts have left out of a kernel, by its reports.
+  /// What facts have left out of a kernel that they concern, by its reports.
   void add_uses(const std::vector<StageReport>& reports);
   /// Who compiles Programs does not know what document they come from.
   void add_located(const Diagnostics& said);

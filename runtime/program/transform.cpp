@@ -98,7 +98,10 @@ class Transformer {
     switch (instruction.op) {
       case Op::constant: return {nullptr, instruction.imm, instruction.type};
       case Op::parameter:
-      case Op::input: return recorder_.adopted(instruction);
+      case Op::input: {
+        const std::optional<Ref> replaced = replace_(recorder_, instruction, operands);
+        return replaced ? *replaced : recorder_.adopted(instruction);
+      }
       case Op::argument: return recorder_.argument(instruction.imm);
       case Op::if_any:
         if (!ifs_.back()) recorder_.begin_if(operands[0]);

@@ -13,7 +13,7 @@ namespace nacre {
 /// Says what stands in for one instruction: a value recorded on `recorder`, or
 /// nothing to record the instruction itself again. `operands` are the
 /// instruction's, in the new recording. Not asked about structure, calls,
-/// stores and leaves other than constants.
+/// stores, constants and arguments.
 using Replacement = std::function<std::optional<Ref>(
     Recorder& recorder, const Instruction& instruction, std::span<const Ref> operands)>;
 

@@ -177,6 +177,20 @@ TEST(Decide, RegionsThatNoLaneEntersGo) {
   EXPECT_NE(decided(body, {0, 3, false}, {}).find("if_any"), std::string::npos);
 }
 
+TEST(Decide, NumbersThatAreKnownAreLiterals) {
+  const Body body = [](Recorder&, Float x, Float y) { return x * sqrt(y); };
+  const std::string text = decided(body, {2, 2, false}, {9, 9, false});
+  EXPECT_FALSE(has(text, "sqrt") || has(text, "mul")) << text;
+  EXPECT_TRUE(has(text, "const")) << text;
+  // 0 of either sign is two numbers, and what is infinite times 0 is NaN.
+  const Body weighed = [](Recorder&, Float x, Float y) { return fma(x, y, 1.0f); };
+  EXPECT_FALSE(has(decided(weighed, {0, 0, false}, {-5, 5, false}), "fma"));
+  EXPECT_TRUE(has(decided(weighed, {0, 0, false}, {}), "fma"));
+  const Body product = [](Recorder&, Float x, Float y) { return x * y; };
+  EXPECT_TRUE(has(decided(product, {0, 0, false, false}, {-5, 5, false}), "mul"));
+  EXPECT_FALSE(has(decided(product, {0, 0, false, false}, {1, 5, false}), "mul"));
+}
+
 TEST(Decide, WhatIsLeftOutMakesMoreCertain) {
   // Of both ways of the first choice the second is not certain.
   const Body body = [](Recorder&, Float x, Float y) {

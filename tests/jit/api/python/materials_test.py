@@ -233,3 +233,34 @@ def test_a_profile_chooses_for_what_it_names(system, documents):
     with pytest.raises(nacre.Error) as caught:
         f(profile="[]")
     assert caught.value.diagnostics[0].code == "bad-profile"
+
+
+def test_facts_change_no_bit_and_are_found_out(system):
+    document = nacre.Document.parse("""<materialx version="1.39">
+      <standard_surface name="S" type="surfaceshader"/>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+    </materialx>""")
+    options = {"entries": [Entry.SHADE], "no_footprints": True, "live": ["*"]}
+    general = system.compile_material(document, "M", **options)
+    narrow = system.compile_material(document, "M", facts={"S/coat": (0, 0), "P": (-1, 1)}, **options)
+    points = POINTS | {"wi": WI, "u": numpy.random.default_rng(5).random((COUNT, 3), "float32")}
+
+    def is_same(values):
+        expected = general.run(points, Entry.SHADE, instance=general.instance(values))
+        found = narrow.run(points, Entry.SHADE, instance=narrow.instance(values))
+        return all(numpy.array_equal(found[name], expected[name]) for name in expected)
+
+    assert is_same({}) and narrow.points_outside_facts == 0
+    assert [fact.name for fact in narrow.facts] == ["S/coat", "P"]
+    assert narrow.facts[0].saved is None or narrow.facts[0].saved > 0
+    assert narrow.facts[1].saved in (None, 0)  # No kernel reads P.
+    assert is_same({"S/coat": 0.5}) and narrow.points_outside_facts == COUNT
+
+
+def test_facts_that_no_number_fits_are_errors(system):
+    document = nacre.Document.parse("""<materialx version="1.39">
+      <texcoord name="uv" type="vector2"/><output name="o" type="vector2" nodename="uv"/>
+    </materialx>""")
+    with pytest.raises(nacre.Error, match="bad-fact"):
+        system.compile_outputs(document, ["o"], facts={"uv0": (2, 1)})
