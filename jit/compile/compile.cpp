@@ -60,7 +60,8 @@ std::string key_of(const Program& program, const CompileOptions& options,
 std::shared_ptr<const Kernel> general_kernel(const Program& program, CompileOptions options,
                                              const std::weak_ptr<CompileService>& service) {
   options.facts.clear();
-  options.asynchronous = true;
+  // In `fast` the interpreter's bits are others.
+  options.asynchronous = options.accuracy != Accuracy::fast;
   options.whole = options.keep_text = options.dump_ir = options.dump_assembly = false;
   options.stop = {};
   const std::shared_ptr<CompileService> alive = service.lock();

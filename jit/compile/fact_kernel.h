@@ -13,7 +13,8 @@ namespace nacre {
 /// another, which was told none.
 class FactKernel final : public CompiledKernel {
  public:
-  /// `general` makes that one when it is needed, by any thread, at most once; never null.
+  /// `general` makes that one when it is needed, by the thread that does, at most once, which takes
+  /// as long as passes do; never null.
   using MakeGeneral = std::function<std::shared_ptr<const Kernel>()>;
 
   FactKernel(std::shared_ptr<const Kernel> narrow, MakeGeneral general);

@@ -30,7 +30,7 @@ std::string to_string(const Fact& fact);
 
 /// How many instructions kernels have less for a fact, beside what all the others leave out and
 /// without what it implies; 0 where that is less than to look whether it is so. Nothing is known of
-/// code that was in the cache.
+/// code that was in the cache, nor, of parameters, where there are too many to try each.
 struct FactUse {
   Fact fact;
   std::optional<std::size_t> saved;

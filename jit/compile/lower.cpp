@@ -87,26 +87,29 @@ Size size_of(const Program& program) {
 }
 
 /// Those facts that leave out more which the others do not than it takes to look at them, each with
-/// what it does; and those that others are implied by.
+/// what it does, if that was tried.
 std::vector<FactUse> used_facts(const Program& program, const CompileOptions& options) {
+  // What is looked at once a call, and what is implied, is used in any case.
+  constexpr std::size_t most_tried = 16;
   std::vector<Fact> facts = facts_of(options.facts, program);
-  const auto of_parameters = facts_of_parameters(facts, program);
-  const bool has_implied = std::ranges::any_of(facts, &Fact::is_implied);
-  const auto is_needed = [&](const Fact& fact) {
-    return has_implied && std::ranges::count(of_parameters, fact) != 0;
-  };
+  const auto is_free = [&](const Fact& fact) { return cost_of_check(fact, program) == 0; };
+  const auto is_stated = [&](const Fact& fact) { return is_free(fact) && !fact.is_implied; };
+  const bool tries_free = options.whole || static_cast<std::size_t>(std::ranges::count_if(
+                                               facts, is_stated)) <= most_tried;
   std::vector<FactUse> uses;
   const auto size_with = [&] { return size_of(expand_and_decide(program, options, facts)); };
   const Size least = facts.empty() ? Size{} : size_with();
   for (std::size_t i = 0; i < facts.size() && !options.stop.is_due();) {
     const Fact fact = facts[i];
+    if (is_free(fact) && (fact.is_implied || !tries_free)) {
+      uses.push_back({fact, std::nullopt});
+      ++i;
+      continue;
+    }
     facts.erase(facts.begin() + static_cast<std::ptrdiff_t>(i));
-    const Size without = fact.is_implied ? least : size_with();
-    const std::size_t saved = without.instructions - least.instructions;
-    const double check = cost_of_check(fact, program);
-    const bool pays = check == 0 ? saved > 0 : without.cost - least.cost > check;
-    if (!pays && !fact.is_implied && !is_needed(fact)) continue;
-    uses.push_back({fact, saved});
+    const Size without = size_with();
+    if (!is_free(fact) && without.cost - least.cost <= cost_of_check(fact, program)) continue;
+    uses.push_back({fact, without.instructions - least.instructions});
     facts.insert(facts.begin() + static_cast<std::ptrdiff_t>(i), fact);
     ++i;
   }

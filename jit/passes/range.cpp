@@ -12,15 +12,13 @@
 #include "jit/passes/range_arithmetic.h"
 #include "jit/passes/range_dots.h"
 #include "jit/passes/range_parts.h"
+#include "jit/passes/range_zero.h"
 #include "runtime/program/fold.h"
 #include "runtime/program/region.h"
 
 namespace nacre {
 
 namespace {
-
-/// The ranges of an instruction's operands; of those that there are not nothing is read.
-using Operands = std::array<Range, 3>;
 
 /// What ranges over parts of an operand are worth it for.
 bool is_arithmetic(Op op) {
@@ -36,41 +34,6 @@ bool is_arithmetic(Op op) {
     case Op::neg:
     case Op::abs: return true;
     default: return false;
-  }
-}
-
-/// Whether a product that is never negative may be -0.
-bool product_may_be_minus_zero(const Instruction& x, const Operands& in) {
-  if (x.operands[0] == x.operands[1]) return false;
-  if (in[0].low < 0 || in[1].low < 0) return true;
-  return may_be_minus_zero(in[0]) || may_be_minus_zero(in[1]);
-}
-
-/// Whether the result of an operation may be -0, where its range says that it is not negative:
-/// else it may be what was rounded away. Of sums both have to be +0, since x + 0 is x.
-bool gives_minus_zero(const Instruction& x, const Operands& in) {
-  switch (x.op) {
-    case Op::abs:
-    case Op::exp:
-    case Op::i_to_f:
-    case Op::u_to_f: return false;
-    case Op::constant: return x.imm == std::bit_cast<std::uint32_t>(-0.0f);
-    case Op::mul: return product_may_be_minus_zero(x, in);
-    case Op::fma: return product_may_be_minus_zero(x, in) || may_be_minus_zero(in[2]);
-    case Op::add:
-    case Op::min:
-    case Op::merge: return may_be_minus_zero(in[0]) || may_be_minus_zero(in[1]);
-    case Op::max:
-      // a > b ? a : b
-      if (in[1].low >= 0 && !may_be_minus_zero(in[1])) return false;
-      return may_be_minus_zero(in[0]) || may_be_minus_zero(in[1]);
-    case Op::select: return may_be_minus_zero(in[1]) || may_be_minus_zero(in[2]);
-    case Op::div: return in[0].low < 0 || in[1].low < 0 || may_be_minus_zero(in[0]);
-    case Op::sub:
-    case Op::sqrt:
-    case Op::floor:
-    case Op::keep: return may_be_minus_zero(in[0]);
-    default: return true;
   }
 }
 
@@ -155,7 +118,7 @@ class Ranges {
     if (is_known_ && x.op == Op::carry) {
       range = carried(id);
     } else if (x.type == Scalar::f32) {
-      const Operands operands = operands_of(x);
+      const OperandRanges operands = operands_of(x);
       range = of(x, operands);
       const bool is_given =
           x.op == Op::input || x.op == Op::parameter || x.op == Op::argument || x.op == Op::result;
@@ -232,8 +195,8 @@ class Ranges {
     results_[id] = callee.results();
   }
 
-  Operands operands_of(const Instruction& x) const {
-    Operands ranges;
+  OperandRanges operands_of(const Instruction& x) const {
+    OperandRanges ranges;
     // `count` is no more than that, which GCC 12 does not know.
     const std::size_t count = std::min<std::size_t>(x.count, ranges.size());
     for (std::size_t k = 0; k < count; ++k) ranges[k] = list_[x.operands[k]];
@@ -246,7 +209,7 @@ class Ranges {
     return known != carried_.end() ? known->second : list_[code_[id].operands[0]];
   }
 
-  Range of(const Instruction& x, const Operands& in) const {
+  Range of(const Instruction& x, const OperandRanges& in) const {
     switch (x.op) {
       case Op::constant: {
         const double value = std::bit_cast<float>(flush_denormal(x.imm));
@@ -280,7 +243,7 @@ class Ranges {
     }
   }
 
-  Range of_integer(const Instruction& x, const Operands& in) const {
+  Range of_integer(const Instruction& x, const OperandRanges& in) const {
     switch (x.op) {
       case Op::constant: {
         const auto value = static_cast<double>(std::bit_cast<std::int32_t>(x.imm));
@@ -326,15 +289,15 @@ class Ranges {
            code_[x.operands[1]].operands[0] == x.operands[0];
   }
 
-  Range difference(const Instruction& x, const Operands& in) const {
+  Range difference(const Instruction& x, const OperandRanges& in) const {
     const Range plain = total(in[0], negated(in[1]));
     return is_known_ && is_fraction(x) ? intersection(plain, fraction(in[0])) : plain;
   }
 
-  Range of_product(const Instruction& x, const Operands& in) const {
+  Range of_product(const Instruction& x, const OperandRanges& in) const {
     return of_product(x, in, rounding_);
   }
-  Range of_product(const Instruction& x, const Operands& in, Rounding rounding) const {
+  Range of_product(const Instruction& x, const OperandRanges& in, Rounding rounding) const {
     return is_known_ && x.operands[0] == x.operands[1] ? square(in[0], rounding)
                                                        : product(in[0], in[1], rounding);
   }
@@ -348,7 +311,7 @@ class Ranges {
     return total;
   }
 
-  Range of_fma(const Instruction& x, const Operands& in) const {
+  Range of_fma(const Instruction& x, const OperandRanges& in) const {
     const bool is_rounded_once = arithmetic_ == Arithmetic::as_written;
     const Range part = of_product(x, in, is_rounded_once ? Rounding::none : rounding_);
     const Range plain = reassociated(sum(part, in[2], rounding_), part, in[2]);

@@ -225,7 +225,8 @@ void Compilation::add_uses(const std::vector<StageReport>& reports) {
       continue;
     }
     for (const FactUse& part : decided->facts) {
-      if (use.saved && is_part_of(part.fact, use.fact)) *use.saved += part.saved.value_or(0);
+      if (!use.saved || !is_part_of(part.fact, use.fact)) continue;
+      use.saved = part.saved ? std::optional(*use.saved + *part.saved) : std::nullopt;
     }
   }
 }

@@ -29,7 +29,8 @@ typedef struct nacre_fact_info {
   double minimum;
   double maximum;
   /* Instructions that the shader's kernels have less for it, beside what all other facts leave out;
-     NACRE_NOT_KNOWN where code was in the cache. */
+     NACRE_NOT_KNOWN where code was in the cache, and of parameters where there are too many to
+     try each. */
   uint64_t saved;
 } nacre_fact_info;
 

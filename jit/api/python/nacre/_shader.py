@@ -54,7 +54,9 @@ class Fact(NamedTuple):
     name: str
     minimum: float
     maximum: float
-    saved: int | None  # Instructions that kernels have less for it; None of code from the cache.
+    # Instructions that kernels have less for it; None of code from the cache, and of parameters
+    # where there are too many to try each.
+    saved: int | None
 
 
 class _Placed(NamedTuple):
