@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "jit/passes/range_arithmetic.h"
+#include "runtime/program/fold.h"
 
 namespace nacre {
 
@@ -24,7 +25,7 @@ bool gives_minus_zero(const Instruction& x, const OperandRanges& in) {
     case Op::exp:
     case Op::i_to_f:
     case Op::u_to_f: return false;
-    case Op::constant: return x.imm == std::bit_cast<std::uint32_t>(-0.0f);
+    case Op::constant: return flush_denormal(x.imm) == std::bit_cast<std::uint32_t>(-0.0f);
     case Op::mul: return product_may_be_minus_zero(x, in);
     case Op::fma: return product_may_be_minus_zero(x, in) || may_be_minus_zero(in[2]);
     case Op::add:

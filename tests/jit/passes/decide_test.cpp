@@ -25,7 +25,8 @@ namespace {
 
 constexpr std::size_t no_limit = 1'000'000;
 
-/// Without the sign of zeros: what has become a literal is simplified, and x + 0 is x then (op.h).
+/// Without the sign of zeros: what has become a literal is simplified as when it is recorded, and
+/// x + 0 is x then (op.h).
 std::vector<std::uint32_t> without_sign_of_zero(std::vector<std::uint32_t> words) {
   std::ranges::replace(words, 0x80000000u, 0u);
   return words;
@@ -139,6 +140,9 @@ TEST(Decide, ZeroKeepsItsSign) {
   EXPECT_TRUE(has(decided(body, {0, 1, false}, {}), "max"));
   const Body square = [](Recorder&, Float x, Float) { return max(x * x, 0.0f); };
   EXPECT_FALSE(has(decided(square, {-1, 1, false}, {}), "max"));
+  const Body sum = [](Recorder&, Float x, Float y) { return x + y; };
+  const std::string exact = decided(sum, {-1, 1, false}, {0, 0, false, false});
+  EXPECT_TRUE(has(exact, "select")) << exact;  // -0 + 0 is 0.
   // What is too small to be a float is a zero of its sign.
   const Body product = [](Recorder&, Float x, Float y) { return max(abs(x) * y, 0.0f); };
   EXPECT_TRUE(has(decided(product, {-1, 1, false}, {0, 1, false}), "max"));
