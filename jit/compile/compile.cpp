@@ -55,15 +55,12 @@ std::string key_of(const Program& program, const CompileOptions& options,
   return code_key(program, codegen, way);
 }
 
-/// A kernel of a Program that lower_to_interface() has given, without what facts leave out: the
-/// interpreter's until there is machine code. `service` may be gone.
+/// A kernel of a Program that lower_to_interface() has given, without what facts leave out.
+/// `service` may be gone.
 std::shared_ptr<const Kernel> general_kernel(const Program& program, CompileOptions options,
                                              const std::weak_ptr<CompileService>& service) {
   options.facts.clear();
-  // In `fast` the interpreter's bits are others.
-  options.asynchronous = options.accuracy != Accuracy::fast;
   options.whole = options.keep_text = options.dump_ir = options.dump_assembly = false;
-  options.stop = {};
   const std::shared_ptr<CompileService> alive = service.lock();
   if (alive != nullptr && options.backend == Backend::jit) {
     Diagnostics said;
@@ -71,6 +68,7 @@ std::shared_ptr<const Kernel> general_kernel(const Program& program, CompileOpti
   }
   // What is too large for others is interpreted.
   options.backend = Backend::interpreter;
+  options.stop = {};
   options.max_instructions = std::size_t{1} << 31;
   return make_interpreter(lower(program, options), options.max_steps);
 }
@@ -206,9 +204,18 @@ class Kernels {
   void note_general(std::size_t place, const Program& program) {
     std::weak_ptr<CompileService> service;
     if (service_ != nullptr) service = service_->weak_from_this();
-    generals_[place] = [program, options = options_, service] {
+    CompileOptions options = options_;
+    // In `fast` the interpreter's bits are others, and no run waits for a compiler: it is made now.
+    const bool is_made_now = options.accuracy == Accuracy::fast;
+    if (!is_made_now) {
+      options.asynchronous = true;
+      options.stop = {};  // Of a call that is over then.
+    }
+    const auto make = [program, options, service] {
       return general_kernel(program, options, service);
     };
+    generals_[place] = make;
+    if (is_made_now) generals_[place] = [made = make()] { return made; };
   }
 
   /// What is bound to code that is there, of what is not lowered any further.

@@ -55,16 +55,6 @@ class Passes {
   Stages stages_;
 };
 
-/// Transcendental functions become polynomials of the accuracy asked for, and what cannot happen is
-/// left out.
-Program expand_and_decide(const Program& program, const CompileOptions& options,
-                          std::span<const Fact> facts) {
-  const Known known = known_by(facts, program, options.accuracy);
-  const Program made = expand_math(program, options.accuracy, known, options.max_instructions);
-  if (is_too_large(made, options)) return made;
-  return decide(made, known, options.max_instructions);
-}
-
 /// How large a Program is, and what it takes in additions where no lane enters a region: facts that
 /// are so exclude what no lane does then.
 struct Size {
@@ -97,7 +87,10 @@ std::vector<FactUse> used_facts(const Program& program, const CompileOptions& op
   const bool tries_free = options.whole || static_cast<std::size_t>(std::ranges::count_if(
                                                facts, is_stated)) <= most_tried;
   std::vector<FactUse> uses;
-  const auto size_with = [&] { return size_of(expand_and_decide(program, options, facts)); };
+  const auto size_with = [&] {
+    const Known known = known_by(facts, program, options.accuracy);
+    return size_of(decide(program, known, options.max_instructions));
+  };
   const Size least = facts.empty() ? Size{} : size_with();
   for (std::size_t i = 0; i < facts.size() && !options.stop.is_due();) {
     const Fact fact = facts[i];
@@ -109,7 +102,8 @@ std::vector<FactUse> used_facts(const Program& program, const CompileOptions& op
     facts.erase(facts.begin() + static_cast<std::ptrdiff_t>(i));
     const Size without = size_with();
     if (!is_free(fact) && without.cost - least.cost <= cost_of_check(fact, program)) continue;
-    uses.push_back({fact, without.instructions - least.instructions});
+    const bool is_less = without.instructions > least.instructions;
+    uses.push_back({fact, is_less ? without.instructions - least.instructions : 0});
     facts.insert(facts.begin() + static_cast<std::ptrdiff_t>(i), fact);
     ++i;
   }
@@ -168,17 +162,21 @@ Program lower_to_engine(Program program, const CompileOptions& options,
     passes.run("tabulate", [&](const Program& p) { return tabulate(p, error); });
   }
 
+  // Transcendental functions become polynomials of the accuracy asked for.
+  passes.run("expand_math", [&](const Program& p) {
+    return expand_math(p, options.accuracy, options.max_instructions);
+  });
+
   // What is known of what is read changes no bit, so it comes after what rounds.
   std::vector<FactUse> uses;
   std::vector<Fact> facts;
   if (!options.facts.empty() && !passes.is_over()) uses = used_facts(passes.program(), options);
   for (const FactUse& use : uses) facts.push_back(use.fact);
-  const auto known = [&](const Program& p) { return known_by(facts, p, options.accuracy); };
-  passes.run("expand_math", [&](const Program& p) {
-    return expand_math(p, options.accuracy, known(p), options.max_instructions);
-  });
   passes.run(
-      "decide", [&](const Program& p) { return decide(p, known(p), options.max_instructions); },
+      "decide",
+      [&](const Program& p) {
+        return decide(p, known_by(facts, p, options.accuracy), options.max_instructions);
+      },
       std::move(uses));
   if (has_check(passes.program(), options)) {
     passes.run("check",

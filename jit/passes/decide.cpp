@@ -1,7 +1,5 @@
 #include "jit/passes/decide.h"
 
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -47,13 +45,12 @@ class Decider {
   Decider(const Program& program, const Known& known)
       : code_(program.entry().code), ranges_(ranges_of(program, known)) {}
 
-  std::optional<Ref> instead_of(Recorder& recorder, const Instruction& x,
-                                std::span<const Ref> operands) const {
+  std::optional<Ref> instead_of(const Instruction& x, std::span<const Ref> operands) const {
     if (!is_of_entry(x)) return std::nullopt;
     if (const std::optional<Ref> number = number_of(x)) return number;
     if (const Outcome outcome = outcome_of(x)) return Ref::literal(*outcome);
     if (const std::optional<std::size_t> same = same_as(x)) return operands[*same];
-    return exact_sum(recorder, x, operands);
+    return std::nullopt;
   }
 
  private:
@@ -63,35 +60,6 @@ class Decider {
   }
   const Range& of(const Instruction& x, std::size_t operand) const {
     return ranges_[x.operands[operand]];
-  }
-
-  /// Of what may be -0 and a 0 that has become a literal: 0, for which a Recorder would take -0.
-  std::optional<Ref> exact_sum(Recorder& recorder, const Instruction& x,
-                               std::span<const Ref> operands) const {
-    if (!is_simplified(x, operands)) return std::nullopt;
-    const Ref none = Ref::literal(0.0f);
-    const Ref sum = recorder.emit(x.op, operands, x.imm);
-    const Ref is_none = recorder.emit(Op::eq, std::array{sum, none});
-    return recorder.emit(Op::select, std::array{is_none, none, sum});
-  }
-
-  /// Whether a Recorder drops a 0 beside what may be -0.
-  bool is_simplified(const Instruction& x, std::span<const Ref> operands) const {
-    const auto is_literal = [&](std::size_t k, float number) {
-      return operands[k].is_constant(std::bit_cast<std::uint32_t>(number));
-    };
-    const auto drops = [&](std::size_t zero, std::size_t other) {
-      return is_literal(zero, 0.0f) && may_be_minus_zero(of(x, other));
-    };
-    switch (x.op) {
-      case Op::add: return drops(0, 1) || drops(1, 0);
-      case Op::sub: return is_literal(1, -0.0f) && may_be_minus_zero(of(x, 0));
-      case Op::fma:
-        // A factor of 1 makes it a sum.
-        return (is_literal(0, 1.0f) && (drops(1, 2) || drops(2, 1))) ||
-               (is_literal(1, 1.0f) && (drops(0, 2) || drops(2, 0)));
-      default: return false;
-    }
   }
 
   /// The one number that it is.
@@ -172,10 +140,10 @@ Program decide_once(const Program& program, const Known& known, std::size_t most
   const Decider decider(program, known);
   return transform(
       program,
-      [&](Recorder& recorder, const Instruction& x, std::span<const Ref> operands) {
-        return decider.instead_of(recorder, x, operands);
+      [&](Recorder&, const Instruction& x, std::span<const Ref> operands) {
+        return decider.instead_of(x, operands);
       },
-      most);
+      most, {}, {}, true);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ namespace {
 
 class Expander {
  public:
-  Expander(const Program& program, Accuracy accuracy, const Known& known)
-      : entry_(program.entry()), ranges_(ranges_of(program, known)), accuracy_(accuracy) {}
+  Expander(const Program& program, Accuracy accuracy)
+      : entry_(program.entry()), ranges_(ranges_of(program)), accuracy_(accuracy) {}
 
   std::optional<Ref> expand(Recorder& recorder, const Instruction& instruction,
                             std::span<const Ref> operands) {
@@ -82,9 +82,8 @@ class Expander {
 
 }  // namespace
 
-Program expand_math(const Program& program, Accuracy accuracy, const Known& known,
-                    std::size_t most) {
-  Expander expander(program, accuracy, known);
+Program expand_math(const Program& program, Accuracy accuracy, std::size_t most) {
+  Expander expander(program, accuracy);
   const auto expand = [&](Recorder& recorder, const Instruction& instruction,
                           std::span<const Ref> operands) {
     return expander.expand(recorder, instruction, operands);

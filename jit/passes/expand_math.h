@@ -1,6 +1,5 @@
 #pragma once
 
-#include "jit/passes/range.h"
 #include "runtime/program/program.h"
 
 namespace nacre {
@@ -10,9 +9,8 @@ namespace nacre {
 /// result of an operation depends on nothing but its operands and the accuracy,
 /// so a program and a slice of it agree bit for bit. Operations of one argument
 /// share its reduction. To come after derive() and contract(): the expansions
-/// contain error-free sums and products that contraction must not touch. Where so much is known of
-/// what it reads that angles are small, there is no path for large ones.
-Program expand_math(const Program& program, Accuracy accuracy, const Known& known = {},
+/// contain error-free sums and products that contraction must not touch.
+Program expand_math(const Program& program, Accuracy accuracy,
                     std::size_t most = std::size_t{1} << 31);
 
 }  // namespace nacre

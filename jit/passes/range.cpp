@@ -38,9 +38,11 @@ bool is_arithmetic(Op op) {
 }
 
 /// Of what may be left undone, so that large Programs take no longer than they are long: rounds of
-/// loops, calls, parts. Fractal noise of sixteen octaves takes less.
+/// loops, calls, parts.
 class Effort {
  public:
+  explicit Effort(std::size_t operations) : left_(operations) {}
+
   /// False where there is not so much left.
   bool spend(std::size_t operations) {
     if (operations > left_) return false;
@@ -49,7 +51,7 @@ class Effort {
   }
 
  private:
-  std::size_t left_ = 100'000;
+  std::size_t left_;
 };
 
 /// The values of one function.
@@ -434,12 +436,12 @@ class Ranges {
 }  // namespace
 
 std::vector<Range> ranges_of(const Program& program) {
-  Effort effort;
-  return Ranges(program, 0, {}, false, effort).run();
+  Effort none(0);
+  return Ranges(program, 0, {}, false, none).run();
 }
 
 std::vector<Range> ranges_of(const Program& program, const Known& known) {
-  Effort effort;
+  Effort effort(known.effort);
   return Ranges(program, known, effort).run();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -45,6 +46,9 @@ struct Known {
   std::vector<Range> parameters;  ///< Of Program::parameters.
   std::vector<DotRange> dots;
   Arithmetic arithmetic = Arithmetic::unknown;
+  /// Operations of loops' rounds, calls and parts of ranges that are gone through, each of them
+  /// once. Fractal noise of sixteen octaves takes less.
+  std::size_t effort = 100'000;
 };
 
 /// Of each value of the entry, in order; of what is no f32 nothing is known. Conservative, by

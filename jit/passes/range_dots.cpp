@@ -1,46 +1,42 @@
 #include "jit/passes/range_dots.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
-#include <string>
 
 #include "jit/passes/range_arithmetic.h"
 
 namespace nacre {
 
-namespace {
-
-std::optional<std::uint32_t> input_number(const Program& program, const std::string& name) {
-  const auto found = std::ranges::find(program.inputs, name, &Channel::name);
-  if (found == program.inputs.end()) return std::nullopt;
-  return static_cast<std::uint32_t>(found - program.inputs.begin());
+std::optional<std::array<std::uint32_t, 3>> vector_inputs(const Program& program,
+                                                          const std::string& name) {
+  std::array<std::uint32_t, 3> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const Channel wanted{name + std::array{".x", ".y", ".z"}[i], Scalar::f32};
+    const auto found = std::ranges::find(program.inputs, wanted);
+    if (found == program.inputs.end()) return std::nullopt;
+    numbers[i] = static_cast<std::uint32_t>(found - program.inputs.begin());
+  }
+  return numbers;
 }
-
-}  // namespace
 
 Dots::Dots(const Program& program, const Known& known)
     : code_(program.entry().code), terms_(code_.size()) {
   for (const DotRange& each : known.dots) {
+    const auto a = vector_inputs(program, each.a), b = vector_inputs(program, each.b);
+    if (!a || !b || known.inputs.empty()) continue;
     Dot dot{.terms = {}, .range = each.range};
-    double size = 0;
-    std::size_t found = 0;
-    for (const char* component : {".x", ".y", ".z"}) {
-      const auto a = input_number(program, each.a + component);
-      const auto b = input_number(program, each.b + component);
-      if (!a || !b) break;
-      dot.terms[found++] = std::minmax(*a, *b);
-      // Of vectors of unknown length nothing is known of what is rounded.
-      const bool is_bounded =
-          !known.inputs.empty() && known.inputs[*a].is_bounded() && known.inputs[*b].is_bounded();
-      size += is_bounded ? largest_size(known.inputs[*a]) * largest_size(known.inputs[*b])
-                         : std::numeric_limits<double>::infinity();
+    Range size{0, 0, false};
+    for (std::size_t k = 0; k < dot.terms.size(); ++k) {
+      dot.terms[k] = std::minmax((*a)[k], (*b)[k]);
+      const Range& x = known.inputs[(*a)[k]];
+      const Range& y = known.inputs[(*b)[k]];
+      size = sum(size, product(absolute(x), absolute(y)));
     }
-    if (found < dot.terms.size() || !std::isfinite(size)) continue;
+    // Of vectors of unknown length nothing is known of what is rounded.
+    if (!size.is_bounded()) continue;
     std::ranges::sort(dot.terms);
     constexpr double rounding = 1e-6;  // A few units in the last place of what is summed.
-    dot.range.low -= rounding * size;
-    dot.range.high += rounding * size;
+    dot.range.low -= rounding * size.high;
+    dot.range.high += rounding * size.high;
     dots_.push_back(dot);
   }
 }

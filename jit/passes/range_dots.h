@@ -2,12 +2,18 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "jit/passes/range.h"
 
 namespace nacre {
+
+/// The numbers of the inputs <name>.x, .y and .z, where they are floats.
+std::optional<std::array<std::uint32_t, 3>> vector_inputs(const Program& program,
+                                                          const std::string& name);
 
 /// Finds the scalar products of a Program's entry of which something is known, in whichever order
 /// they are summed.

@@ -119,13 +119,13 @@ std::uint32_t Recorder::table(std::string_view name, std::span<const float> valu
 Ref Recorder::emit(Op op, std::span<const Ref> operands, std::uint32_t imm) {
   assert(!is_structural(op) && operands.size() <= 3);
   if (const std::optional<Ref> literal = fold_literals(op, operands, imm)) return *literal;
-  if (const std::optional<Ref> equal = simplify(op, operands)) return *equal;
+  if (const std::optional<Ref> equal = simplify(op, operands, keeps_sign_)) return *equal;
   if (const std::optional<Ref> other = rephrase(op, operands, imm)) return *other;
   std::array<Ref, 3> choice;
   if (op == Op::select) {
     choice = simple_choice(code().code, operands);
     operands = choice;
-    if (const std::optional<Ref> equal = simplify(op, operands)) return *equal;
+    if (const std::optional<Ref> equal = simplify(op, operands, keeps_sign_)) return *equal;
     if (choice[1].type == Scalar::b1) {
       // A side that is the condition itself is what the condition is there.
       const auto is_condition = [&](Ref x) { return !x.is_constant() && x.id == choice[0].id; };

@@ -28,6 +28,8 @@ class Recorder {
   /// Takes over the channel, slot, table and texture lists of a Program, in
   /// their order; before anything is recorded.
   void adopt_interface(const Program& program);
+  /// From now on x + 0 is no x, for it is 0 where x is -0: for passes that are to change no bit.
+  void keep_sign_of_zero() { keeps_sign_ = true; }
   /// An input or parameter instruction of that Program again.
   Ref adopted(const Instruction& instruction);
 
@@ -168,6 +170,7 @@ class Recorder {
   void close_region(Op op);
   bool in_scope(ValueId id) const;
 
+  bool keeps_sign_ = false;
   std::uint32_t origin_ = 0;
   std::unordered_map<std::string, std::uint32_t> origin_numbers_;
   Program program_;

@@ -9,7 +9,14 @@ namespace {
 constexpr std::uint32_t one = std::bit_cast<std::uint32_t>(1.0f);
 constexpr std::uint32_t minus_zero = 0x80000000u;
 
-bool is_zero(Ref x) { return x.is_constant(0u) || x.is_constant(minus_zero); }
+/// Whether x + `zero` is x: of x = -0 only for -0 that is exact.
+bool adds_nothing(Ref zero, bool keeps_sign) {
+  return zero.is_constant(minus_zero) || (!keeps_sign && zero.is_constant(0u));
+}
+/// Whether x - `zero` is x.
+bool takes_nothing(Ref zero, bool keeps_sign) {
+  return zero.is_constant(0u) || (!keeps_sign && zero.is_constant(minus_zero));
+}
 bool same(Ref a, Ref b) { return a.recorder == b.recorder && a.id == b.id && a.type == b.type; }
 
 std::optional<Ref> simplify_logic(Op op, Ref a, Ref b) {
@@ -62,14 +69,14 @@ std::optional<Ref> simplify_integer(Op op, Ref a, Ref b) {
 
 }  // namespace
 
-std::optional<Ref> simplify(Op op, std::span<const Ref> x) {
+std::optional<Ref> simplify(Op op, std::span<const Ref> x, bool keeps_sign) {
   switch (op) {
     case Op::add:
-      if (is_zero(x[0])) return x[1];
-      if (is_zero(x[1])) return x[0];
+      if (adds_nothing(x[0], keeps_sign)) return x[1];
+      if (adds_nothing(x[1], keeps_sign)) return x[0];
       return std::nullopt;
     case Op::sub:
-      if (is_zero(x[1])) return x[0];
+      if (takes_nothing(x[1], keeps_sign)) return x[0];
       return std::nullopt;
     case Op::mul:
       if (x[0].is_constant(one)) return x[1];

@@ -16,13 +16,14 @@ namespace {
 class Transformer {
  public:
   Transformer(const Program& program, const Replacement& replace, std::size_t most,
-              const Flattening& flattens)
+              const Flattening& flattens, bool keeps_sign)
       : program_(program),
         replace_(replace),
         most_(most),
         flattens_(flattens),
         functions_(program.functions.size(), 0) {
     recorder_.adopt_interface(program);
+    if (keeps_sign) recorder_.keep_sign_of_zero();
   }
 
   Program run(const Finish& finish) {
@@ -152,8 +153,8 @@ class Transformer {
 }  // namespace
 
 Program transform(const Program& program, const Replacement& replace, std::size_t most,
-                  const Flattening& flattens, const Finish& finish) {
-  return Transformer(program, replace, most, flattens).run(finish);
+                  const Flattening& flattens, const Finish& finish, bool keeps_sign) {
+  return Transformer(program, replace, most, flattens, keeps_sign).run(finish);
 }
 
 Program too_large(std::size_t most) {

@@ -29,11 +29,12 @@ using Finish = std::function<void(Recorder& recorder)>;
 /// is removed. What is varying is not marked: see mark_varying(). Channels, slots and textures
 /// stay as they are, so what is bound to one Program fits the other. This is the frame of most
 /// passes. Ends early, with as many instructions and one that no engine is to run, once there are
-/// more than `most`. `flattens` and `finish` may be empty. A region that is entered for no lane, as
-/// is then known, is left out; one that is entered for all stands without its mask.
+/// more than `most`. `flattens` and `finish` may be empty. `keeps_sign`: see
+/// Recorder::keep_sign_of_zero(). A region that is entered for no lane, as is then known, is left
+/// out; one that is entered for all stands without its mask.
 Program transform(const Program& program, const Replacement& replace,
                   std::size_t most = std::size_t{1} << 31, const Flattening& flattens = {},
-                  const Finish& finish = {});
+                  const Finish& finish = {}, bool keeps_sign = false);
 
 /// What a pass gives that would make more than `most` instructions: so many and one more,
 /// which mean nothing.

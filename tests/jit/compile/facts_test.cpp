@@ -102,6 +102,35 @@ TEST_F(Facts, LeaveOutWhatCannotHappen) {
   EXPECT_EQ(outside(*kernel, {{"uv.x", ramp(5000)}, {"uv.y", ramp(5000)}}), 0u);
 }
 
+// -0 + 0 is 0, also of a 0 that has become a literal, and where something is checked after that.
+TEST_F(Facts, KeepTheSignsOfZeros) {
+  Recorder recorder;
+  const Float y = input(recorder, "uv.y");
+  const Float none(recorder.parameter("none", Scalar::f32, 0));
+  Float clamped = y;
+  for (int i = 0; i < 5; ++i) clamped = min(max(clamped * y, 0.0f), 1.0f);
+  const Program sums = slice(recorder.program(), "test",
+                             std::vector<SliceOutput>{{"sum", (none + y).ref()},
+                                                      {"product", fma(y, y, none * y).ref()},
+                                                      {"clamped", clamped.ref()}});
+  options_.backend = Backend::interpreter;
+  const auto general = compile(sums, options_, service_.get(), diagnostics_, &stages_);
+  // -0 is outside of what starts at 0.
+  options_.facts = {{"none", 0, 0}, {"uv.y", -1e-30f, 1}};
+  stages_.clear();
+  const auto kernel = compile(sums, options_, service_.get(), diagnostics_, &stages_);
+  ASSERT_NE(std::ranges::find(stages_, "check", &StageReport::name), stages_.end());
+  const Columns zeros{{"uv.y", {-0.0f, 0.0f}}};
+  const Columns found = run(*kernel, zeros);
+  EXPECT_EQ(dynamic_cast<const FactKernel&>(*kernel).points_outside(), 0u);
+  for (const auto& [name, column] : run(*general, zeros)) {
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      EXPECT_EQ(std::signbit(found.at(name)[i]), std::signbit(column[i])) << name << i;
+    }
+  }
+  EXPECT_FALSE(std::signbit(found.at("sum")[0]));
+}
+
 TEST_F(Facts, OfNothingThatIsReadChangeNothing) {
   const auto plain = make({});
   const std::size_t size = this->size();

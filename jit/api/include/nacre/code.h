@@ -28,7 +28,8 @@ typedef nacre_status (*nacre_function)(const nacre_code* code, const void* const
 
 /* `single`: 1: for one point at a time, where nacre_compile_options::single_points asked for it.
    NACRE_FAILED, with the reason, where there is no machine code: yet, or because the entry is
-   interpreted. Not of NACRE_EVALUATE_AT. It may outlive the shader. */
+   interpreted. Not of NACRE_EVALUATE_AT. It may outlive the shader. Of a shader with facts it is
+   code that knows none, which is compiled then. */
 NACRE_API nacre_status nacre_code_create(const nacre_shader* shader, nacre_entry entry,
                                          const nacre_instance* instance, int single,
                                          nacre_report* report, nacre_code** code);

@@ -12,7 +12,7 @@ extern "C" {
 /* What is known of numbers that kernels read. Kernels leave out what cannot happen then, and have
    the same bits: clamps, branches, lobes of weight 0. They look whether it is so; points of which
    it is not, and some beside them, are computed as if nothing had been said, by kernels that are
-   made when they are first needed. */
+   made when they are first needed, of NACRE_FAST with the others. */
 typedef struct nacre_fact {
   /* A channel, "uv0.x", or all of a group, "uv0"; what is live, "SR_gold/coat", or one number of
      it, "SR_gold/coat_color.x"; or the scalar product of two groups, "dot(N,wo)". Kernels that do
