@@ -9,13 +9,13 @@ namespace nacre {
 /// How much light the lobes of facets send back to a view, from the tables in
 /// pbs/tables, and what single scattering loses.
 ///
-/// What facets lose hangs on how much of them is masked, and little on the azimuth: an
-/// anisotropic surface looks up the albedo of a view along its wider axis and of one
-/// across it that are masked as much, and goes from one to the other with the narrower
-/// axis' part in the masking. All other tables are for equal roughness on both axes: there it
-/// looks up the root mean square of its two, at the angle where that masks as much as it
-/// masks itself. Furnace error of a white metal: 1 %, 2 % where it is anisotropic. Of anisotropic
-/// facets the mean Fresnel factor, and all that passes, come from pbs/facet_sum.h instead.
+/// Most tables are for equal roughness on both axes; where it is not, they are looked up with the
+/// root mean square of the two, at the angle where that masks as much as the surface masks itself.
+/// Reflection has a table for unequal roughness besides: a view sees slopes along it and across it,
+/// and how far these hang together where the surface is turned. What it adds to a surface that is
+/// everywhere as rough as this one along the view is nearly linear in the square of their
+/// correlation. Furnace error of a white metal: 1 %, 2 % where it is anisotropic. What passes
+/// unequal facets comes from pbs/facet_sum.h instead.
 struct FacetView {
   FacetDistribution distribution = FacetDistribution::ggx;
   Float cosine;  ///< Of the view to the normal, in [0, 1].
@@ -23,16 +23,18 @@ struct FacetView {
   Float alpha;   ///< In [1e-4, 1].
   /// Only where anisotropic:
   bool anisotropic = false;
-  Float wide_masked = 0.0f;  ///< As `masked`, at the wider roughness.
-  Float wide = 1.0f;         ///< The wider roughness.
-  Float ratio = 1.0f;        ///< The narrower over it.
-  Float across = 0.0f;       ///< Part of the masking that the narrower axis has, in [0, 1].
+  Float along = 1.0f, across = 1.0f;  ///< Roughness along the view, and across it.
+  Float correlation2 = 0.0f;          ///< Of slopes along and across, squared; in [0, 1].
+  Float stretch = 0.0f;               ///< facet_stretch().
 };
 template <class F>
 void visit(FacetView& view, F&& f) {
-  f(view.masked), f(view.wide_masked), f(view.across);  // The rest is of the surface.
+  f(view.masked), f(view.along), f(view.across), f(view.correlation2);  // The rest: the surface.
 }
 FacetView facet_view(Float3 wo, FacetDistribution distribution, Float2 alpha, bool isotropic);
+
+/// How unequal roughnesses are: 0 where they are equal, 1 from a ratio of 0.95 on.
+Float facet_stretch(Float2 alpha);
 
 /// Measured against quadrature (tests/pbs/energy_test.cpp: alpha 0.01 to 1, cosines from 0.05):
 /// albedo of perfect facets 0.4 %; times Fresnel, with for_dielectric()'s cosines, 0.7 % of the
@@ -66,10 +68,13 @@ void visit(FacetReflection& reflection, F&& f) {
 }
 FacetReflection facet_reflection(Recorder& recorder, const FacetView& view);
 
-/// The same with cosines for Fresnel's factor of that index, at least 1: the nearer to 1, the
-/// steeper it falls from grazing. `bare`: how far no film makes it another, in [0, 1].
+/// How much steeper at grazing than others Fresnel's factor is of that index, at least 1: 0
+/// from 1.31 on. `bare`: how far no film makes it another, in [0, 1].
+Float steepness(Float index, Float bare = 1.0f);
+
+/// The same with cosines for Fresnel's factor of an index of that steepness.
 FacetReflection for_dielectric(Recorder& recorder, const FacetView& view,
-                               const FacetReflection& reflection, Float index, Float bare = 1.0f);
+                               const FacetReflection& reflection, Float steepness);
 
 /// An interface between two dielectrics, eta the index beyond over before. Glass
 /// of index 1.1 to 2.5 and alpha 0.05 to 1 returns all light to within 1 %, from outside and from

@@ -204,11 +204,6 @@ Float cosine_of(Float y) { return 1.0f - sqrt(sqrt(saturate(y))); }
 
 }  // namespace
 
-Float facet_stretch(Float2 alpha) {
-  const Float wide = max(alpha.x, alpha.y), narrow = min(alpha.x, alpha.y);
-  return saturate(20.0f * (wide - narrow) / wide);
-}
-
 FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t) {
   return {nacre::lerp(a.reflected, b.reflected, t), nacre::lerp(a.passed, b.passed, t),
           nacre::lerp(a.total, b.total, t), nacre::lerp(a.turned, b.turned, t)};
@@ -248,10 +243,11 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
                                      Bool inside) {
   const FacetView seen = facets.table_view(local);
   FacetReflection table = facet_reflection(recorder, seen);
+  Float steep = 0.0f;
   if (fresnel.covers_dielectric()) {
     const Float index = fresnel.index();
-    table = for_dielectric(recorder, seen, table, max(index, 1.0f / index),
-                           1.0f - fresnel.film_share());
+    steep = steepness(max(index, 1.0f / index), 1.0f - fresnel.film_share());
+    table = for_dielectric(recorder, seen, table, steep);
   }
   const Points few = points_of_mean(accuracy, facets.distribution);
   const Float eta = relative_index(fresnel.index(), inside);
@@ -283,7 +279,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     });
   }
   const Bool leaving = fresnel.has_inside() ? eta < 1.0f : Bool(false);
-  const Float share = facets.isotropic ? Float(0.0f) : facet_stretch(facets.alpha);
+  const Float stretch = seen.stretch;
   if (fresnel.has_inside()) {
     // Next to 1 no cosines stand for Fresnel's curve, nor can a table's axes tell where total
     // reflection begins. Measured, of equal roughnesses: the sum is better up to indices of 1.01
@@ -298,12 +294,14 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     // Nothing is recorded for an index that is known to be another.
     const bool never = where_leaving.is_constant(0.0f) && where_entering.is_constant(0.0f);
     if (!facets.isotropic || !never) {
-      table.summed = select(leaving, max(share, where_leaving), (1.0f - share) * where_entering);
+      table.summed =
+          select(leaving, max(stretch, where_leaving), (1.0f - stretch) * where_entering);
       table.dielectric = if_any((table.summed > 0.0f) & !facets.delta, Float(0.0f),
                                 [&] { return mean_dielectric(never ? Bool(true) : leaving); });
     }
   }
-  if (facets.isotropic) return table;
+  // The table's two cosines will do but for curves that are steep at grazing.
+  const Float share = select(steep > 0.0f, stretch, 0.0f);
   return if_any((share > 0.0f) & !facets.delta, table, [&] {
     const Moments sum = over_facets(
         recorder, in_lanes(few, Bool(false)), local.wo, facets, Moments{0.0f, 0.0f, 0.0f, 0.0f},

@@ -32,8 +32,8 @@ enum class LobeOfFacets { joint, transmission };
 FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                          Float eta, LobeOfFacets lobe);
 
-/// facet_reflection(); and where roughnesses differ, what a sum over fewer facets knows of their
-/// cosines: a rule of Gauss with two nodes.
+/// facet_reflection(); and where roughnesses differ and the index is next to 1 (steepness()), what
+/// a sum over fewer facets knows of their cosines: a rule of Gauss with two nodes.
 FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, const Facets& facets,
                                      const LocalView& local, const FacetFresnel& fresnel,
                                      Bool inside);
@@ -43,9 +43,6 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
 /// reflection_of_facets().
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                         const FacetFresnel& fresnel, Bool inside);
-
-/// How unequal roughnesses are: 0 where they are equal, 1 from a ratio of 0.95 on.
-Float facet_stretch(Float2 alpha);
 
 /// How much of the sum to take rather than of the tables: all of it for unequal roughnesses, and
 /// for indices so near each other that the tables' axes cannot tell the angle of total reflection

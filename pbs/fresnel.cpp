@@ -62,7 +62,10 @@ Polarised fresnel_conductor_polarised(Float cosine, Float n, Float k) {
   // common denominator of r_s^2 and r_p^2 / r_s^2.
   const Float a = select(mostly_real, greater2, product);
   const Float b2 = select(mostly_real, product2, square(greater2)) + tiny;
-  const Float sum_s = fma(cosine, greater, a), difference_s = fma(-cosine, greater, a);
+  const Float sum_s = fma(cosine, greater, a);
+  // Where n = 1 and k = 0 the greater is the cosine itself, to the bit, and nothing is reflected.
+  const Float difference_s =
+      select(mostly_real, greater * (greater - cosine), fma(-cosine, greater, a));
   const Float below_s = fma(sum_s, sum_s, b2);
   const Float above_s = fma(difference_s, difference_s, b2);
   const Float slope = sine2 * greater;

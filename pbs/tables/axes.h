@@ -38,10 +38,11 @@ T angle(T cosine, T alpha) {
   return steep(cosine, alpha / (T(1.0) + T(3.0) * alpha));
 }
 
-/// The same for what unequal roughness adds, which is smooth.
+/// The same for what unequal roughness adds, which has two scales: those of roughness along the
+/// view and across it.
 template <class T>
-T stretched_angle(T cosine, T alpha) {
-  return steep(cosine, alpha);
+T unequal_angle(T cosine, T along, T across) {
+  return T(0.5) * (angle(cosine, along) + angle(cosine, across));
 }
 
 /// The same where light enters: near grazing Fresnel's factor falls within a tenth, however rough

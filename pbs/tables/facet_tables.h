@@ -27,11 +27,10 @@ struct FacetTables {
   /// Those two cosines for (1 - cosine)^10: what Fresnel's factor of an index next to 1 is like.
   FacetTable steep;
 
-  /// How much more the albedo E is where roughness is not equal on both axes than with the wider
-  /// one alone: of a view along that axis, and of one across it that is as much masked. Angle: of
-  /// the former, with the wider roughness; on the third axis the root of the ratio of the narrower
-  /// roughness to it.
-  FacetTable stretched;
+  /// How much more these three are where roughness along the view and across it are not equal than
+  /// where both are as the former: first of slopes that are not correlated, then of such as are one
+  /// and the same. On the third axis the roughness across.
+  FacetTable unequal;
 
   /// Relative index above 1. The albedo of transmission without a Fresnel factor,
   /// and of reflection and transmission together with it.

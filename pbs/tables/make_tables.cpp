@@ -28,34 +28,53 @@ struct Vec {
   double x, y, z;
 };
 
-/// Facets of roughness a along a view of the surface and b across it.
+/// As a view of the surface sees it: the slopes of facets along the view and across it are as wide
+/// as this, and correlated where the surface is turned. Those across: `across` times (correlation x
+/// + rest y) of slopes x, which are along the view, and y that are not.
+struct Roughness {
+  double along, across;
+  double correlation = 0.0;
+
+  double rest() const { return std::sqrt((1.0 - correlation) * (1.0 + correlation)); }
+  /// What slopes of roughness 1 become.
+  Vec stretched(Vec h) const {
+    return {along * h.x, across * (correlation * h.x + rest() * h.y), h.z};
+  }
+  /// How steep the surface is towards a direction.
+  double towards(Vec w) const {
+    return std::hypot(along * w.x + across * correlation * w.y, across * rest() * w.y);
+  }
+};
+
+/// Facets of a surface.
 class Facets {
  public:
   virtual ~Facets() = default;
   /// z (1 + 2 Lambda) of a direction.
-  virtual double root(Vec w, double a, double b) const = 0;
+  virtual double root(Vec w, const Roughness& alpha) const = 0;
   /// Calls f(normal of any length) for equally probable normals that are seen from (sine, 0,
-  /// cosine), `steps` squared of them.
+  /// cosine), `steps` squared of them: the half of which slopes y are positive.
   using Normal = std::function<void(Vec h)>;
-  virtual void each_normal(double sine, double cosine, double a, double b,
+  virtual void each_normal(double sine, double cosine, const Roughness& alpha,
                            const Normal& f) const = 0;
 };
 
 class Ggx final : public Facets {
  public:
-  double root(Vec w, double a, double b) const override {
-    return std::hypot(a * w.x, b * w.y, w.z);
+  double root(Vec w, const Roughness& alpha) const override {
+    return std::hypot(alpha.towards(w), w.z);
   }
-  void each_normal(double sine, double cosine, double a, double b, const Normal& f) const override {
-    const double length = std::hypot(a * sine, cosine);
-    const double x = a * sine / length;
+  void each_normal(double sine, double cosine, const Roughness& alpha,
+                   const Normal& f) const override {
+    const double length = std::hypot(alpha.along * sine, cosine);
+    const double x = alpha.along * sine / length;
     const double z = cosine / length;
     for (int i = 0; i < steps; ++i) {
       const double cap = (1.0 - (i + 0.5) / steps) * (1.0 + z) - z;
       const double ring = std::sqrt(std::max(0.0, 1.0 - cap * cap));
       for (int j = 0; j < steps; ++j) {
         const double phi = std::numbers::pi * (j + 0.5) / steps;
-        f({a * (x + ring * std::cos(phi)), b * ring * std::sin(phi), z + cap});
+        f(alpha.stretched({x + ring * std::cos(phi), ring * std::sin(phi), z + cap}));
       }
     }
   }
@@ -77,14 +96,15 @@ class Beckmann final : public Facets {
       aside_.push_back(invert((j + 0.5) / steps, 0.0, 6.0, [](double x) { return std::erf(x); }));
     }
   }
-  double root(Vec w, double a, double b) const override {
-    const double across = std::max(std::hypot(a * w.x, b * w.y), 1e-300);
+  double root(Vec w, const Roughness& alpha) const override {
+    const double across = std::max(alpha.towards(w), 1e-300);
     const double ratio = std::abs(w.z) / across;
     return std::abs(w.z) * std::erf(ratio) + across * std::exp(-ratio * ratio) / root_pi;
   }
-  void each_normal(double sine, double cosine, double a, double b, const Normal& f) const override {
-    const double length = std::hypot(a * sine, cosine);
-    const double s = a * sine / length;
+  void each_normal(double sine, double cosine, const Roughness& alpha,
+                   const Normal& f) const override {
+    const double length = std::hypot(alpha.along * sine, cosine);
+    const double s = alpha.along * sine / length;
     const double c = cosine / length;
     const double steepest = s > 0.0 ? std::min(c / s, 7.0) : 7.0;
     const auto below = [&](double x) {
@@ -93,7 +113,7 @@ class Beckmann final : public Facets {
     for (int i = 0; i < steps; ++i) {
       const double u = (i + 0.5) / steps;
       const double forth = invert(u * below(steepest), -7.0, steepest, below);
-      for (const double aside : aside_) f({-a * forth, b * aside, 1.0});
+      for (const double aside : aside_) f(alpha.stretched({-forth, aside, 1.0}));
     }
   }
 
@@ -111,13 +131,13 @@ struct Scene {
   Scene(const Facets& facets_, double cosine_, double alpha_)
       : facets(facets_), cosine(std::clamp(cosine_, 1e-6, 1.0)), alpha(alpha_) {
     sine = std::sqrt(1.0 - cosine * cosine);
-    root = facets.root({sine, 0.0, cosine}, alpha, alpha);
+    root = facets.root({sine, 0.0, cosine}, {alpha, alpha});
   }
 
   /// Calls f(facet normal, its cosine to the view) for equally probable normals.
   template <class F>
   void each_normal(F&& f) const {
-    facets.each_normal(sine, cosine, alpha, alpha, [&](Vec h) {
+    facets.each_normal(sine, cosine, {alpha, alpha}, [&](Vec h) {
       const double length = std::sqrt(h.x * h.x + h.y * h.y + h.z * h.z);
       h = {h.x / length, h.y / length, h.z / length};
       f(h, sine * h.x + cosine * h.z);
@@ -127,39 +147,10 @@ struct Scene {
   /// G2 / G1 for light leaving with this cosine to the surface normal.
   double shadowing(double out) const {
     const double out_root =
-        facets.root({std::sqrt(std::max(1.0 - out * out, 0.0)), 0.0, out}, alpha, alpha);
+        facets.root({std::sqrt(std::max(1.0 - out * out, 0.0)), 0.0, out}, {alpha, alpha});
     return out * (cosine + root) / (out * root + cosine * out_root);
   }
 };
-
-/// What perfect facets of roughness a along the view and b across it send back.
-double stretched_albedo(const Facets& facets, double cosine, double a, double b) {
-  const double z_o = std::clamp(cosine, 1e-9, 1.0);
-  const double sine = std::sqrt((1.0 - z_o) * (1.0 + z_o));
-  const double root = facets.root({sine, 0.0, z_o}, a, b);
-  double total = 0.0;
-  facets.each_normal(sine, z_o, a, b, [&](Vec h) {
-    const double twice = 2.0 * (sine * h.x + z_o * h.z) / (h.x * h.x + h.y * h.y + h.z * h.z);
-    const Vec out{twice * h.x - sine, twice * h.y, twice * h.z - z_o};
-    if (out.z <= 0.0) return;
-    const double out_root = facets.root(out, a, b);
-    total += out.z * (z_o + root) / (out.z * root + z_o * out_root);
-  });
-  return total / (steps * steps);
-}
-
-/// How much more than a surface of the wider roughness alone. `cosine`: that of a view along the
-/// wider axis; one across it is as much masked.
-std::vector<double> stretched(const Facets& facets, double cosine, double alpha, double ratio) {
-  const double c = std::clamp(cosine, 1e-6, 1.0);
-  const double tangent = std::sqrt((1.0 - c) * (1.0 + c)) / c;
-  const double narrow = ratio == 1.0 ? alpha : std::max(alpha * ratio, 1e-9);
-  const double steeper = tangent * alpha / narrow;
-  const double equal = stretched_albedo(facets, c, alpha, alpha);
-  return {
-      stretched_albedo(facets, c, alpha, narrow) - equal,
-      stretched_albedo(facets, 1.0 / std::sqrt(1.0 + steeper * steeper), narrow, alpha) - equal};
-}
 
 /// Unpolarised; Born and Wolf, "Principles of Optics", 1.5.2.
 double fresnel(double cosine, double eta) {
@@ -197,8 +188,9 @@ std::vector<double> stand_ins(const Reflected& light, double exponent, double vi
   const double half = 0.5 * light.total;
   for (const auto& [c, part] : light.parts) {
     const double low = std::clamp(half - before, 0.0, part);
-    moment[0] += low * std::pow(1.0 - c, exponent);
-    moment[1] += (part - low) * std::pow(1.0 - c, exponent);
+    const double rest = std::max(1.0 - c, 0.0);  // Rounding goes beyond.
+    moment[0] += low * std::pow(rest, exponent);
+    moment[1] += (part - low) * std::pow(rest, exponent);
     before += part;
   }
   const auto cosine = [&](double m) { return 1.0 - std::pow(m / half, 1.0 / exponent) - view; };
@@ -217,6 +209,49 @@ std::vector<double> reflection(const Facets& facets, double cosine, double alpha
 std::vector<double> steep(const Facets& facets, double cosine, double alpha, double) {
   const Scene scene(facets, cosine, alpha);
   return stand_ins(reflected(scene), 10.0, scene.cosine);
+}
+
+/// The same of a surface whose roughness is not equal all around.
+std::vector<double> of_turned(const Facets& facets, double cosine, const Roughness& alpha) {
+  const double z_o = std::clamp(cosine, 1e-6, 1.0);
+  const double sine = std::sqrt((1.0 - z_o) * (1.0 + z_o));
+  const double root = facets.root({sine, 0.0, z_o}, alpha);
+  // The other half of the normals looks like this one where the surface is turned the other way.
+  Reflected light;
+  for (const double side : {1.0, -1.0}) {
+    const Roughness turned{alpha.along, alpha.across, side * alpha.correlation};
+    facets.each_normal(sine, z_o, turned, [&](Vec h) {
+      const double length2 = h.x * h.x + h.y * h.y + h.z * h.z;
+      const double seen = sine * h.x + z_o * h.z;
+      const double twice = 2.0 * seen / length2;
+      const Vec out{twice * h.x - sine, twice * h.y, twice * h.z - z_o};
+      if (out.z <= 0.0) return;
+      const double out_root = facets.root(out, turned);
+      const double shadowing = out.z * (z_o + root) / (out.z * root + z_o * out_root);
+      light.parts.emplace_back(seen / std::sqrt(length2), shadowing / (2 * steps * steps));
+      light.total += light.parts.back().second;
+    });
+    if (alpha.correlation == 0.0 && side > 0.0) {
+      for (auto& part : light.parts) part.second *= 2.0;
+      light.total *= 2.0;
+      break;
+    }
+  }
+  std::sort(light.parts.begin(), light.parts.end());
+  const std::vector<double> means = stand_ins(light, 5.4, z_o);
+  return {light.total, means[0], means[1]};
+}
+
+/// How much more than of a surface that is everywhere as rough as this one along the view: of
+/// slopes that are not correlated, and that are one and the same.
+std::vector<double> unequal(const Facets& facets, double cosine, double along, double across) {
+  const std::vector<double> equal = of_turned(facets, cosine, {along, along});
+  std::vector<double> more;
+  for (const double correlation : {0.0, 1.0}) {
+    const std::vector<double> all = of_turned(facets, cosine, {along, across, correlation});
+    for (std::size_t k = 0; k < all.size(); ++k) more.push_back(all[k] - equal[k]);
+  }
+  return more;
 }
 
 struct Interface {
@@ -271,23 +306,23 @@ double entering_angle(double cosine, double alpha, double) {
   return nacre::table_axes::entering_angle(cosine, alpha);
 }
 
-using nacre::table_axes::stretched_angle;
-
 using Integral = std::vector<double> (*)(const Facets&, double, double, double);
 using Axis = double (*)(double, double, double);
 
-/// On the third axis the ratio of the narrower to the wider roughness.
-void write_stretched(const Facets& facets, const char* name, int angles, int roughnesses,
-                     int ratios) {
+/// On the third axis the roughness across the view.
+void write_unequal(const Facets& facets, const char* name, int angles, int roughnesses) {
+  const auto alpha_at = [&](int k) {
+    return std::max(std::pow(double(k) / (roughnesses - 1), 2), 1e-6);
+  };
   std::printf("constexpr float %s[] = {\n", name);
-  for (int k = 0; k < ratios; ++k) {
+  for (int k = 0; k < roughnesses; ++k) {
     for (int j = 0; j < roughnesses; ++j) {
-      const double alpha = std::max(std::pow(double(j) / (roughnesses - 1), 2), 1e-6);
+      const double along = alpha_at(j), across = alpha_at(k);
       for (int i = 0; i < angles; ++i) {
-        const double cosine = invert(double(i) / (angles - 1), 0.0, 1.0,
-                                     [&](double c) { return stretched_angle(c, alpha); });
-        for (const double value :
-             stretched(facets, cosine, alpha, std::pow(double(k) / (ratios - 1), 2))) {
+        const double cosine = invert(double(i) / (angles - 1), 0.0, 1.0, [&](double c) {
+          return nacre::table_axes::unequal_angle(c, along, across);
+        });
+        for (const double value : unequal(facets, cosine, along, across)) {
           std::printf("%#.5gf,", value);
         }
       }
@@ -333,5 +368,5 @@ int main(int count, char** arguments) {
   write(facets, "steep_values", 24, 20, 1, angle, steep);
   write(facets, "entering_values", 40, 20, 10, entering_angle, entering);
   write(facets, "leaving_values", 40, 16, 30, angle_below_one, leaving);
-  write_stretched(facets, "stretched_values", 24, 16, 20);
+  write_unequal(facets, "unequal_values", 32, 12);
 }

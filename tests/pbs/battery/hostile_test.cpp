@@ -57,7 +57,7 @@ class HostileLobes : public testing::TestWithParam<std::tuple<LobeCase, Accuracy
 
 TEST_P(HostileLobes, AnyBitsGiveFiniteLight) {
   const auto& [row, accuracy] = GetParam();
-  LobePrograms programs = lobe_programs(row, accuracy, true);
+  LobePrograms programs = lobe_programs(row, accuracy, {.hostile = true});
   const Columns in = hostile_columns(7);
   const Columns f = run(*lobe_kernel(std::move(programs.evaluate), accuracy), in);
   for (std::size_t i = 0; i < count; ++i) {

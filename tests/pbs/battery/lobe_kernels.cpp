@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <set>
+#include <utility>
+
 #include "jit/compile/compile.h"
 #include "jit/service/compile_service.h"
 #include "tests/support/random.h"
@@ -17,18 +21,19 @@ CompileService* service() {
   return service.get();
 }
 
-std::vector<float> take(Columns& columns, const char* name) { return std::move(columns.at(name)); }
+/// Empty where there is none.
+std::vector<float> take(Columns& columns, const char* name) { return std::move(columns[name]); }
 
 }  // namespace
 
-LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile) {
+LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, const LobeRequest& wanted) {
   Recorder recorder;
   const auto channel = [&](const char* name) { return input(recorder, name); };
   const LobeInputs inputs{.roughness = channel("roughness"),
                           .color = {channel("color.x"), channel("color.y"), channel("color.z")},
                           .index = channel("index")};
   Ports more;
-  if (hostile) {
+  if (wanted.hostile) {
     more["weight"] = number(channel("weight"));
     more["normal"] = {Type::vector3,
                       Float3(channel("normal.x"), channel("normal.y"), channel("normal.z"))};
@@ -36,11 +41,20 @@ LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile)
   Surface surface;
   surface.bsdf = make_lobe(recorder, row, inputs, accuracy, more);
   KernelRequest request;
-  request.reverse_pdf = true;
+  request.reverse_pdf = wanted.reverse_pdf;
   const SurfaceKernels kernels = record_kernels(recorder, surface, accuracy, request);
-  return {slice(recorder.program(), "evaluate", kernels.evaluate),
-          slice(recorder.program(), "sample", kernels.sample),
-          slice(recorder.program(), "albedo", kernels.albedo)};
+  const Program& all = recorder.program();
+  LobePrograms made{.begin = {},
+                    .evaluate = slice(all, "evaluate", kernels.evaluate, wanted.keeps),
+                    .sample = slice(all, "sample", kernels.sample, wanted.keeps),
+                    .albedo = slice(all, "albedo", kernels.albedo)};
+  std::set<std::uint32_t> kept;
+  for (const Program* program : {&made.evaluate, &made.sample}) {
+    for (const std::uint32_t k : state_channels(*program)) kept.insert(k);
+  }
+  const std::vector<std::uint32_t> keeps(kept.begin(), kept.end());
+  made.begin = slice(all, "begin", state_outputs(recorder, keeps));
+  return made;
 }
 
 std::shared_ptr<const Kernel> lobe_kernel(Program program, Accuracy accuracy, Backend backend) {
@@ -53,8 +67,11 @@ std::shared_ptr<const Kernel> lobe_kernel(Program program, Accuracy accuracy, Ba
   return kernel;
 }
 
-LobeKernels::LobeKernels(const LobeCase& row, Accuracy accuracy, Backend backend) {
-  LobePrograms programs = lobe_programs(row, accuracy);
+LobeKernels::LobeKernels(const LobeCase& row, Accuracy accuracy, Backend backend,
+                         bool reverse_pdf) {
+  LobePrograms programs =
+      lobe_programs(row, accuracy, {.reverse_pdf = reverse_pdf, .keeps = Keeps::load});
+  begin_ = lobe_kernel(std::move(programs.begin), accuracy, backend);
   evaluate_ = lobe_kernel(std::move(programs.evaluate), accuracy, backend);
   sample_ = lobe_kernel(std::move(programs.sample), accuracy, backend);
   albedo_ = lobe_kernel(std::move(programs.albedo), accuracy, backend);
@@ -89,17 +106,22 @@ Evaluated LobeKernels::evaluate(float roughness, Direction wo,
 
 Evaluated LobeKernels::evaluate(float roughness, const std::vector<Direction>& wo,
                                 const std::vector<Direction>& wi) const {
-  Columns columns = lobe_columns(roughness);
-  set_directions(columns, "wo", wo);
+  Columns columns = viewed(roughness, wo);
   set_directions(columns, "wi", wi);
   Columns out = run(*evaluate_, columns);
   return {take(out, "f.x"), take(out, "pdf"), take(out, "pdf_reverse")};
 }
 
+Columns LobeKernels::viewed(float roughness, const std::vector<Direction>& wo) const {
+  Columns columns = lobe_columns(roughness);
+  set_directions(columns, "wo", wo);
+  columns.merge(run(*begin_, columns));
+  return columns;
+}
+
 Sampled LobeKernels::sample(float roughness, Direction wo, std::size_t count,
                             std::uint64_t seed) const {
-  Columns columns = lobe_columns(roughness);
-  set_directions(columns, "wo", {wo});
+  Columns columns = viewed(roughness, {wo});
   set_random(columns, count, seed);
   Columns out = run(*sample_, columns);
   Sampled sampled;

@@ -21,10 +21,13 @@ struct Sampled {
   std::vector<bool> valid;
 };
 
-/// The kernels of one lobe, white, as a surface has them.
+/// The kernels of one lobe, white, as a surface has them: what a view needs is worked out once, by
+/// a kernel `begin`, and the others load it.
 class LobeKernels {
  public:
-  LobeKernels(const LobeCase& row, Accuracy accuracy, Backend backend = Backend::jit);
+  /// `reverse_pdf`: else none is computed, which is much less work for lobes that sum over facets.
+  LobeKernels(const LobeCase& row, Accuracy accuracy, Backend backend = Backend::jit,
+              bool reverse_pdf = false);
 
   Evaluated evaluate(float roughness, Direction wo, const std::vector<Direction>& wi) const;
   /// Each from its own side: wo.size() == wi.size().
@@ -33,18 +36,23 @@ class LobeKernels {
   Sampled sample(float roughness, Direction wo, std::size_t count, std::uint64_t seed) const;
   double albedo(float roughness, Direction wo) const;
 
-  const Kernel& evaluate_kernel() const { return *evaluate_; }
-  const Kernel& sample_kernel() const { return *sample_; }
-
  private:
-  std::shared_ptr<const Kernel> evaluate_, sample_, albedo_;
+  /// Channels for views, with the state of each.
+  Columns viewed(float roughness, const std::vector<Direction>& wo) const;
+
+  std::shared_ptr<const Kernel> begin_, evaluate_, sample_, albedo_;
 };
 
-/// Records a lobe and slices its kernels. `more` replaces ports.
+/// Records a lobe and slices its kernels.
 struct LobePrograms {
-  Program evaluate, sample, albedo;
+  Program begin, evaluate, sample, albedo;
 };
-LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, bool hostile = false);
+struct LobeRequest {
+  bool hostile = false;  ///< Weight and normal are channels as well.
+  bool reverse_pdf = true;
+  Keeps keeps = Keeps::pass;  ///< `load`: what `begin` stores.
+};
+LobePrograms lobe_programs(const LobeCase& row, Accuracy accuracy, const LobeRequest& wanted = {});
 
 /// Fails the running test where there is no kernel.
 std::shared_ptr<const Kernel> lobe_kernel(Program program, Accuracy accuracy,

@@ -22,7 +22,7 @@ TEST_P(Lobes, SamplesFollowTheDensityAndCarryTheLight) {
 TEST_P(Lobes, ReverseDensityIsTheForwardOneOfTheSwappedPair) {
   const auto& [row, accuracy] = GetParam();
   const bool is_fast = accuracy == Accuracy::fast;
-  const LobeKernels kernels(row, accuracy, is_fast ? Backend::interpreter : Backend::jit);
+  const LobeKernels kernels(row, accuracy, is_fast ? Backend::interpreter : Backend::jit, true);
   double worst = 1.0;
   each_lobe_view(row, daily_tier, [&](float roughness, Direction wo, std::uint64_t seed) {
     const Sampled samples = kernels.sample(roughness, wo, 2000, seed);
