@@ -1,5 +1,7 @@
 #include "jit/record/textures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -29,7 +31,8 @@ bool RecordedTextures::may_read(const std::string& path) const {
 }
 
 TextureSource RecordedTextures::add(Slot bound, const std::string& key) {
-  const TextureHandle texture = bound.image != nullptr ? bound.image->get() : bound.texture;
+  const bool may_change = bound.image != nullptr;
+  const TextureHandle texture = may_change ? bound.image->get() : bound.texture;
   TextureSource source;
   source.slot = Int(recorder_.texture(key));
   const auto slot = static_cast<std::size_t>(source.slot.constant());
@@ -42,6 +45,7 @@ TextureSource RecordedTextures::add(Slot bound, const std::string& key) {
   source.format = static_cast<texture_layout::TexelFormat>(words[texture_layout::word_format]);
   source.channels = static_cast<int>(words[texture_layout::word_channels]);
   source.single = words[texture_layout::word_level_count] == 1;
+  if (!may_change && !deferred_.contains(texture)) source.uniform = texture->uniform();
   return source;
 }
 
@@ -153,6 +157,23 @@ TextureSources RecordedTextures::find(const std::string& name, const std::string
   complain(problems);
   found_.emplace(key, sources);
   return sources;
+}
+
+std::vector<std::string> RecordedTextures::uniform_channels() const {
+  std::vector<std::string> lines;
+  for (const auto& [key, sources] : found_) {
+    if (sources.images.size() != 1) continue;  // Of a tile nobody could say which.
+    const TextureSource& image = sources.images.front();
+    std::string known;
+    for (std::size_t c = 0; c < image.uniform.size(); ++c) {
+      if (!image.uniform[c]) continue;
+      const float value = *image.uniform[c] * texture_layout::step_value(image.format);
+      known += fmt::format("{}{} is {}", known.empty() ? "" : ", ", "rgba"[c], value);
+    }
+    const std::string name = key.substr(0, key.rfind('|'));
+    if (!known.empty()) lines.push_back(fmt::format("image {}: {} everywhere", name, known));
+  }
+  return lines;
 }
 
 std::optional<std::string> RecordedTextures::read(const std::string& name) {

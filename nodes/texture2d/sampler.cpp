@@ -1,6 +1,9 @@
 #include "nodes/texture2d/sampler.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "nodes/texture2d/footprint.h"
@@ -30,8 +33,12 @@ Float4 filter_any_level(const TexelFetch& fetch, Int index, Float2 uv, TextureMo
         static_cast<std::uint32_t>(fetch.wanted), pack_modes(modes)}) {
     name += '.' + std::to_string(number);
   }
+  for (const std::optional<float>& known : fetch.uniform) {
+    name += known ? '.' + std::to_string(std::bit_cast<std::uint32_t>(*known)) : ".-";
+  }
   const auto body = [&](Int slot, Int level, Float2 at) {
-    const TexelFetch inside{fetch.recorder, slot, fetch.format, fetch.channels, fetch.wanted};
+    TexelFetch inside = fetch;
+    inside.slot = slot;
     return filter_level(inside, mip_level(inside, level), at.x, at.y, modes);
   };
   const Int slot = unspecialized(fetch.recorder, fetch.slot);
@@ -51,7 +58,7 @@ Float4 filter_two_levels(const TexelFetch& fetch, Float2 uv, const Probes& probe
 struct RunningMean {
   Float weight;
   Float4 mean;
-  int components;
+  const TexelFetch* fetch;
 };
 
 template <class F>
@@ -59,7 +66,7 @@ void visit(RunningMean& sum, F&& f) {
   f(sum.weight);
   int c = 0;
   visit(sum.mean, [&](Float& component) {
-    if (c++ < sum.components) f(component);
+    if (sum.fetch->differs(c++)) f(component);
   });
 }
 
@@ -76,8 +83,7 @@ Float4 filter_probes(const TexelFetch& fetch, Float2 uv, const Probes& probes, T
                              probes, modes);
   };
   if (modes.max_anisotropy <= 1) return probe(0.0f);
-  const RunningMean none{
-      .weight = 0.0f, .mean = {}, .components = std::min(fetch.channels, fetch.wanted)};
+  const RunningMean none{.weight = 0.0f, .mean = {}, .fetch = &fetch};
   const int most = 2 * modes.max_anisotropy - 1;
   const RunningMean all = loop(fetch.recorder, true, most, none, [&](Int i, RunningMean& sum) {
     const Float p = probe_position(probes, to_float(i));
@@ -106,7 +112,8 @@ Float4 sample_resident(const TexelFetch& fetch, const TextureSource& source,
   // Usually all lanes take one side, and level 0 costs less than any other.
   const Bool near = is_magnified(probes);
   const Float4 found = if_any(near, Float4{}, magnified);
-  return if_any(!near, found, [&] { return filter_probes(fetch, lookup.uv, probes, modes); });
+  return fetch.completed(
+      if_any(!near, found, [&] { return filter_probes(fetch, lookup.uv, probes, modes); }));
 }
 
 Float4 sample_by_call(Recorder& recorder, const TextureSource& source, const ImageLookup& lookup) {
@@ -134,7 +141,8 @@ Float4 sample_image(Recorder& recorder, const TextureSource& source, const Image
   if (source.state == TextureSource::State::by_call) {
     found = sample_by_call(recorder, source, lookup);
   } else {
-    const TexelFetch fetch{recorder, source.slot, source.format, source.channels, lookup.channels};
+    const TexelFetch fetch{recorder,        source.slot,     source.format,
+                           source.channels, lookup.channels, source.uniform};
     found = fetch.scaled(sample_resident(fetch, source, lookup));
   }
   const Bool replaced = outside(lookup.uv.x, lookup.modes.u) | outside(lookup.uv.y, lookup.modes.v);

@@ -1,6 +1,8 @@
 #include "nodes/texture2d/texel_fetch.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 
 namespace nacre {
 
@@ -53,11 +55,21 @@ Float4 TexelFetch::texel(Int index) const {
   return completed({all[0], all[1], all[2], all[3]});
 }
 
+bool TexelFetch::differs(int component) const {
+  const bool is_read = component < std::min(channels, wanted);
+  return is_read && !uniform[static_cast<std::size_t>(component)];
+}
+
 Float4 TexelFetch::completed(Float4 steps) const {
   int c = 0;
   visit(steps, [&](Float& step) {
     const bool is_alpha = c == 3;
-    if (c >= channels) step = Float(is_alpha ? one(format) : 0.0f);
+    const std::optional<float> known = uniform[static_cast<std::size_t>(c)];
+    if (c >= channels) {
+      step = Float(is_alpha ? one(format) : 0.0f);
+    } else if (known) {
+      step = Float(*known);
+    }
     if (c++ >= wanted) step = Float(0.0f);
   });
   return steps;
@@ -66,7 +78,7 @@ Float4 TexelFetch::completed(Float4 steps) const {
 Float4 TexelFetch::scaled(Float4 steps) const {
   if (one(format) == 1.0f) return steps;
   // Rounded once more where the step is no power of two; 255 of 255 is exactly 1.
-  visit(steps, [&](Float& step) { step = step * Float(1.0f / one(format)); });
+  visit(steps, [&](Float& step) { step = step * Float(texture_layout::step_value(format)); });
   return steps;
 }
 

@@ -18,7 +18,7 @@ struct Group {
 
 bool alike(const TextureSource& a, const TextureSource& b) {
   return a.state == TextureSource::State::resident && b.state == a.state && b.format == a.format &&
-         b.channels == a.channels && b.single == a.single;
+         b.channels == a.channels && b.single == a.single && b.uniform == a.uniform;
 }
 
 /// Tiles that are missing belong to no group.

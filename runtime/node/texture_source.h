@@ -7,6 +7,7 @@
 
 #include "runtime/diagnostic.h"
 #include "runtime/texture/layout.h"
+#include "runtime/texture/uniform_channels.h"
 #include "runtime/value/value.h"
 
 namespace nacre {
@@ -25,6 +26,7 @@ struct TextureSource {
   texture_layout::TexelFormat format{};  ///< Fixed in the kernel.
   int channels = 0;                      ///< In the file, at most 4.
   bool single = false;                   ///< One texel: the same everywhere.
+  UniformChannels uniform;               ///< Fixed in the kernel; of what may change nothing.
 };
 
 /// What a file name with or without `<UDIM>` / `<UVTILE>` stands for.

@@ -146,6 +146,15 @@ constexpr int texel_words_log2(TexelFormat format) {
   return 0;
 }
 
+/// The value of a step of a format: 1 where texels are values.
+constexpr float step_value(TexelFormat format) {
+  switch (format) {
+    case TexelFormat::rgba8: return 1.0f / 255.0f;
+    case TexelFormat::rgba16: return 1.0f / 65535.0f;
+    default: return 1.0f;
+  }
+}
+
 /// Texels of a level where level 0 has `extent`.
 constexpr int level_extent(int extent, int level) {
   return (extent >> level) > 1 ? extent >> level : 1;

@@ -23,7 +23,9 @@ AlignedWords placeholder(std::uint32_t flags, int image_width, int image_height)
 }  // namespace
 
 Texture::Texture(AlignedWords words, std::uint64_t replaced_texels)
-    : words_(std::move(words)), replaced_texels_(replaced_texels) {}
+    : words_(std::move(words)),
+      uniform_(uniform_channels(words_.span())),
+      replaced_texels_(replaced_texels) {}
 
 Texture::Texture(std::unique_ptr<TextureSampler> sampler, int width, int height)
     : words_(placeholder(texture_by_call, width, height)), sampler_(std::move(sampler)) {}

@@ -9,6 +9,7 @@
 #include "runtime/texture/aligned_words.h"
 #include "runtime/texture/layout.h"
 #include "runtime/texture/texture_sampler.h"
+#include "runtime/texture/uniform_channels.h"
 
 namespace nacre {
 
@@ -39,11 +40,14 @@ class Texture {
   const TextureSampler* sampler() const { return sampler_.get(); }  ///< Null unless by calls.
   /// Why it is missing.
   const std::optional<Diagnostic>& problem() const { return problem_; }
+  /// What all texels have; nothing unless resident.
+  const UniformChannels& uniform() const { return uniform_; }
   /// NaN and infinite samples of level 0 that became 0.
   std::uint64_t replaced_texels() const { return replaced_texels_; }
 
  private:
   AlignedWords words_;
+  UniformChannels uniform_;
   std::unique_ptr<TextureSampler> sampler_;
   std::optional<Diagnostic> problem_;
   std::uint64_t replaced_texels_ = 0;

@@ -222,19 +222,70 @@ TEST_F(SamplerTest, ClosestAndSingleTexelsNeedNoFootprint) {
   EXPECT_FALSE(record(store, {}).reads("uv0.x"));
 }
 
+// But for one texel, beyond the reach of what is looked up: else nothing would be.
 TEST_F(SamplerTest, FlatImagesAreExactlyFlat) {
   for (const Format& format : formats) {
-    TestImage image{20, 12, format.channels, {}};
-    image.samples.assign(static_cast<std::size_t>(20 * 12 * format.channels), 1.0f);
+    TestImage image{64, 64, format.channels, {}};
+    image.samples.assign(static_cast<std::size_t>(64 * 64 * format.channels), 1.0f);
+    for (int c = 0; c < format.channels; ++c) image.at(63, 63, c) = 0.0f;
     WriteOptions options;
     options.type = format.type;
     path_ = folder_.file(std::string("flat") + format.file);
     ASSERT_TRUE(write_image(path_, image, options));
     TextureStore store;
-    for (const auto& value :
-         record(store, {.max_anisotropy = 8}).run(random_points(500, 20, 12, 6))) {
+    LookupPoints points;
+    for (float turn = 0; turn < 6.3f; turn += 0.01f) {
+      // Probes reach an eighth of the image, and levels as coarse as a sixteenth.
+      points.add(0.3f + 0.02f * std::cos(turn), 0.3f + 0.02f * std::sin(turn),
+                 {0.1f * std::cos(turn), 0.1f * std::sin(turn), 0.01f * turn, 0.03f});
+    }
+    const TextureModes long_ones{.max_anisotropy = 8};
+    for (const auto& value : record(store, long_ones).run(points)) {
       for (std::size_t c = 0; c < static_cast<std::size_t>(format.channels); ++c) {
         ASSERT_EQ(value[c], 1.0f) << format.name;
+      }
+    }
+  }
+}
+
+// What is the same in all texels is not looked up, and has the bits of a look-up: that of an image
+// of the host's, which may be another one later.
+TEST_F(SamplerTest, UniformChannelsAreWhatALookUpGives) {
+  constexpr int width = 20, height = 12;
+  std::vector<float> samples;
+  for (const TestImage noise = random_image(width, height, 4, 1024);
+       const float x : noise.samples) {
+    const std::size_t channel = samples.size() % 4;
+    samples.push_back(channel == 1 ? 0.3f : channel == 3 ? 1.0f : x);
+  }
+  const TestImage image{width, height, 4, samples};
+  path_ = folder_.file("uniform.exr");
+  WriteOptions floats;
+  floats.type = "float";
+  ASSERT_TRUE(write_image(path_, image, floats));
+  // The first row of a file is the upper one, as here.
+  const Pixels pixels{.width = width,
+                      .height = height,
+                      .channels = 4,
+                      .samples = SampleType::floating,
+                      .data = samples.data()};
+  for (const TextureFilter filter : filters) {
+    for (const AddressMode mode : modes) {
+      const TextureModes both{filter, mode, mode, 8};
+      TextureStore files, memory;
+      Diagnostics diagnostics;
+      ASSERT_TRUE(memory.set_image(path_, pixels, diagnostics)) << diagnostics.to_string();
+      const RecordedLookup known = record(files, both), general = record(memory, both);
+      EXPECT_LT(known.program().entry().code.size(), general.program().entry().code.size());
+      const LookupPoints points = random_points(500, width, height, 8);
+      const auto found = known.run(points), expected = general.run(points);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t c = 0; c < 4; ++c) {
+          // Weights of a spline add up to 1 but for rounding.
+          const bool is_rounded = filter == TextureFilter::cubic && c % 2 == 1;
+          ASSERT_NEAR(found[i][c], expected[i][c], is_rounded ? 3e-7f : 0.0f)
+              << static_cast<int>(filter) << static_cast<int>(mode) << ' ' << i << ' ' << c;
+        }
       }
     }
   }
