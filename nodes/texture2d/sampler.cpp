@@ -1,7 +1,6 @@
 #include "nodes/texture2d/sampler.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,11 +32,14 @@ Float4 filter_any_level(const TexelFetch& fetch, Int index, Float2 uv, TextureMo
         static_cast<std::uint32_t>(fetch.wanted), pack_modes(modes)}) {
     name += '.' + std::to_string(number);
   }
-  for (const std::optional<float>& known : fetch.uniform) {
-    name += known ? '.' + std::to_string(std::bit_cast<std::uint32_t>(*known)) : ".-";
+  // Which channels are uniform, not what they are: completed() knows that.
+  TexelFetch any = fetch;
+  for (std::optional<float>& known : any.uniform) {
+    name += known ? ".u" : ".-";
+    if (known) known = 0.0f;
   }
   const auto body = [&](Int slot, Int level, Float2 at) {
-    TexelFetch inside = fetch;
+    TexelFetch inside = any;
     inside.slot = slot;
     return filter_level(inside, mip_level(inside, level), at.x, at.y, modes);
   };

@@ -249,10 +249,14 @@ TEST_F(Samples, AdaptiveSeesEdgesBesideImages) {
   constexpr float asked = 0.004f;
   std::string checker = checker_nodes("20", "5");
   checker.replace(checker.find("<modulo name='n'"), 16, "<modulo name='m'");
+  std::vector<unsigned char> texels(16, 255);
+  texels[5] = 254;  // One value alone would be no image.
   const auto kernel =
-      kernel_of(checker + grey_image(4, std::vector<unsigned char>(16, 255)) +
+      kernel_of(checker + grey_image(4, texels) +
+                "<max name='one' type='float'><input name='in1' type='float' nodename='image'/>"
+                "<input name='in2' type='float' value='1'/></max>"
                 "<multiply name='n' type='float'><input name='in1' type='float' nodename='m'/>"
-                "<input name='in2' type='float' nodename='image'/></multiply>");
+                "<input name='in2' type='float' nodename='one'/></multiply>");
   ASSERT_NE(kernel, nullptr);
   const std::vector<double> right = coverage(20.0, 5.0, 128);
   const Baked baked = bake(*kernel, of(128, 0, asked));

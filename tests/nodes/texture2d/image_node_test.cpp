@@ -64,6 +64,21 @@ class ImageNodeTest : public testing::Test {
     return path;
   }
 
+  /// No channel is the same everywhere.
+  std::string write_noise(const char* name, int channels) {
+    const std::string path = folder_.file(name);
+    EXPECT_TRUE(write_image(path, random_image(2, 2, channels, 255)));
+    return path;
+  }
+  /// Alpha is.
+  std::string write_opaque(const char* name, float alpha) {
+    const std::string path = folder_.file(name);
+    TestImage image = random_image(2, 2, 4, 255);
+    for (std::size_t i = 3; i < image.samples.size(); i += 4) image.samples[i] = alpha;
+    EXPECT_TRUE(write_image(path, image));
+    return path;
+  }
+
   TemporaryFolder folder_;
   TextureStore store_;
   Diagnostics diagnostics_;
@@ -121,14 +136,19 @@ TEST_F(ImageNodeTest, ImagesOfOneKindShareTheCodeThatFiltersThem) {
   };
   std::vector<std::pair<std::string, std::string>> images;
   for (const char* name : {"a.png", "b.png", "c.png", "d.png", "e.png"}) {
-    images.emplace_back(write(name, 4), "periodic");
+    images.emplace_back(write_noise(name, 4), "periodic");
   }
   EXPECT_EQ(functions(images), 1u);
   // Other borders, and other channels, are filtered by other code.
-  images.emplace_back(write("f.png", 4), "mirror");
+  images.emplace_back(write_noise("f.png", 4), "mirror");
   EXPECT_EQ(functions(images), 2u);
-  images.emplace_back(write("g.png", 3), "mirror");
+  images.emplace_back(write_noise("g.png", 3), "mirror");
   EXPECT_EQ(functions(images), 3u);
+  // So are such as have no alpha to look up, whatever it is.
+  images.emplace_back(write_opaque("h.png", 1), "mirror");
+  EXPECT_EQ(functions(images), 4u);
+  images.emplace_back(write_opaque("i.png", 0.5f), "mirror");
+  EXPECT_EQ(functions(images), 4u);
 }
 
 }  // namespace
