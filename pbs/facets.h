@@ -83,6 +83,8 @@ class FacetFresnel {
   virtual ~FacetFresnel() = default;
   /// Fraction reflected, in [0, 1]; finite for a finite cosine.
   virtual Color3 at(Float cosine, Bool inside) const = 0;
+  /// 0 in channels of which nothing is reflected at any angle; above it in others.
+  virtual Color3 presence() const { return Color3(1.0f); }
   /// Its mean over the light that a surface reflects to a view.
   Color3 mean(Recorder& recorder, const FacetReflection& reflection, const FacetView& view,
               Bool inside) const;

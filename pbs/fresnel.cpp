@@ -48,10 +48,12 @@ Polarised fresnel_conductor_polarised(Float cosine, Float n, Float k) {
   const Float cosine2 = square(cosine);
   const Float sine2 = max(1.0f - cosine2, 0.0f);
   // (a + ib)^2 = (n + ik)^2 - sin^2. Its real part by what keeps the digits of the cosine where
-  // that is small: near n = 1, k = 0, where nothing is reflected, n^2 - sin^2 has none of them. The
-  // greater of a and b from the sum that does not cancel, the other from their product n k.
+  // that is small or n near 1: there, where k = 0, nothing is reflected, and n^2 - sin^2 has none
+  // of them; by the other where n and k are small, and sin^2 too, which 1 - cos^2 has no digits of.
+  // The greater of a and b from the sum that does not cancel, the other from their product n k.
   const Float grazing = fma(cosine, cosine, fma(-k, k, excess(n)));
-  const Float t = select(cosine2 < 0.25f, grazing, fma(n - k, n + k, -sine2));
+  const Bool by_cosine = (cosine2 < 0.25f) | (n > 0.9f);
+  const Float t = select(by_cosine, grazing, fma(n - k, n + k, -sine2));
   const Float product = n * k;
   const Float product2 = square(product);
   const Float modulus = sqrt(fma(t, t, 4.0f * product2));
@@ -74,7 +76,8 @@ Polarised fresnel_conductor_polarised(Float cosine, Float n, Float k) {
   const Float below_p = fma(sum_p, sum_p, bc2);
   const Float above_p = fma(difference_p, difference_p, bc2);
   // The first is 1 at least where the other is small.
-  const Float s = above_s / (below_s * below_p);
+  const Bool is_none = by_cosine & (above_s <= tiny);
+  const Float s = select(is_none, 0.0f, above_s) / (below_s * below_p);
   return {min(s * below_p, 1.0f), min(s * above_p, 1.0f)};
 }
 

@@ -37,7 +37,7 @@ class MicrofacetReflection final : public Lobe {
   const Facets* reflecting_facets() const override;
   Color3 mirrored(const View& view) const override;
   Color3 albedo(const View& view) const override;
-  Color3 presence(const View&) const override { return options_.tint; }
+  Color3 presence(const View&) const override { return options_.tint * fresnel_->presence(); }
   Color3 throughput(const View& view) const override;
   /// The albedo before the tint.
   Color3 reflected(const View& view) const;

@@ -34,6 +34,11 @@ class ThinFilm {
   /// literal 0 where there is none.
   Float share() const { return exists() ? saturate(thickness_ * (1.0f / 30.0f)) : Float(0.0f); }
 
+  /// As FacetFresnel::presence, where `bare` is that without the film.
+  Color3 presence(Color3 bare) const {
+    return exists() ? select(thickness_ > 0.0f, Color3(1.0f), bare) : bare;
+  }
+
   /// The same for a sum over many cosines, in which what higher orders add cancels: no more orders
   /// than these, and no wave numbers one by one.
   ThinFilm in_sums() const;

@@ -15,6 +15,13 @@ class ConductorFresnel final : public FacetFresnel {
     const Color3 bare = fresnel_conductor(cosine, n_, k_);
     return film_.exists() ? film_.reflectance(cosine, 1.0f, n_, k_, bare) : bare;
   }
+  /// Black metals are no interface at all.
+  Color3 presence() const override {
+    const auto is_there = [](Float n, Float k) {
+      return select((n == 1.0f) & (k == 0.0f), Float(0.0f), Float(1.0f));
+    };
+    return film_.presence({is_there(n_.x, k_.x), is_there(n_.y, k_.y), is_there(n_.z, k_.z)});
+  }
   FacetFresnelPtr with_film(const ThinFilm& film) const override {
     auto other = std::make_shared<ConductorFresnel>(*this);
     other->film_ = film;

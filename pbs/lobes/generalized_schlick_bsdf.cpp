@@ -37,6 +37,9 @@ class SchlickFresnel final : public FacetFresnel {
     return select(inside & (squared <= 0.0f), Color3(1.0f), filmed(outer, curve_.at(outer)));
   }
 
+  Color3 presence() const override {
+    return two_sided_ ? film_.presence(max(curve_.color0, curve_.color90)) : Color3(1.0f);
+  }
   Float index() const override { return index_; }
   bool has_inside() const override { return !two_sided_; }
   const ThinFilm* film() const override { return &film_; }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -101,6 +102,10 @@ TEST(Fresnel, ConductorKeepsItsDigitsNearNoInterface) {
     const double expected = fresnel(in["c"][i], {in["n"][i], in["k"][i]});
     EXPECT_NEAR(found[i], expected, 5e-6) << in["c"][i] << " " << in["n"][i] << " " << in["k"][i];
   }
+  // Black metals are made of these indices: (a - cos)^2 had been 1e-16.
+  std::ranges::fill(in["n"], 1.0f), std::ranges::fill(in["k"], 0.0f);
+  const std::vector<float> black = run(*kernel, in).at("f");
+  for (const float none : black) EXPECT_EQ(none, 0.0f);
 }
 
 TEST(Fresnel, ConductorWithoutAnIndexReflectsEverything) {

@@ -46,6 +46,29 @@ TEST(Documents, EqualRoughnessesAreThatKnownOrNot) {
   }
 }
 
+// What reflects nothing: live, of which nobody knows it, 1e-16 came back; frozen, as the only lobe,
+// it was sampled.
+TEST(Documents, BlackMetalIsDarkKnownOrNot) {
+  const std::string black = value_of("color0", "color3", "0, 0, 0") +
+                            value_of("color90", "color3", "0, 0, 0") +
+                            value_of("color82", "color3", "0, 0, 0");
+  const std::string none =
+      value_of("ior", "color3", "1, 1, 1") + value_of("extinction", "color3", "0, 0, 0");
+  const std::string metal = value_of("metalness", "float", "1") +
+                            value_of("base_color", "color3", "0, 0, 0") +
+                            value_of("specular_roughness", "float", "0.65");
+  const std::string brushed = metal + value_of("specular_anisotropy", "float", "1");
+  for (const std::string& nodes :
+       {facets("generalized_schlick_bsdf", "R", "0.3, 0.3", black),
+        element("conductor_bsdf", "BSDF", "b", none + value_of("roughness", "vector2", "0.4, 0.1")),
+        element("standard_surface", "surfaceshader", "S", metal),
+        element("standard_surface", "surfaceshader", "S", brushed)}) {
+    for (const int accuracy : {NACRE_STANDARD, NACRE_PRECISE}) {
+      try_material(material_of(nodes), 1, accuracy, true);
+    }
+  }
+}
+
 // What passes white metal was once 0 or what its rounding left.
 TEST(Documents, WhiteMetalHidesWhatIsBelow) {
   std::vector<Direction> wo, wi;

@@ -140,17 +140,17 @@ std::vector<NarrowCase> make_cases() {
       glass_case(
           "interface", [](In in) { return glass("RT", facets<1>(in)); }, by_facets<1>, 5),
       glass_case(
-          "transmission_4", [](In in) { return glass("T", facets<4>(in)); }, by_facets<4>),
+          "transmission_4", [](In in) { return glass("T", facets<4>(in)); }, by_facets<4>, 13),
       glass_case(
           "interface_4", [](In in) { return glass("RT", facets<4>(in)); }, by_facets<4>, 13),
       glass_case(
-          "interface_100", [](In in) { return glass("RT", facets<100>(in)); }, by_facets<100>),
+          "interface_100", [](In in) { return glass("RT", facets<100>(in)); }, by_facets<100>, 13),
       glass_case(
           "beckmann_transmission", [](In in) { return of_beckmann(glass("T", facets<1>(in))); },
           by_facets<1>),
       glass_case(
           "beckmann_interface_4", [](In in) { return of_beckmann(glass("RT", facets<4>(in))); },
-          by_facets<4>),
+          by_facets<4>, 13),
       schlick_case("schlick_reflection", [](In in) { return schlick("R", facets<1>(in)); }),
       schlick_case("schlick_transmission", [](In in) { return schlick("T", facets<1>(in)); }),
       schlick_case("schlick_interface", [](In in) { return schlick("RT", facets<1>(in)); }),

@@ -15,8 +15,7 @@ struct NarrowCase {
   std::unique_ptr<NarrowWarp> (*warp)(float width, Direction wo);
   std::span<const float> widths;
   std::span<const double> angles;  ///< Of wo to the normal, degrees.
-  /// Of so many widths and angles the daily tier has one; 0: none. Each evaluation of anisotropic
-  /// interfaces sums over facets.
+  /// Of so many widths and angles the daily tier has one; 0: none.
   std::size_t daily_share = 0;
 };
 
