@@ -128,14 +128,14 @@ TEST(FacetTables, UnequalReflectionIsTheIntegralOfTheLobe) {
   const float roughnesses[][2] = {{1, 0.1f},     {0.6f, 0.06f}, {0.5f, 0.25f},
                                   {0.3f, 0.21f}, {0.2f, 0.05f}, {0.07f, 0.02f}};
   for (const FacetDistribution of : {FacetDistribution::ggx, FacetDistribution::beckmann}) {
-    for (const auto& [x, y] : roughnesses) {
+    for (const auto& [ax, ay] : roughnesses) {
       for (const double azimuth : {0.0, 0.5, 1.2, pi_d / 2}) {
         for (const double cosine : {0.05, 0.2, 0.6, 0.99}) {
           const Direction wo = direction(cosine, azimuth);
           const Columns view{{"x", {static_cast<float>(wo.x)}},
                              {"y", {static_cast<float>(wo.y)}},
                              {"z", {static_cast<float>(wo.z)}}};
-          const auto out = evaluate(view, [&, x = x, y = y](Recorder& r) {
+          const auto out = evaluate(view, [&, x = ax, y = ay](Recorder& r) {
             const Float3 from{input(r, "x"), input(r, "y"), input(r, "z")};
             const FacetReflection e =
                 facet_reflection(r, facet_view(from, of, {Float(x), Float(y)}, false));
@@ -146,8 +146,8 @@ TEST(FacetTables, UnequalReflectionIsTheIntegralOfTheLobe) {
             }
             return outputs;
           });
-          const Lobe expected = reflection_by_slopes(wo, {x, y}, of);
-          const std::string place = std::to_string(x) + ' ' + std::to_string(y) + " azimuth " +
+          const Lobe expected = reflection_by_slopes(wo, {ax, ay}, of);
+          const std::string place = std::to_string(ax) + ' ' + std::to_string(ay) + " azimuth " +
                                     std::to_string(azimuth) + " cosine " + std::to_string(cosine);
           EXPECT_NEAR(out.at("e")[0], expected.albedo, 1e-2) << place;
           for (std::size_t k = 0; k < std::size(usual); ++k) {
