@@ -207,15 +207,15 @@ class Kernels {
     CompileOptions options = options_;
     // In `fast` the interpreter's bits are others, and no run waits for a compiler: it is made now.
     const bool is_made_now = options.accuracy == Accuracy::fast;
-    if (!is_made_now) {
+    if (is_made_now) {
+      generals_[place] = [made = general_kernel(program, options, service)] { return made; };
+    } else {
       options.asynchronous = true;
       options.stop = {};  // Of a call that is over then.
+      generals_[place] = [program, options, service] {
+        return general_kernel(program, options, service);
+      };
     }
-    const auto make = [program, options, service] {
-      return general_kernel(program, options, service);
-    };
-    generals_[place] = make;
-    if (is_made_now) generals_[place] = [made = make()] { return made; };
   }
 
   /// What is bound to code that is there, of what is not lowered any further.

@@ -159,15 +159,16 @@ TextureSources RecordedTextures::find(const std::string& name, const std::string
   return sources;
 }
 
-std::vector<std::string> RecordedTextures::uniform_channels() const {
+std::vector<std::string> RecordedTextures::uniform_texels() const {
   std::vector<std::string> lines;
   for (const auto& [key, sources] : found_) {
-    if (sources.images.size() != 1) continue;  // Of a tile nobody could say which.
+    // Of tiles a point may see another one, or none: nothing is left out for their sake.
+    if (sources.images.size() != 1 || !sources.directory.empty()) continue;
     const TextureSource& image = sources.images.front();
     std::string known;
     for (std::size_t c = 0; c < image.uniform.size(); ++c) {
       if (!image.uniform[c]) continue;
-      const float value = *image.uniform[c] * texture_layout::step_value(image.format);
+      const float value = *image.uniform[c] / texture_layout::step_of_one(image.format);
       known += fmt::format("{}{} is {}", known.empty() ? "" : ", ", "rgba"[c], value);
     }
     const std::string name = key.substr(0, key.rfind('|'));

@@ -59,7 +59,7 @@ class RecordedTextures final : public TextureProvider {
   const std::map<std::string, FileIdentity>& files() const { return files_; }
   /// Of images that were found: "image NAME: b is 0, a is 1 everywhere" of channels that kernels
   /// do not look up, for they are the same in all texels.
-  std::vector<std::string> uniform_channels() const;
+  std::vector<std::string> uniform_texels() const;
   /// Who asks for what is found from now on: complaints are made there.
   void asked_by(const SourceLocation& where) { where_ = where; }
 

@@ -107,7 +107,7 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   kernels.has_back = sides.back != nullptr;
   kernels.lobes = surface_kernels.lobes;
   kernels.manifest = surface_kernels.manifest;
-  std::ranges::copy(textures_->uniform_channels(), std::back_inserter(kernels.manifest));
+  std::ranges::copy(textures_->uniform_texels(), std::back_inserter(kernels.manifest));
   kernels.not_modelled = surface_kernels.not_modelled;
   const std::size_t errors = diagnostics_.error_count();
   const std::vector<SliceOutput> point = point_results(graph, *values, surface_kernels, where);

@@ -10,15 +10,6 @@ namespace {
 
 using texture_layout::TexelFormat;
 
-/// The largest step of an integer format; 1 where texels are values.
-float one(TexelFormat format) {
-  switch (format) {
-    case TexelFormat::rgba8: return 255.0f;
-    case TexelFormat::rgba16: return 65535.0f;
-    default: return 1.0f;
-  }
-}
-
 /// Bits [first, first + width) of a word, as a number.
 Float field(Int word, int first, int width) {
   const Int shifted = shift_right_logical(word, Int(first));
@@ -66,7 +57,7 @@ Float4 TexelFetch::completed(Float4 steps) const {
     const bool is_alpha = c == 3;
     const std::optional<float> known = uniform[static_cast<std::size_t>(c)];
     if (c >= channels) {
-      step = Float(is_alpha ? one(format) : 0.0f);
+      step = Float(is_alpha ? texture_layout::step_of_one(format) : 0.0f);
     } else if (known) {
       step = Float(*known);
     }
@@ -76,9 +67,10 @@ Float4 TexelFetch::completed(Float4 steps) const {
 }
 
 Float4 TexelFetch::scaled(Float4 steps) const {
-  if (one(format) == 1.0f) return steps;
+  const float one = texture_layout::step_of_one(format);
+  if (one == 1.0f) return steps;
   // Rounded once more where the step is no power of two; 255 of 255 is exactly 1.
-  visit(steps, [&](Float& step) { step = step * Float(texture_layout::step_value(format)); });
+  visit(steps, [&](Float& step) { step = step * Float(1.0f / one); });
   return steps;
 }
 

@@ -146,11 +146,11 @@ constexpr int texel_words_log2(TexelFormat format) {
   return 0;
 }
 
-/// The value of a step of a format: 1 where texels are values.
-constexpr float step_value(TexelFormat format) {
+/// The step of a format that means 1: the largest of an integer format.
+constexpr float step_of_one(TexelFormat format) {
   switch (format) {
-    case TexelFormat::rgba8: return 1.0f / 255.0f;
-    case TexelFormat::rgba16: return 1.0f / 65535.0f;
+    case TexelFormat::rgba8: return 255.0f;
+    case TexelFormat::rgba16: return 65535.0f;
     default: return 1.0f;
   }
 }

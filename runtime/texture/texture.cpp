@@ -23,14 +23,19 @@ AlignedWords placeholder(std::uint32_t flags, int image_width, int image_height)
 }  // namespace
 
 Texture::Texture(AlignedWords words, std::uint64_t replaced_texels)
-    : words_(std::move(words)),
-      uniform_(uniform_channels(words_.span())),
-      replaced_texels_(replaced_texels) {}
+    : words_(std::move(words)), replaced_texels_(replaced_texels) {}
 
 Texture::Texture(std::unique_ptr<TextureSampler> sampler, int width, int height)
     : words_(placeholder(texture_by_call, width, height)), sampler_(std::move(sampler)) {}
 
 Texture::Texture(Diagnostic problem)
     : words_(placeholder(texture_missing, 1, 1)), problem_(std::move(problem)) {}
+
+const UniformChannels& Texture::uniform() const {
+  std::call_once(has_uniform_, [this] {
+    if (resident()) uniform_ = uniform_channels(words());
+  });
+  return uniform_;
+}
 
 }  // namespace nacre

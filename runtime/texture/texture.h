@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 
@@ -40,17 +41,18 @@ class Texture {
   const TextureSampler* sampler() const { return sampler_.get(); }  ///< Null unless by calls.
   /// Why it is missing.
   const std::optional<Diagnostic>& problem() const { return problem_; }
-  /// What all texels have; nothing unless resident.
-  const UniformChannels& uniform() const { return uniform_; }
+  /// What all texels have, found out when first asked for; nothing unless resident.
+  const UniformChannels& uniform() const;
   /// NaN and infinite samples of level 0 that became 0.
   std::uint64_t replaced_texels() const { return replaced_texels_; }
 
  private:
   AlignedWords words_;
-  UniformChannels uniform_;
   std::unique_ptr<TextureSampler> sampler_;
   std::optional<Diagnostic> problem_;
   std::uint64_t replaced_texels_ = 0;
+  mutable std::once_flag has_uniform_;
+  mutable UniformChannels uniform_;
 };
 
 using TextureHandle = std::shared_ptr<const Texture>;  ///< Keeps the texture in memory.

@@ -108,8 +108,7 @@ TEST_F(UniformImages, LeaveLobesOut) {
   const auto none = compile("none.tga"), some = compile("some.tga");
   EXPECT_TRUE(has_lobe(*some, "conductor_bsdf"));
   EXPECT_FALSE(has_lobe(*none, "conductor_bsdf"));
-  EXPECT_TRUE(says(*none, "conductor_bsdf at M/s/metal_bsdf: weight 0") ||
-              says(*none, "conductor_bsdf at s/metal_bsdf: weight 0"));
+  EXPECT_TRUE(says(*none, "conductor_bsdf at s/metal_bsdf: weight 0"));
   EXPECT_TRUE(says(*none, "none.tga: r is 1, b is 0 everywhere"));
   EXPECT_TRUE(says(*some, "some.tga: r is 1 everywhere"));
 }
@@ -124,7 +123,7 @@ TEST_F(UniformImages, ChangeNoNumber) {
     EXPECT_TRUE(has_lobe(*unknown, "conductor_bsdf"));
     const std::vector<float> expected = albedos(*unknown), found = albedos(*known);
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      EXPECT_NEAR(found[i], expected[i], 1e-7f + 2e-7f * expected[i]) << i;
+      EXPECT_EQ(found[i], expected[i]) << i;
     }
   }
 }
