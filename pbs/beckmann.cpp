@@ -79,24 +79,43 @@ Float sample_slope(Recorder& recorder, Float cosine, Float sine, Float u) {
 
 }  // namespace
 
+namespace {
+
+/// `slope2`: the square of the slope, over roughness, times z^2.
+Float distribution(Float slope2, Float z, Float length2, Float area) {
+  const Float z2 = max(square(z), 1e-12f * length2);
+  const Float inverse = 1.0f / max(z2, 1e-30f);
+  return exp(-(slope2 * inverse)) * square(length2 * inverse) * one_over_pi / area;
+}
+
+/// `across`: what is seen of the roughness, which is more at grazing.
+Float root(Float z, Float across) {
+  const Float a = min(z / max(across, 1e-30f), 8.0f);
+  const Float gauss = exp(-square(a));
+  return fma(z, erf_of_positive(a, gauss), across * gauss * one_over_root_pi);
+}
+
+}  // namespace
+
 Float beckmann_distribution(Float3 h, Float2 alpha) {
-  const Float length2 = dot(h, h);
-  const Float z2 = max(square(h.z), 1e-12f * length2);
   const Float x = h.x / alpha.x;
   const Float y = h.y / alpha.y;
-  const Float exponent = fma(x, x, square(y)) / max(z2, 1e-30f);
-  const Float flat = length2 / max(z2, 1e-30f);
-  return exp(-exponent) * square(flat) * one_over_pi / (alpha.x * alpha.y);
+  return distribution(fma(x, x, square(y)), h.z, dot(h, h), alpha.x * alpha.y);
+}
+
+Float beckmann_distribution(Float across2, Float z, Float length2, Float alpha) {
+  const Float area = square(alpha);
+  return distribution(across2 / area, z, length2, area);
 }
 
 Float beckmann_root(Float3 w, Float2 alpha) {
   const Float x = alpha.x * w.x;
   const Float y = alpha.y * w.y;
-  const Float z = abs(w.z);
-  const Float across = sqrt(fma(x, x, square(y)));
-  const Float a = min(z / max(across, 1e-30f), 8.0f);
-  const Float gauss = exp(-square(a));
-  return fma(z, erf_of_positive(a, gauss), across * gauss * one_over_root_pi);
+  return root(abs(w.z), sqrt(fma(x, x, square(y))));
+}
+
+Float beckmann_root(Float z, Float alpha) {
+  return root(abs(z), alpha * safe_sqrt((1.0f - z) * (1.0f + z)));
 }
 
 Float3 sample_visible_beckmann(Recorder& recorder, Float3 wo, Float2 alpha, Float u, Float v) {

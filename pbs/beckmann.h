@@ -12,9 +12,12 @@ namespace nacre {
 
 /// Normals per area and solid angle; h of any length, above the surface or below.
 Float beckmann_distribution(Float3 h, Float2 alpha);
+/// As ggx_distribution() of equal roughness.
+Float beckmann_distribution(Float across2, Float z, Float length2, Float alpha);
 
 /// z (1 + 2 Lambda), as ggx_root: everything that is made of that holds for it.
 Float beckmann_root(Float3 w, Float2 alpha);
+Float beckmann_root(Float z, Float alpha);
 
 /// A facet normal of density D G1 (wo.h) / wo.z, seen from wo above the surface. Heitz and d'Eon,
 /// "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals", EGSR

@@ -23,8 +23,10 @@ Color3 LobeBsdf::part_weight(std::size_t, Color3, const Throughput&) const { ret
 Color3 LobeBsdf::throughput(const View& view, Color3, Color3) const {
   if (lobe_->is_opaque()) return Color3(0.0f);
   if (weight().is_constant(0.0f)) return Color3(1.0f);
-  const Color3 lost = Color3(1.0f) - lobe_->throughput(view);
-  return saturate(Color3(1.0f) - product(Color3(weight()), lost));
+  const Color3 of_lobe = lobe_->throughput(view);
+  if (weight().is_constant(1.0f)) return of_lobe;
+  // 1 - w (1 - throughput), which is the throughput itself to the bit where w is 1.
+  return saturate(fma(Color3(weight()), of_lobe, Color3(1.0f - weight())));
 }
 
 BsdfPtr LobeBsdf::with_lobe(LobePtr lobe) const {

@@ -10,13 +10,15 @@ Float3 CosineLobe::axis(const View& view) const {
 }
 
 LobeSample CosineLobe::sample(const View& view, Float3 u) const {
-  const Float3 wi = make_frame(axis(view)).to_world(sample_cosine(u.x, u.y));
+  Frame frame = facing_frame(normal_, view.wo);
+  if (hemisphere_ == Hemisphere::other) frame.z = -frame.z;
+  const Float3 wi = frame.to_world(sample_cosine(u.x, u.y));
   return {.wi = wi, .valid = is_unit(wi)};
 }
 
-LobeValue LambertLobe::evaluate(const View& view, Float3 wi) const {
-  const Float pdf = saturate(dot(axis(view), wi)) * one_over_pi;
-  return {.f = color_ * Float3(pdf), .pdf = pdf};
+LobeValue CosineLobe::evaluate(const View& view, Float3 wi) const {
+  const Float pdf = saturate(dot(wi, axis(view))) * one_over_pi;
+  return {.f = share(view, wi) * Color3(pdf), .pdf = pdf};
 }
 
 }  // namespace nacre

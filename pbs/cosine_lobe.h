@@ -21,11 +21,14 @@ class CosineLobe : public Lobe {
   }
   bool is_opaque() const final { return true; }
   Color3 throughput(const View&) const final { return Color3(0.0f); }
+  LobeValue evaluate(const View& view, Float3 wi) const final;
   LobeSample sample(const View& view, Float3 u) const final;
   Float3 normal(const View&) const final { return normal_; }
   Float roughness(const View&) const final { return 1.0f; }
 
  protected:
+  /// What of the light along wi is scattered towards wo: f over that density.
+  virtual Color3 share(const View& view, Float3 wi) const = 0;
   /// The normal on the side that the light comes from.
   Float3 axis(const View& view) const;
 
@@ -41,10 +44,11 @@ class LambertLobe final : public CosineLobe {
   /// `color` is prepared: prepare_tint.
   LambertLobe(std::string_view name, Hemisphere hemisphere, Float3 normal, Color3 color)
       : CosineLobe(name, hemisphere, normal), color_(color) {}
-  LobeValue evaluate(const View& view, Float3 wi) const override;
   Color3 albedo(const View&) const override { return saturate(color_); }
 
  private:
+  Color3 share(const View&, Float3) const override { return color_; }
+
   Color3 color_;
 };
 

@@ -18,6 +18,24 @@ struct LocalView {
   Bool below;   ///< The viewer is behind the normal: inside what it encloses.
 };
 
+/// A direction of any length as facets are asked about it: in the frame of the surface. Where
+/// roughness is equal all around `v` stays in world space, for of the frame nothing matters but z.
+struct FacetDirection {
+  Float3 v;
+  Float z;  ///< Along the normal.
+
+  FacetDirection(Float3 v_, Float z_) : v(v_), z(z_) {}
+  /// NOLINTNEXTLINE(google-explicit-constructor): one in the frame of the surface is one.
+  FacetDirection(Float3 local) : v(local), z(local.z) {}
+};
+
+/// Half way between two, or as far as they are bent.
+struct HalfVector {
+  FacetDirection h;
+  Float length2;
+  Float across2;  ///< The square of what it has along the surface; where isotropic.
+};
+
 /// Where the facets of a surface lie and how rough they are; prepared and kept.
 struct Facets {
   FacetDistribution distribution = FacetDistribution::ggx;
@@ -36,14 +54,23 @@ struct Facets {
     return facet_view(local.wo, distribution, alpha, isotropic);
   }
 
-  // pbs/microfacet.h or pbs/beckmann.h, in the frame of the surface.
-  /// Normals per area and solid angle.
-  Float density(Float3 h) const;
-  /// z (1 + 2 Lambda).
-  Float root(Float3 w) const;
+  // Of that view: the direction to it, another of world space, and what is between.
+  FacetDirection viewer(const View& view, const LocalView& local) const;
+  FacetDirection direction(const LocalView& local, Float3 world) const;
+  HalfVector between(const LocalView& local, const FacetDirection& wo, const FacetDirection& wi,
+                     Float ratio = 1.0f) const;
+  /// On the other side of the surface, and turned half round its normal.
+  FacetDirection mirrored(const LocalView& local, const FacetDirection& w) const;
+  FacetDirection turned(const LocalView& local, const FacetDirection& w) const;
+
+  // pbs/microfacet.h or pbs/beckmann.h.
+  /// `scale` times the normals per area and solid angle.
+  Float density(const HalfVector& h, float scale) const;
+  /// z (1 + 2 Lambda) of a unit vector.
+  Float root(const FacetDirection& w) const;
   /// What keeps sampled normals from reflecting below the surface; 1: nothing does.
-  Float bound(Float3 wo) const;
-  /// Of density D G1 (wo.h) / wo.z.
+  Float bound(const FacetDirection& wo) const;
+  /// Of density D G1 (wo.h) / wo.z; in the frame of the surface.
   Float3 sample_visible(Recorder& recorder, Float3 wo, Float u, Float v) const;
   /// Less most of those that would reflect below the surface: by `bound`. Of any length.
   Float3 sample_reflecting(Recorder& recorder, Float3 wo, Float u, Float v) const;
@@ -97,6 +124,9 @@ class FacetFresnel {
   virtual bool is_dielectric() const { return false; }
   /// Whether it is that, or that under a film.
   virtual bool covers_dielectric() const { return is_dielectric(); }
+  /// How much of c (1 - c)^6 it has less than a curve that rises to grazing: what two cosines stand
+  /// for is none of that.
+  virtual Color3 dip() const { return Color3(0.0f); }
   /// What it goes up and down with the cosine for, if there may be one.
   virtual const ThinFilm* film() const { return nullptr; }
   /// ThinFilm::share() of it.
@@ -114,7 +144,9 @@ ThinFilm prepare_film(NodeCall& call);
 /// The mean of the channels; nothing to record where they are one value.
 Float grey(Color3 colour);
 
-/// min(max(x, 0), 1e20): finite for any bits, also times a tint and a weight.
+/// What lobes give at most: finite also times a tint and a weight.
+inline constexpr float largest_value = 1e20f;
+/// min(max(x, 0), largest_value): finite for any bits.
 Float finite(Float x);
 /// Whether w is a unit vector; false for NaN.
 Bool is_unit(Float3 w);

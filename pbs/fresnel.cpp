@@ -41,7 +41,17 @@ Polarised fresnel_dielectric_polarised(Float cosine, Float eta) {
 }
 
 Float fresnel_dielectric(Float cosine, Float eta) {
-  return fresnel_dielectric_polarised(cosine, eta).mean();
+  // The mean of the above over one denominator: s = d / t^2 and p = s x / e, where t (c t - 1) is
+  // x.
+  const Float d = excess(eta);
+  const Float g = safe_sqrt(fma(cosine, cosine, d));
+  const Float t = cosine + g;
+  const Float x = t * fma(cosine, t, -1.0f);
+  const Float e = fma(square(eta), cosine, g);
+  const Float above = 0.5f * square(d) * fma(x, x, square(e));
+  const Float below = square(square(t) * e);
+  const Bool total = totally_reflected(cosine, eta) & (d != 0.0f);
+  return select(total, 1.0f, min(above / max(below, 1e-37f), 1.0f));
 }
 
 Polarised fresnel_conductor_polarised(Float cosine, Float n, Float k) {

@@ -113,9 +113,8 @@ class SurfaceRecorder {
       if (request_.lobe_mask) term.weight = masked(*each.lobe, term.weight);
       // What there is no choice of need not be weighed.
       const Color3 part = is_alone ? each.lobe->presence(view) : each.lobe->albedo(view);
-      term.probability = max_component(term.weight * part);
-      // A weight of NaN must not silence the other lobes.
-      term.probability = select(term.probability > 0.0f, term.probability, 0.0f);
+      // A weight of NaN, which max() makes 0, must not silence the other lobes.
+      term.probability = max(max_component(term.weight * part), 0.0f);
       total = total + term.probability;
       terms.push_back(std::move(term));
     }
@@ -239,17 +238,21 @@ class SurfaceRecorder {
     for (std::size_t i = 0; i < scattering_.size(); ++i) {
       const Term& term = scattering_[i];
       const ScopedOrigin of_lobe(recorder_, term.origin);
-      const Float above = i + 1 == scattering_.size() ? Float(2.0f) : below + term.probability;
-      const Bool mine = (u.z >= below) & (u.z < above) & (term.probability > 0.0f);
+      const bool is_first = i == 0, is_last = i + 1 == scattering_.size();
+      const Float above = below + term.probability;
+      // Between its bounds there is a number only where it is probable; the last one's upper bound
+      // is 1 but for rounding.
+      Bool mine = is_last ? term.probability > 0.0f : u.z < above;
+      if (!is_first || !is_last) mine = (u.z >= below) & mine;
       // The number that chose the lobe is uniform again within its interval.
-      const Float again = scattering_.size() == 1
+      const Float again = is_first && is_last
                               ? u.z
                               : min(max((u.z - below) / term.probability, 0.0f), 0x1.fffffep-1f);
       choices.push_back({mine, again});
       lobe = select(mine, Int(static_cast<int>(i)), lobe);
       weight = select(mine, term.weight, weight);
       probability = select(mine, term.probability, probability);
-      below = below + term.probability;
+      below = above;
     }
     finish_sample(sample_chosen(u, choices), lobe, weight, probability);
   }
@@ -362,7 +365,8 @@ class SurfaceRecorder {
     for (const Term& term : terms_) {
       if (!may_go_on()) break;
       const ScopedOrigin origin(recorder_, term.origin);
-      total = fma(term.weight, term.lobe->albedo(view_), total);
+      // Of all that they send back, though that may be more than arrives, the sum is what counts.
+      total = fma(term.weight, term.lobe->light(view_), total);
     }
     return saturate(total);
   }

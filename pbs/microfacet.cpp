@@ -18,8 +18,9 @@ Float3 sample_cap(Float3 wi, Float bottom, Float u, Float v) {
 }
 
 /// Of any length.
-Float3 normal_of_cap(Float3 wo, Float2 alpha, Float bound, Float u, Float v) {
-  const Float3 stretched = normalize({wo.x * alpha.x, wo.y * alpha.y, wo.z});
+Float3 normal_of_cap(Float3 wo, Float2 alpha, Float root, Float bound, Float u, Float v) {
+  const Float inverse = 1.0f / max(root, 1e-30f);
+  const Float3 stretched = Float3{wo.x * alpha.x, wo.y * alpha.y, wo.z} * Float3(inverse);
   const Float3 h = sample_cap(stretched, min(bound * stretched.z, 1.0f), u, v);
   return {h.x * alpha.x, h.y * alpha.y, max(h.z, 0.0f)};
 }
@@ -35,10 +36,21 @@ Float ggx_distribution(Float3 h, Float2 alpha) {
   return area * square(ratio) * one_over_pi;
 }
 
+Float ggx_distribution(Float across2, Float z, Float length2, Float alpha, float scale) {
+  // The above divided by alpha^2 above and below.
+  const Float a2 = square(alpha);
+  const Float ratio = length2 / max(fma(a2, square(z), across2), 1e-30f);
+  return square(ratio) * (a2 * (scale * one_over_pi));
+}
+
 Float ggx_root(Float3 w, Float2 alpha) {
   const Float x = alpha.x * w.x;
   const Float y = alpha.y * w.y;
   return sqrt(fma(x, x, fma(y, y, square(w.z))));
+}
+
+Float ggx_root(Float z, Float alpha) {
+  return sqrt(fma((1.0f - alpha) * (1.0f + alpha), square(z), square(alpha)));
 }
 
 Float ggx_masking(Float3 w, Float2 alpha) { return 2.0f * w.z / (w.z + ggx_root(w, alpha)); }
@@ -47,18 +59,32 @@ Float smith_shadowing(Float cos_o, Float root_o, Float cos_i, Float root_i) {
   return cos_i * (cos_o + root_o) / max(fma(cos_i, root_o, cos_o * root_i), 1e-30f);
 }
 
-Float3 sample_visible_normal(Float3 wo, Float2 alpha, Float u, Float v) {
-  return normalize(normal_of_cap(wo, alpha, 1.0f, u, v));
+Float3 sample_visible_normal(Float3 wo, Float2 alpha, Float root, Float u, Float v) {
+  return normalize(normal_of_cap(wo, alpha, root, 1.0f, u, v));
 }
+
+namespace {
+
+Float reflection_bound(Float z, Float across, Float least) {
+  const Float a2 = square(least);
+  const Float s2 = square(1.0f + across);
+  return (1.0f - a2) * s2 / fma(a2, square(z), s2);
+}
+
+}  // namespace
 
 Float reflection_bound(Float3 wo, Float2 alpha) {
-  const Float a2 = square(min(alpha.x, alpha.y));
-  const Float s2 = square(1.0f + sqrt(fma(wo.x, wo.x, square(wo.y))));
-  return (1.0f - a2) * s2 / fma(a2, square(wo.z), s2);
+  const Float across = sqrt(fma(wo.x, wo.x, square(wo.y)));
+  return reflection_bound(wo.z, across, min(alpha.x, alpha.y));
 }
 
-Float3 sample_reflecting_normal(Float3 wo, Float2 alpha, Float bound, Float u, Float v) {
-  return normal_of_cap(wo, alpha, bound, u, v);
+Float reflection_bound(Float z, Float alpha) {
+  return reflection_bound(z, safe_sqrt((1.0f - z) * (1.0f + z)), alpha);
+}
+
+Float3 sample_reflecting_normal(Float3 wo, Float2 alpha, Float root, Float bound, Float u,
+                                Float v) {
+  return normal_of_cap(wo, alpha, root, bound, u, v);
 }
 
 Float3 reflect_about(Float3 w, Float3 h) {

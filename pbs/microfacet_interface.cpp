@@ -33,6 +33,11 @@ Bool MicrofacetInterface::separate(const View& view) const {
   return view.thin_walled | straight_ | facets_.delta;
 }
 
+Bool MicrofacetInterface::is_absent() const {
+  if (!fresnel_->covers_dielectric()) return false;
+  return straight_ & !(fresnel_->film_share() > 0.0f);
+}
+
 /// One over what the facets return in all. The tables know dielectrics; another
 /// Fresnel factor moves light between what reflection and transmission return.
 Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection& perfect,
@@ -69,10 +74,18 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
   const Float film = fresnel_->film_share();
   const Bool is_other = fresnel_->covers_dielectric() ? film > 0.0f : Bool(true);
   return if_any(is_other, bare, [&] {
-    Color3 more = product(fresnel - Color3(both.fresnel), Color3(light.reflected - light.passed));
-    // What a film does to the mean is not what it does to the facets that let light pass.
+    const Color3 apart = fresnel - Color3(both.fresnel);
+    Color3 more = product(apart, Color3(light.reflected - light.passed));
+    // What a film does to the mean is not what it does to the facets that let light pass; nor is
+    // what another curve does, where that is much.
     const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
-    const Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(10.0f, alpha, -1.0f));
+    Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(10.0f, alpha, -1.0f));
+    if (!fresnel_->covers_dielectric()) {
+      const Float most = max(max_component(apart), max_component(-apart));
+      // Bright curves have the mean of a dielectric's and another shape.
+      const Float bright = saturate(fma(2.0f, dense, -3.6f));
+      rough = max(rough, max(bright, saturate(fma(50.0f, most, -0.5f))));
+    }
     const Float by_sum = facets_.isotropic ? rough : max(facet_stretch(facets_.alpha), rough);
     more = if_any(by_sum > 0.0f, more, [&] {
       const Color3 sum =
@@ -92,7 +105,7 @@ MicrofacetInterface::Terms MicrofacetInterface::compute(const View& from) const 
   const Color3 fresnel = reflection_.mean_fresnel(view, perfect);
   const MicrofacetReflection::Terms reflection = reflection_.compute(view, perfect, fresnel);
   Color3 reflected = reflection.reflected;
-  if (is_absent_where_straight()) reflected = select(straight_, Color3(0.0f), reflected);
+  reflected = select(is_absent(), Color3(0.0f), reflected);
   const Color3 passing = Color3(1.0f) - reflected;
   const Float back = grey(reflected);
   const Float forth = grey(passing);
@@ -141,7 +154,7 @@ LobeValue MicrofacetInterface::evaluate_separate(const View& view, const Terms& 
                                                  Float3 wi) const {
   LobeValue back = reflection_.evaluate(view, wi);
   const LobeValue forth = transmission_.evaluate(view, wi);
-  if (is_absent_where_straight()) back.f = select(straight_, Color3(0.0f), back.f);
+  back.f = select(is_absent(), Color3(0.0f), back.f);
   const Float probability = reflection_probability(view, terms.probability);
   const Float pdf = fma(probability, back.pdf, (1.0f - probability) * forth.pdf);
   // A part too dark to be sampled is dark.
@@ -151,9 +164,13 @@ LobeValue MicrofacetInterface::evaluate_separate(const View& view, const Terms& 
 LobeValue MicrofacetInterface::evaluate_joint(const View& view, const Terms& terms,
                                               Float3 wi_world) const {
   const LocalView local = facets_.look(view);
-  const Float3 wi = turned(local.frame.to_local(wi_world));
+  FacetDirection wi = facets_.direction(local, wi_world);
+  if (!options_.retroreflective.is_constant(false)) {
+    const Bool back = options_.retroreflective & (wi.z > 0.0f);
+    wi.v = select(back, facets_.turned(local, wi).v, wi.v);
+  }
   const Float eta = relative_index(fresnel_->index(), local.below);
-  const FacetEvent event = facet_between(local.wo, wi, eta, facets_);
+  const FacetEvent event = facet_between(local, facets_.viewer(view, local), wi, eta, facets_);
   const Bool reflects = wi.z > 0.0f;
   const Color3 fresnel = fresnel_->at(event.cosine, local.below);
   const Color3 share = select(reflects, fresnel, Color3(1.0f) - fresnel);

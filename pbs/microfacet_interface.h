@@ -56,7 +56,7 @@ class MicrofacetInterface final : public Lobe {
   Bool separate(const View& view) const;
   /// Glass that does not bend light does not reflect it: at grazing, where it could, not even its
   /// facets' mean is known.
-  bool is_absent_where_straight() const { return fresnel_->is_dielectric(); }
+  Bool is_absent() const;
   LobeValue evaluate_separate(const View& view, const Terms& terms, Float3 wi) const;
   LobeValue evaluate_joint(const View& view, const Terms& terms, Float3 wi) const;
   LobeSample sample_separate(const View& view, const Terms& terms, Float3 u) const;

@@ -71,28 +71,22 @@ void MicrofacetReflection::adopt(const View& view, Bool mask, const Terms& terms
   terms_.prepare(view, mask, [&] { return terms; });
 }
 
-namespace {
-
-/// A lobe that is turned half round the normal sends light back.
-Float3 turned(Float3 wi, Bool back) {
-  return {select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};
-}
-
-}  // namespace
-
-/// Directions in the frame of the facets, which lobes of one normal have in common.
+/// Directions as the facets see them, which lobes of one normal have in common.
 struct MicrofacetReflection::Pair {
-  Float3 wi, h;  ///< h of any length.
-  Float length2;
+  FacetDirection wi;
+  HalfVector half;
   Float cosine;  ///< Of either to the facet between them, in [0, 1].
 };
 
-MicrofacetReflection::Pair MicrofacetReflection::pair(const LocalView& local,
+MicrofacetReflection::Pair MicrofacetReflection::pair(const View& view, const LocalView& local,
                                                       Float3 wi_world) const {
-  const Float3 wi = turned(local.frame.to_local(wi_world), options_.retroreflective);
-  const Float3 h = local.wo + wi;
-  const Float length2 = dot(h, h);
-  return {wi, h, length2, saturate(0.5f * sqrt(length2))};
+  FacetDirection wi = facets_.direction(local, wi_world);
+  // A lobe that is turned half round the normal sends light back.
+  if (!options_.retroreflective.is_constant(false)) {
+    wi.v = select(options_.retroreflective, facets_.turned(local, wi).v, wi.v);
+  }
+  const HalfVector half = facets_.between(local, facets_.viewer(view, local), wi);
+  return {wi, half, min(0.5f * sqrt(half.length2), 1.0f)};
 }
 
 void MicrofacetReflection::share_view(const View& view) const {
@@ -102,16 +96,16 @@ void MicrofacetReflection::share_view(const View& view) const {
 }
 
 void MicrofacetReflection::share_direction(const View& view, Float3 wi) const {
-  (void)pair(facets_.look(view), wi);
+  (void)pair(view, facets_.look(view), wi);
 }
 
 LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) const {
   const Terms terms = this->terms(view);
   const LocalView local = facets_.look(view);
   const Float3 wo = local.wo;
-  const auto [wi, h, length2, cosine] = pair(local, wi_world);
+  const auto [wi, half, cosine] = pair(view, local, wi_world);
   const Float root = facets_.root(wo);
-  const Float half_d = 0.5f * facets_.density(h);
+  const Float half_d = facets_.density(half, 0.5f);
   // Density and f over their common denominator, for divisions are what this takes its time with.
   const Float seen_from = max(fma(facets_.bound(wo), wo.z, root), 1e-12f);
   const Float both = max(fma(wi.z, root, wo.z * facets_.root(wi)), 1e-24f);
@@ -119,12 +113,13 @@ LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) cons
   const Float pdf = over * both;
   // Below 1e-8 the half-way vector of two grazing directions is rounding.
   const Bool seen =
-      (wo.z > 0.0f) & (wi.z > 0.0f) & (length2 > 1e-8f) & (pdf > 0.0f) & !facets_.delta;
+      (min(wo.z, wi.z) > 0.0f) & (half.length2 > 1e-8f) & (pdf > 0.0f) & !facets_.delta;
   const Float f = over * seen_from * wi.z;
   const Bool inside = local.below & !view.thin_walled;
   const Color3 colour = options_.tint * fresnel_->at(cosine, inside) * terms.factor;
-  return {.f = colour * Color3(select(seen, finite(f), 0.0f)),
-          .pdf = select(seen, finite(pdf), 0.0f)};
+  // Of a density above 0 neither is NaN.
+  return {.f = colour * Color3(select(seen, min(f, largest_value), 0.0f)),
+          .pdf = select(seen, min(pdf, largest_value), 0.0f)};
 }
 
 namespace {
@@ -143,7 +138,8 @@ LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u, B
   const Float3 h = facets.sample_reflecting(*view.recorder, wo, u.x, u.y);
   const Float3 mirrored{-wo.x, -wo.y, wo.z};
   const Float3 wi = select(facets.delta, mirrored, reflect_about(wo, h));
-  LobeSample sample = sample_along(local, turned(wi, back));
+  const Float3 sent{select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};
+  LobeSample sample = sample_along(local, sent);
   sample.delta = facets.delta;
   if (!facets.delta.is_constant(false)) sample.delta_probability = 1.0f;
   return sample;

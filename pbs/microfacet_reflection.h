@@ -72,7 +72,7 @@ class MicrofacetReflection final : public Lobe {
   std::optional<Terms> tabulated(const View& view) const;
   Terms terms(const View& view) const;
   struct Pair;
-  Pair pair(const LocalView& local, Float3 wi_world) const;
+  Pair pair(const View& view, const LocalView& local, Float3 wi_world) const;
 
   Facets facets_;
   FacetFresnelPtr fresnel_;

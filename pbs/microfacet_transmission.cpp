@@ -20,18 +20,19 @@ Facets scaled(const Facets& facets, Float scale) {
 
 }  // namespace
 
-FacetEvent facet_between(Float3 wo, Float3 wi, Float eta, const Facets& facets) {
+FacetEvent facet_between(const LocalView& local, const FacetDirection& wo, const FacetDirection& wi,
+                         Float eta, const Facets& facets) {
   const Bool reflects = wi.z > 0.0f;
   const Float ratio = select(reflects, 1.0f, eta);
-  const Float3 between = wo + wi * Float3(ratio);
-  const Float length2 = dot(between, between);
+  const HalfVector between = facets.between(local, wo, wi, ratio);
+  const Float length2 = between.length2;
   // 1 / length, with the sign that turns the facet to above.
-  const Float scale = copysign(1.0f / sqrt(max(length2, 1e-8f)), between.z);
-  const Float cos_o = dot(wo, between) * scale;
-  const Float cos_i = dot(wi, between) * scale;
+  const Float scale = copysign(1.0f / sqrt(max(length2, 1e-8f)), between.h.z);
+  const Float cos_o = dot(wo.v, between.h.v) * scale;
+  const Float cos_i = dot(wi.v, between.h.v) * scale;
   const Float root_o = facets.root(wo);
   const Float jacobian = square(ratio) * abs(cos_i) * square(scale);
-  const Float seen = 2.0f * facets.density(between) * max(cos_o, 0.0f);
+  const Float seen = facets.density(between, 2.0f) * max(cos_o, 0.0f);
   const Bool other_side = reflects ^ (cos_i < 0.0f);
   // Shadowing is smith_shadowing() over the same denominator as the density.
   const Float above_o = max(wo.z + root_o, 1e-12f);
@@ -128,13 +129,16 @@ Bool MicrofacetTransmission::delta(const View&) const { return facets_.delta | s
 LobeValue MicrofacetTransmission::evaluate(const View& view, Float3 wi_world) const {
   const Terms terms = terms_.get(view, [&] { return compute(view); });
   const LocalView local = facets_.look(view);
-  const Float3 wi = local.frame.to_local(wi_world);
+  const FacetDirection wo = facets_.viewer(view, local);
+  const FacetDirection wi = facets_.direction(local, wi_world);
   const Bool crosses = wi.z < 0.0f;
   const Float eta = relative_index(index_, local.below);
   const FacetEvent event = choose(
       view.thin_walled,
-      [&] { return facet_between(local.wo, {wi.x, wi.y, -wi.z}, 1.0f, thin_facets_); },
-      [&] { return facet_between(local.wo, wi, eta, facets_); });
+      [&] {
+        return facet_between(local, wo, thin_facets_.mirrored(local, wi), 1.0f, thin_facets_);
+      },
+      [&] { return facet_between(local, wo, wi, eta, facets_); });
   const Bool turns = (!view.thin_walled) & totally_reflected(event.cosine, eta);
   const Float share = select(crosses, 1.0f, select(turns, terms.turned, 0.0f));
   const Bool seen = event.possible & !delta(view);

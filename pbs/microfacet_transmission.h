@@ -18,10 +18,11 @@ void visit(FacetEvent& event, F&& f) {
   f(event.possible), f(event.cosine), f(event.pdf), f(event.shadowing);
 }
 
-/// The facet between wo, above, and wi: it reflects where wi is above, else it
-/// refracts by `eta`, the index beyond over before. Walter et al. 2007, eq. 13-17;
-/// the Jacobian's denominator is the squared length of the half-way vector.
-FacetEvent facet_between(Float3 wo, Float3 wi, Float eta, const Facets& facets);
+/// The facet between wo, above, and wi, as `facets` see both: it reflects where wi is above, else
+/// it refracts by `eta`, the index beyond over before. Walter et al. 2007, eq. 13-17; the
+/// Jacobian's denominator is the squared length of the half-way vector.
+FacetEvent facet_between(const LocalView& local, const FacetDirection& wo, const FacetDirection& wi,
+                         Float eta, const Facets& facets);
 
 /// wo refracted at a facet; below the surface if it can be. `possible` is false
 /// under total reflection and where the facet refracts to above.

@@ -24,9 +24,17 @@ Frame make_frame(Float3 n, Float3 tangent) {
 }
 
 Float3 facing(Float3 n, Float3 wo) {
-  const Bool away = dot(n, wo) < 0.0f;
+  const Bool away = dot(wo, n) < 0.0f;  // As Frame::to_local() has it: one value.
   return select(away, -n, n);
 }
+
+Frame facing_frame(Float3 n, Float3 wo) {
+  Frame frame = make_frame(n);
+  frame.z = facing(n, wo);
+  return frame;
+}
+
+Float facing_cosine(Float3 n, Float3 wo) { return min(abs(dot(wo, n)), 1.0f); }
 
 Color3 product(Color3 x, Color3 y) {
   const auto one = [](Float a, Float b) {

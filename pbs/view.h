@@ -96,6 +96,10 @@ Frame make_frame(Float3 normal, Float3 tangent);
 
 /// The normal on the viewer's side: n or -n.
 Float3 facing(Float3 n, Float3 wo);
+/// make_frame(n), but for z, which is on the viewer's side: what lobes of one normal share.
+Frame facing_frame(Float3 n, Float3 wo);
+/// Its cosine to the view, in [0, 1].
+Float facing_cosine(Float3 n, Float3 wo);
 
 /// x y, but nothing where either is a literal zero: a weight that is off leaves out what
 /// it weighs, and what is black stays so behind anything, infinities included.

@@ -139,8 +139,8 @@ class TextLobe final : public Lobe {
   }
 
   Frame frame_of(const View& view) const {
-    const Float3 z = facing(frames_.normal, view.wo);
-    return frames_.tangent ? make_frame(z, *frames_.tangent) : make_frame(z);
+    if (!frames_.tangent) return facing_frame(frames_.normal, view.wo);
+    return make_frame(facing(frames_.normal, view.wo), *frames_.tangent);
   }
   static Float3 seen_from(const Frame& frame, const View& view) {
     Float3 wo = frame.to_local(view.wo);

@@ -18,23 +18,10 @@ class BurleyDiffuse final : public CosineLobe {
         color_(color),
         roughness_(roughness) {}
 
-  LobeValue evaluate(const View& view, Float3 wi) const override {
-    const Float3 n = axis(view);
-    const Float cos_o = saturate(dot(n, view.wo));
-    const Float cos_i = saturate(dot(n, wi));
-    // Squared cosine of half the angle between the two; needs no half-way vector.
-    const Float half2 = saturate(fma(dot(view.wo, wi), 0.5f, 0.5f));
-    const Float rise = fma(2.0f * roughness_, half2, -0.5f);
-    const Float in = fma(rise, fifth_power(1.0f - cos_i), 1.0f);
-    const Float out = fma(rise, fifth_power(1.0f - cos_o), 1.0f);
-    const Float pdf = cos_i * one_over_pi;
-    return {.f = color_ * Float3(in * out * pdf), .pdf = pdf};
-  }
-
-  /// Exact: evaluate() is a polynomial in cos_i once the azimuth is averaged, with
+  /// Exact: f is a polynomial in cos_i once the azimuth is averaged, with
   /// moments 2 B(k + 2, 6) of the cosines.
   Color3 light(const View& view) const override {
-    const Float c = saturate(dot(axis(view), view.wo));
+    const Float c = facing_cosine(normal(view), view.wo);
     const Float r = roughness_;
     const Float a = r - 0.5f;
     const Float rc = r * c;
@@ -50,6 +37,17 @@ class BurleyDiffuse final : public CosineLobe {
   Color3 presence(const View&) const override { return color_; }
 
  private:
+  Color3 share(const View& view, Float3 wi) const override {
+    const Float cos_o = facing_cosine(normal(view), view.wo);
+    const Float cos_i = saturate(dot(wi, axis(view)));
+    // Squared cosine of half the angle between the two; needs no half-way vector.
+    const Float half2 = saturate(fma(dot(view.wo, wi), 0.5f, 0.5f));
+    const Float rise = fma(2.0f * roughness_, half2, -0.5f);
+    const Float in = fma(rise, fifth_power(1.0f - cos_i), 1.0f);
+    const Float out = fma(rise, fifth_power(1.0f - cos_o), 1.0f);
+    return color_ * Color3(in * out);
+  }
+
   Color3 color_;
   Float roughness_;
 };

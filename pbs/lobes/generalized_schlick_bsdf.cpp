@@ -40,6 +40,7 @@ class SchlickFresnel final : public FacetFresnel {
   Color3 presence() const override {
     return two_sided_ ? film_.presence(max(curve_.color0, curve_.color90)) : Color3(1.0f);
   }
+  Color3 dip() const override { return curve_.dip * Color3(1.0f - film_share()); }
   Float index() const override { return index_; }
   bool has_inside() const override { return !two_sided_; }
   const ThinFilm* film() const override { return &film_; }

@@ -76,20 +76,8 @@ class OrenNayar final : public CosineLobe {
               .several = keep(recorder, model.several)};
   }
 
-  LobeValue evaluate(const View& view, Float3 wi) const override {
-    const Float3 n = axis(view);
-    const Float cos_o = saturate(dot(n, view.wo));
-    const Float cos_i = saturate(dot(n, wi));
-    const Float s = clamp(fma(-cos_i, cos_o, dot(view.wo, wi)), -1.0f, 1.0f);
-    const Float ratio = select(s > 0.0f, s / max(max(cos_i, cos_o), 1e-8f), model_.below * s);
-    const Float pdf = cos_i * one_over_pi;
-    Color3 f = color_ * Color3(fma(model_.b, ratio, model_.a));
-    if (!is_zero(model_.several)) f = fma(model_.several, Color3(loss(cos_o) * loss(cos_i)), f);
-    return {.f = f * Color3(pdf), .pdf = pdf};
-  }
-
   Color3 albedo(const View& view) const override {
-    const Float cos_o = saturate(dot(axis(view), view.wo));
+    const Float cos_o = facing_cosine(normal(view), view.wo);
     const MeanRatio ratio = mean_ratio(cos_o);
     const Float once = fma(model_.b, fma(model_.below, ratio.below, ratio.above), model_.a);
     Color3 total = color_ * Color3(once);
@@ -102,6 +90,16 @@ class OrenNayar final : public CosineLobe {
   Color3 presence(const View&) const override { return color_; }
 
  private:
+  Color3 share(const View& view, Float3 wi) const override {
+    const Float cos_o = facing_cosine(normal(view), view.wo);
+    const Float cos_i = saturate(dot(wi, axis(view)));
+    const Float s = clamp(fma(-cos_i, cos_o, dot(view.wo, wi)), -1.0f, 1.0f);
+    const Float ratio = select(s > 0.0f, s / max(max(cos_i, cos_o), 1e-8f), model_.below * s);
+    const Color3 once = color_ * Color3(fma(model_.b, ratio, model_.a));
+    if (is_zero(model_.several)) return once;
+    return fma(model_.several, Color3(loss(cos_o) * loss(cos_i)), once);
+  }
+
   Color3 color_;
   Model model_;
 };

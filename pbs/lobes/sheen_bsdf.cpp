@@ -15,7 +15,7 @@ namespace {
 ///
 /// As published it reflects more light than arrives at low roughness and grazing
 /// angles: twice as much at 0.02. Here roughness is at least 0.07, and what
-/// exceeds 1 (at most 1.58, below roughness 0.15) is divided out for the view.
+/// exceeds 1 (at most 1.58, and nothing from roughness 0.21 on) is divided out for the view.
 /// Reciprocal but for that.
 constexpr float lowest_roughness = 0.07f;
 
@@ -71,8 +71,8 @@ class ContyKullaSheen final : public Lobe {
   LobeValue evaluate(const View& view, Float3 wi) const override {
     const Terms terms = terms_.get(view, [&] { return compute(view); });
     const Float3 n = facing(normal_, view.wo);
-    const Float cos_o = saturate(dot(n, view.wo));
-    const Float cos_i = saturate(dot(n, wi));
+    const Float cos_o = facing_cosine(normal_, view.wo);
+    const Float cos_i = saturate(dot(wi, n));
     const Float3 h = view.wo + wi;
     const Float3 across = cross(n, h);
     const Float length2 = dot(h, h);
@@ -93,7 +93,7 @@ class ContyKullaSheen final : public Lobe {
     const Float z = 1.0f - u.x;
     const Float radius = safe_sqrt(u.x * (2.0f - u.x));
     const Float2 on = on_circle(u.y);
-    const Frame frame = make_frame(facing(normal_, view.wo));
+    const Frame frame = facing_frame(normal_, view.wo);
     const Float3 wi = frame.to_world({radius * on.x, radius * on.y, z});
     return {.wi = wi, .valid = is_unit(wi)};
   }

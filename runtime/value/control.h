@@ -47,8 +47,12 @@ T if_any(Bool mask, T otherwise, F&& body) {
   const std::vector<Ref> inner = detail::flatten(inside);
   const std::vector<Ref> outer = detail::flatten(otherwise);
   std::vector<Ref> merged;
-  for (std::size_t i = 0; i < inner.size(); ++i)
-    merged.push_back(recorder.merge(inner[i], outer[i]));
+  for (std::size_t i = 0; i < inner.size(); ++i) {
+    // What is one value in the region is one behind it: the channels of a grey colour, say.
+    std::size_t k = 0;
+    while (k < i && !(same_value(inner[k], inner[i]) && same_value(outer[k], outer[i]))) ++k;
+    merged.push_back(k < i ? merged[k] : recorder.merge(inner[i], outer[i]));
+  }
   recorder.end_if();
   return detail::rebuild(otherwise, merged);
 }
