@@ -129,7 +129,7 @@ struct Scene {
   double sine, root;
 
   Scene(const Facets& facets_, double cosine_, double alpha_)
-      : facets(facets_), cosine(std::clamp(cosine_, 1e-6, 1.0)), alpha(alpha_) {
+      : facets(facets_), cosine(std::clamp(cosine_, 1e-12, 1.0)), alpha(alpha_) {
     sine = std::sqrt(1.0 - cosine * cosine);
     root = facets.root({sine, 0.0, cosine}, {alpha, alpha});
   }
@@ -213,7 +213,7 @@ std::vector<double> steep(const Facets& facets, double cosine, double alpha, dou
 
 /// The same of a surface whose roughness is not equal all around.
 std::vector<double> of_turned(const Facets& facets, double cosine, const Roughness& alpha) {
-  const double z_o = std::clamp(cosine, 1e-6, 1.0);
+  const double z_o = std::clamp(cosine, 1e-12, 1.0);
   const double sine = std::sqrt((1.0 - z_o) * (1.0 + z_o));
   const double root = facets.root({sine, 0.0, z_o}, alpha);
   // The other half of the normals looks like this one where the surface is turned the other way.

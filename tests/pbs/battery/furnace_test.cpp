@@ -1,87 +1,9 @@
+#include "tests/pbs/battery/furnace.h"
+
 #include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <utility>
-#include <vector>
-
-#include "pbs/cosine_lobe.h"
-#include "runtime/node/geometry.h"
-#include "tests/pbs/battery/lobe_kernels.h"
-#include "tests/support/closure.h"
 
 namespace nacre {
 namespace {
-
-/// A view at `angle` degrees to the normal z, turned by `azimuth` degrees; beyond
-/// 90 from below.
-Columns view(double angle, double azimuth = 30.0) {
-  const double theta = angle * std::numbers::pi / 180.0;
-  const double phi = azimuth * std::numbers::pi / 180.0;
-  return {{"wo.x", {static_cast<float>(std::sin(theta) * std::cos(phi))}},
-          {"wo.y", {static_cast<float>(std::sin(theta) * std::sin(phi))}},
-          {"wo.z", {static_cast<float>(std::cos(theta))}},
-          {"N.z", {1.0f}},
-          {"T.x", {1.0f}}};
-}
-
-/// Roberts' sequence in three dimensions: powers of the root of x^4 = x + 1. As many of each are
-/// made once.
-const Columns& grid(int count) {
-  static std::map<int, Columns> grids;
-  Columns& made = grids[count];
-  if (!made.empty()) return made;
-  const std::pair<const char*, double> steps[] = {
-      {"u.x", 0.8191725133961645}, {"u.y", 0.6710436067037893}, {"u.z", 0.5497004779019703}};
-  for (const auto& [name, step] : steps) {
-    std::vector<float>& column = made[name];
-    for (int i = 0; i < count; ++i) {
-      column.push_back(static_cast<float>(std::fmod(0.5 + i * step, 1.0)));
-    }
-  }
-  return made;
-}
-
-/// All light that a surface in a white world sends to the viewer: the mean weight
-/// of samples on a grid of random numbers.
-class Furnace {
- public:
-  template <class F>
-  explicit Furnace(F&& make, Bool thin_walled = false, Accuracy accuracy = Accuracy::standard) {
-    Recorder recorder;
-    Surface surface;
-    surface.bsdf = make(recorder);
-    surface.thin_walled = thin_walled;
-    const SurfaceKernels kernels = record_kernels(recorder, surface, accuracy, {});
-    std::vector<SliceOutput> weight = kernels.sample;
-    std::erase_if(weight, [](const SliceOutput& each) { return each.name != "weight.x"; });
-    Program sample = slice(recorder.program(), "sample", weight, Keeps::load);
-    const std::vector<SliceOutput> state = state_outputs(recorder, state_channels(sample));
-    // What a view costs is paid once, by `begin`.
-    if (!state.empty()) begin_ = lobe_kernel(slice(recorder.program(), "begin", state), accuracy);
-    sample_ = lobe_kernel(std::move(sample), accuracy);
-    albedo_ = lobe_kernel(slice(recorder.program(), "albedo", kernels.albedo), accuracy);
-  }
-
-  double light(double angle, double azimuth = 30.0, int count = 1 << 18) const {
-    Columns in = view(angle, azimuth);
-    if (begin_) in.merge(run(*begin_, in));
-    const Columns& u = grid(count);
-    in.insert(u.begin(), u.end());
-    const auto out = run(*sample_, in);
-    double sum = 0.0;
-    for (const float weight : out.at("weight.x")) sum += weight;
-    return sum / count;
-  }
-
-  double albedo(double angle, double azimuth = 30.0) const {
-    return run(*albedo_, view(angle, azimuth)).at("albedo.x")[0];
-  }
-
- private:
-  std::shared_ptr<const Kernel> begin_, sample_, albedo_;
-};
 
 BsdfPtr white_metal(Recorder& recorder, Float ax, Float ay) {
   return microfacet_bsdf(
@@ -95,6 +17,17 @@ TEST(Furnace, WhiteMetalReturnsAllLight) {
     for (const double angle : {0.0, 30.0, 60.0, 75.0, 85.0}) {
       EXPECT_NEAR(furnace.light(angle), 1.0, 1e-2) << alpha << " " << angle;
       EXPECT_NEAR(furnace.albedo(angle), 1.0, 1e-6);
+    }
+  }
+}
+
+// Facets far narrower than the first that the tables are made for, as near to grazing as they are
+// smooth.
+TEST(Furnace, NearlySmoothWhiteMetalReturnsAllLight) {
+  for (const float alpha : {2e-4f, 5e-4f, 1e-3f, 2e-3f}) {
+    const Furnace furnace([&](Recorder& r) { return white_metal(r, alpha, alpha); });
+    for (const double angle : {89.0, 89.8, 89.95, 89.98, 89.99}) {
+      EXPECT_NEAR(furnace.light(angle), 1.0, 1e-2) << alpha << " " << angle;
     }
   }
 }
@@ -180,19 +113,10 @@ BsdfPtr glass(Recorder& recorder, const char* mode, Float index, Float alpha) {
                           {"scatter_mode", text(mode)}});
 }
 
-BsdfPtr white_diffuse(Recorder& recorder) {
-  const auto lobe = std::make_shared<LambertLobe>("white", CosineLobe::Hemisphere::viewer,
-                                                  normal(recorder, Space::world), Color3(1.0f));
-  return std::make_shared<LobeBsdf>(lobe, 1.0f);
-}
-
 BsdfPtr layered_glass(Recorder& recorder, Float index, float alpha) {
   return std::make_shared<LayerBsdf>(glass(recorder, "R", index, alpha),
                                      glass(recorder, "T", index, alpha));
 }
-
-constexpr double outside[] = {0.0, 30.0, 60.0, 75.0, 85.0};
-constexpr double inside[] = {180.0, 160.0, 140.0, 130.0, 120.0, 105.0, 95.0};
 
 TEST(Furnace, GlassReturnsAllLightToTheOutside) {
   for (const float alpha : {0.05f, 0.2f, 0.5f, 1.0f}) {
@@ -350,58 +274,17 @@ TEST(Furnace, GlassInGlassReturnsAllLight) {
   }
 }
 
-BsdfPtr schlick(Recorder& recorder, const char* mode, Float f0, Float f90, float alpha) {
-  return microfacet_bsdf(recorder, "generalized_schlick_bsdf",
-                         {{"color0", colour(f0)},
-                          {"color90", colour(f90)},
-                          {"roughness", roughness(alpha, alpha)},
-                          {"scatter_mode", text(mode)}});
-}
-
-TEST(Furnace, SchlickInterfaceReturnsAllLight) {
-  for (const float alpha : {0.05f, 0.3f, 1.0f}) {
-    for (const float f0 : {0.02f, 0.04f, 0.3f}) {
-      const Furnace joint([&](Recorder& r) { return schlick(r, "RT", f0, 1.0f, alpha); });
-      const Furnace layer([&](Recorder& r) {
-        return std::make_shared<LayerBsdf>(schlick(r, "R", f0, 1.0f, alpha),
-                                           schlick(r, "T", f0, 1.0f, alpha));
-      });
-      for (const double angle : outside) {
-        EXPECT_NEAR(layer.light(angle), 1.0, 1e-2)
-            << "R over T " << alpha << " f0 " << f0 << " angle " << angle;
-        EXPECT_NEAR(joint.light(angle), 1.0, 1.5e-2)
-            << "RT " << alpha << " f0 " << f0 << " angle " << angle;
-      }
-      EXPECT_NEAR(joint.light(160.0), 1.0, 2e-2) << "RT " << alpha << " f0 " << f0;
-    }
-  }
-}
-
-// Just before total reflection sets in the curve bends up steeply, as no dielectric's does: two
-// angles do not stand for it.
-TEST(Furnace, SchlickInterfaceReturnsAllLightToTheInside) {
-  for (const float alpha : {0.2f, 0.5f, 0.65f, 0.7f, 0.75f, 0.85f, 1.0f}) {
-    const Furnace joint([&](Recorder& r) { return schlick(r, "RT", 0.04f, 1.0f, alpha); });
-    for (const double angle : {180.0, 130.0, 110.0, 100.0, 97.0, 95.0, 93.0, 91.0}) {
-      EXPECT_NEAR(joint.light(angle), 1.0, 1e-2) << alpha << " angle " << angle;
-    }
-  }
-}
-
-// What a coloured layer reflects of a channel does not reach the base in that channel.
-TEST(Furnace, ColouredSchlickOverWhiteReturnsNoMoreThanArrives) {
-  for (const float alpha : {0.0f, 0.3f, 1.0f}) {
+// A lobe that sends back more than arrives, of a weight that makes it less: what is cut at 1 is the
+// sum.
+TEST(Furnace, AlbedoIsCutWhereTheSumIsMoreThanArrives) {
+  for (const float weight : {0.3f, 0.6f}) {
     const Furnace furnace([&](Recorder& r) {
-      const BsdfPtr red =
-          microfacet_bsdf(r, "generalized_schlick_bsdf",
-                          {{"color0", Recorded{Type::color3, Color3(1.0f, 0.0f, 0.0f)}},
-                           {"roughness", roughness(alpha, alpha)}});
-      return std::make_shared<LayerBsdf>(red, white_diffuse(r));
+      return microfacet_bsdf(
+          r, "burley_diffuse_bsdf",
+          {{"color", colour(1.0f)}, {"roughness", number(1.0f)}, {"weight", number(weight)}});
     });
-    for (const double angle : outside) {
-      EXPECT_NEAR(furnace.light(angle), 1.0, 1e-2) << alpha << " " << angle;
-      EXPECT_NEAR(furnace.albedo(angle), 1.0, 1e-2) << alpha << " " << angle;
-    }
+    EXPECT_GT(furnace.light(89.0), 1.4 * weight);
+    EXPECT_NEAR(furnace.albedo(89.0), furnace.light(89.0), 1e-2);
   }
 }
 
