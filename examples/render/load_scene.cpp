@@ -22,20 +22,25 @@ bool has_materials(const std::string& path) {
   return extension == ".glb" || extension == ".gltf";
 }
 
-Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
-                 const Shutter& shutter, const SceneLooks& looks) {
-  const std::string extension = lower_extension(path);
-  if (has_materials(path)) return load_gltf(path, limits, diagnostics, shutter, looks);
+bool check_looks(const SceneLooks& looks, const std::string& path, Diagnostics& diagnostics) {
   if (!looks.animation.empty()) {
     diagnostics.error("unknown-animation", {path, 0, 0, {}}, "the scene has no animations",
                       "a glTF file with animations", '"' + looks.animation + '"');
-    return {};
+    return false;
   }
   if (!looks.variant.empty()) {
     diagnostics.error("unknown-variant", {path, 0, 0, {}}, "the scene has no variants",
                       "a glTF file with KHR_materials_variants", '"' + looks.variant + '"');
-    return {};
+    return false;
   }
+  return true;
+}
+
+Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
+                 const Shutter& shutter, const SceneLooks& looks) {
+  const std::string extension = lower_extension(path);
+  if (has_materials(path)) return load_gltf(path, limits, diagnostics, shutter, looks);
+  if (!check_looks(looks, path, diagnostics)) return {};
   if (extension == ".obj") return load_obj(path, limits, diagnostics);
   if (extension == ".hair") return load_hair(path, limits, diagnostics);
   diagnostics.error("unknown-scene-format", {path, 0, 0, {}}, "cannot tell the format of the scene",

@@ -26,6 +26,10 @@ bool has_materials(const std::string& path);
 Scene load_scene(const std::string& path, const SceneLimits& limits, Diagnostics& diagnostics,
                  const Shutter& shutter = {}, const SceneLooks& looks = {});
 
+/// False, with an error, where anything is asked of a scene of one look without animations, which
+/// has none to choose from. `path` "": the built-in one.
+bool check_looks(const SceneLooks& looks, const std::string& path, Diagnostics& diagnostics);
+
 /// glTF 2.0: the nodes of the default scene (or of the first), triangles,
 /// strips and fans, lines with an attribute _RADIUS, any component type, meshes that Draco or
 /// meshopt packed. Morph targets and skins bend vertices. glTF puts uv (0,0) at the upper left, so

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -17,9 +18,11 @@
 #include "examples/tool/manifest_request.h"
 #include "examples/tool/material_inputs.h"
 #include "examples/tool/mesh_options.h"
+#include "examples/tool/not_finite.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
 #include "examples/tool/output_compilation.h"
+#include "examples/tool/output_files.h"
 #include "examples/tool/process.h"
 #include "examples/tool/sampling_request.h"
 #include "examples/tool/stop.h"
@@ -163,6 +166,8 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
     if (!target.lay_out(settings)) return;
     const OutputKernel loaded =
         host::with_tiles(*kernel, 0, settings, opened.system->textures(), diagnostics);
+    const std::array<const BoundKernel*, 1> kernels{&loaded.kernel};
+    if (!check_output({"the map of " + piece.name, path}, kernels, diagnostics)) return;
     ProgressLine line(fs::path(path).stem().string(), options.common.quiet);
     const host::BakeControl control{.stop = stop().token(),
                                     .progress = [&](double share) { line.update(share); }};
@@ -171,6 +176,7 @@ void bake_piece(const BakeOptions& options, const Opened& opened, const Piece& p
     said.histogram = options.json;
     if (host::bake_to_file(loaded, 0, settings, piece.texture.encoding, path, diagnostics, control,
                            &said)) {
+      report_not_finite(said.statistics, piece.where, diagnostics);
       file_is_written(path, options.common.quiet || options.json);
       const BakedMap map{path,
                          piece.name,
@@ -200,6 +206,9 @@ void bake_outputs(const BakeOptions& options, const Opened& opened,
     report_kept(piece, target, ledger, report);
     for (std::size_t i = 0; i < piece.items.size(); ++i) {
       if (piece.steps[i] != BakeStep::bake) continue;
+      const std::array<OutputFile, 2> files{{{"the map of " + piece.name, piece.items[i].path},
+                                             {"--manifest", options.manifest.file}}};
+      if (!check_outputs(files, opened.document->files(), diagnostics)) return;
       promise_files({piece.items[i].path});
       if (!host::prepare_image(piece.items[i].path, diagnostics)) return;
     }
@@ -321,6 +330,12 @@ int run(BakeOptions& options) {
   if (!options.textures.check(diagnostics) || !options.manifest.check(diagnostics) ||
       !options.mesh.read(settings.dilation, diagnostics) ||
       !options.sampling.read(settings.sampling, diagnostics)) {
+    report(diagnostics);
+    return status_usage;
+  }
+  const std::array<OutputFile, 2> outputs{
+      {{"--document", options.document}, {"--manifest", options.manifest.file}}};
+  if (!check_outputs(outputs, {}, diagnostics)) {
     report(diagnostics);
     return status_usage;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <filesystem>
@@ -16,7 +17,9 @@
 #include "examples/tool/baked_document.h"
 #include "examples/tool/file_stems.h"
 #include "examples/tool/map_plan.h"
+#include "examples/tool/not_finite.h"
 #include "examples/tool/output_compilation.h"
+#include "examples/tool/output_files.h"
 #include "examples/tool/paths.h"
 #include "examples/tool/process.h"
 #include "examples/tool/sampling_request.h"
@@ -91,15 +94,8 @@ class MaterialBaker {
 
   /// The document read must stay: what is baked cannot be had back from what is written.
   bool is_new_document() {
-    for (const std::string& file : opened_.document->files()) {
-      std::error_code error;
-      if (!fs::equivalent(file, options_.document, error)) continue;
-      diagnostics_.error("output-is-input", {options_.document, 0, 0, {}},
-                         "the baked document would replace the one it is made from",
-                         "another name");
-      return false;
-    }
-    return true;
+    const std::array<OutputFile, 1> outputs{{{"--document", options_.document}}};
+    return check_outputs(outputs, opened_.document->files(), diagnostics_);
   }
 
   /// A job that others may begin before it is finished.
@@ -278,6 +274,7 @@ class MaterialBaker {
       all.channels.insert(all.channels.end(), row_all.channels.begin(), row_all.channels.end());
     }
     const TextureSettings& texture = plan.texture;
+    report_not_finite(all, where_of(job), diagnostics_);
     if (all.is_uniform() || (options_.average && host::has_mean(job.type))) {
       if (ledger_.is_recording()) {
         for (const PlannedImage& image : plan.images) ledger_.drop(image.item);
@@ -322,6 +319,9 @@ class MaterialBaker {
                                                const host::BakeSettings& settings,
                                                const TextureSettings& texture, const fs::path& file,
                                                host::TextureReport& report) {
+    const std::array<const BoundKernel*, 1> kernels{&kernel.kernel};
+    const OutputFile output{"the map of " + file.stem().string(), file.string()};
+    if (!check_output(output, kernels, diagnostics_)) return nullptr;
     if (!host::prepare_image(file.string(), diagnostics_)) return nullptr;
     ProgressLine line(file.stem().string(), options_.quiet);
     const host::BakeControl control{.stop = stop().token(),

@@ -158,8 +158,14 @@ void BakeReport::print_text() const {
                map.statistics.is_uniform() ? "; uniform: a value would do" : "");
     for (std::size_t c = 0; c < map.statistics.channels.size(); ++c) {
       const host::ChannelStatistics& channel = map.statistics.channels[c];
-      fmt::print("  {}: {:g} to {:g}, mean {:g}\n", channel_name(map, c), channel.least,
-                 channel.most, channel.mean());
+      if (channel.finite + channel.unbounded == 0) {
+        fmt::print("  {}: no number\n", channel_name(map, c));
+        continue;
+      }
+      const std::uint64_t others = channel.unbounded + channel.no_number;
+      fmt::print("  {}: {:g} to {:g}, mean {:g}{}\n", channel_name(map, c), channel.least,
+                 channel.most, channel.mean(),
+                 others == 0 ? "" : fmt::format(", {} not finite", others));
     }
   }
   for (const BakedValue& value : values_) {

@@ -9,10 +9,10 @@ namespace nacre::tool {
 
 namespace {
 
-/// Nothing where the text goes on behind it.
+/// A float, as all that kernels read: 0.1 to 0.1 is one. Nothing where the text goes on behind it.
 std::optional<double> number(const std::string& text) {
   char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
+  const float value = std::strtof(text.c_str(), &end);
   if (end == text.c_str() || *end != '\0') return std::nullopt;
   return value;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "jit/graph/check/check.h"
+#include "jit/graph/find.h"
 
 namespace nacre::tool {
 
@@ -22,6 +23,9 @@ void explain_missing_material(const Opened& opened, const std::string& name,
                               const ShaderOptions& options, Diagnostics& diagnostics) {
   const Element* element = find_named(opened.document->root(), name);
   if (element == nullptr) return;
+  // What is a material, and was not compiled for other reasons, has had its errors.
+  const auto is_it = [&](const FoundMaterial& found) { return found.name == name; };
+  if (std::ranges::any_of(find_materials(*opened.document), is_it)) return;
   const std::string type(element->attribute("type"));
   diagnostics.error("not-a-material", location(*element),
                     "what is called '" + name + "' is no material of the document",

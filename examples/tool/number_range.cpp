@@ -19,4 +19,26 @@ CLI::Validator number_within(double low, double high) {
   return CLI::Validator(check, "");
 }
 
+CLI::Validator as_size() {
+  return CLI::Validator(
+      [](std::string& text) -> std::string {
+        char* end = nullptr;
+        const double number = std::strtod(text.c_str(), &end);
+        const std::string asked = text.substr(0, 60);
+        const auto wrong = [&] {
+          return fmt::format("expected a number of bytes (64MB, 2GB), found \"{}\"", asked);
+        };
+        // AsSizeValue takes the sign for part of a huge number, and what is too large for one of
+        // its own kind.
+        if (end == text.c_str() || !(number >= 0.0 && number < 0x1p63)) return wrong();
+        try {
+          if (!CLI::AsSizeValue(false)(text).empty()) return wrong();
+        } catch (const CLI::ValidationError&) {
+          return wrong();
+        }
+        return std::strtod(text.c_str(), nullptr) < 0x1p63 ? std::string() : wrong();
+      },
+      "");
+}
+
 }  // namespace nacre::tool

@@ -8,4 +8,7 @@ namespace nacre::tool {
 /// excluded; what it says has few digits.
 CLI::Validator number_within(double low, double high = 1e18);
 
+/// For an option that is a number of bytes, "64MB" among them: of those that are none says so.
+CLI::Validator as_size();
+
 }  // namespace nacre::tool

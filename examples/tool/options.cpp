@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +16,8 @@
 #include "examples/tool/stop.h"
 #include "jit/cache/kernel_cache.h"
 #include "jit/document/read.h"
+#include "jit/graph/color/color_config.h"
+#include "jit/graph/color/colorspace.h"
 #include "runtime/read_file.h"
 
 namespace nacre::tool {
@@ -78,7 +81,7 @@ void CommonOptions::add_document(CLI::App& command) {
       .add_option("--texture-memory", texture_limits.budget,
                   "Bytes of images in memory at once (64MB, 2GB); those that there is no room for "
                   "are read piece by piece")
-      ->transform(CLI::AsSizeValue(false))
+      ->transform(as_size())
       ->type_name("SIZE")
       ->default_str("2GB");
   add_limits(command);
@@ -92,7 +95,7 @@ void CommonOptions::add_limits(CLI::App& command) {
         ->group("Limits, beyond which a document or image is refused (sizes: 64MB, 2GB)");
   };
   const auto add_size = [&](const char* flag, auto& value, const char* what) {
-    add(flag, value, what)->transform(CLI::AsSizeValue(false))->type_name("SIZE");
+    add(flag, value, what)->transform(as_size())->type_name("SIZE");
   };
   const auto add_count = [&](const char* flag, auto& value, const char* what) {
     add(flag, value, what)->check(number_within(0))->type_name("N");
@@ -275,6 +278,30 @@ std::optional<fs::path> ocio_config(const std::string& option, Diagnostics& diag
   return std::nullopt;
 }
 
+namespace {
+
+/// Colours would be left as they are in one that nobody knows.
+bool check_working_space(const CommonOptions& options, ShadingSystem& system,
+                         Diagnostics& diagnostics) {
+  const std::string name = options.working_space.value_or("");
+  const std::vector<std::string_view> built_in = colorspace_names();
+  if (name.empty() || name == "none" || std::ranges::find(built_in, name) != built_in.end()) {
+    return true;
+  }
+  const auto config = system.graph_options(options.shader_options()).colors;
+  if (config != nullptr && config->find(name)) return true;
+  std::string known;
+  for (const std::string_view each : built_in) {
+    known += (known.empty() ? "" : ", ") + std::string(each);
+  }
+  if (config != nullptr) known += ", or one of " + config->name();
+  diagnostics.error("unknown-colorspace", {.file = {}, .path = "--working-space"},
+                    "there is no such colour space to compute in", known, "'" + name + "'");
+  return false;
+}
+
+}  // namespace
+
 Opened open_system(const CommonOptions& options, const FileResolver& resolver,
                    Diagnostics& diagnostics) {
   Opened opened;
@@ -309,6 +336,9 @@ Opened open_system(const CommonOptions& options, const FileResolver& resolver,
   }
   system.resolver = resolver;
   opened.system = ShadingSystem::create(system, diagnostics);
+  if (opened.system != nullptr && !check_working_space(options, *opened.system, diagnostics)) {
+    opened.system = nullptr;
+  }
   return opened;
 }
 

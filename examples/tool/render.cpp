@@ -22,6 +22,7 @@
 #include "examples/tool/scene_materials.h"
 #include "examples/tool/series_options.h"
 #include "examples/tool/stop.h"
+#include "jit/graph/find.h"
 
 namespace nacre::tool {
 
@@ -65,6 +66,10 @@ bool open_all(Run& run, Diagnostics& diagnostics) {
   const bool has_own = has_own_materials(options);
   if (!has_own) run.opened = open(options.common, diagnostics);
   if (!has_own && !run.opened) return false;
+  if (!has_own && find_materials(*run.opened.document).empty()) {
+    diagnostics.warning("no-material", {options.common.file, 0, 0, {}},
+                        "the document has no material: everything is shown in neutral grey");
+  }
   if (!options.out.empty() && !host::is_image_name(options.out, diagnostics)) return false;
   const bool is_one = run.frames.empty() && options.series.cameras.empty();
   if (is_one && !options.out.empty() && !host::prepare_image(options.out, diagnostics)) {
@@ -100,7 +105,13 @@ bool list(Run& run, Diagnostics& diagnostics) {
   if (!pictures) return false;
   keep_promise(options.out);
   std::vector<std::string> files;
+  // A document of the scene's own materials is written, and no file that was there.
+  const std::vector<std::string> read =
+      has_own_materials(options) ? std::vector<std::string>() : run.opened.document->files();
+  std::vector<OutputFile> outputs = outputs_of(options);
   for (Picture& each : *pictures) {
+    outputs.front().file = each.file;
+    if (!check_outputs(outputs, read, diagnostics)) return false;
     std::error_code none;
     if (options.series.skips_existing && std::filesystem::exists(each.file, none)) {
       run.answer["pictures"].push_back(skipped_picture(options, each));

@@ -11,6 +11,7 @@
 #include "examples/render/displace.h"
 #include "examples/render/image_io.h"
 #include "examples/tool/crop_option.h"
+#include "examples/tool/output_files.h"
 #include "examples/tool/process.h"
 #include "examples/tool/render_answer.h"
 #include "examples/tool/render_checkpoint.h"
@@ -86,6 +87,7 @@ bool render_picture(const RenderOptions& options, const Opened& opened, RenderMo
   }
 
   const std::vector<const BoundKernel*> kernels = moment.shaders().kernels();
+  if (!check_output({"--out", file}, kernels, diagnostics)) return false;
   const Enough enough(options.progress.time_limit);
   std::optional<host::Checkpoint> checkpoint;
   if (!options.progress.checkpoint.empty()) {

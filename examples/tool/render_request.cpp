@@ -38,7 +38,16 @@ void complete_request(RenderOptions& options, Diagnostics& diagnostics) {
   check_view(options.view, options.out, diagnostics);
   check_techniques(settings, diagnostics);
   check_crop(settings, diagnostics);
+  check_outputs(outputs_of(options), {options.common.file, options.scene, options.environment},
+                diagnostics);
   if (!diagnostics.has_errors()) check_request(options, diagnostics);
+}
+
+std::vector<OutputFile> outputs_of(const RenderOptions& options) {
+  return {{"--out", options.out},
+          {"--write-document", options.document},
+          {"--record-points", options.points_file},
+          {"--checkpoint", options.progress.checkpoint}};
 }
 
 bool check_series(const RenderOptions& options, const std::vector<int>& frames,

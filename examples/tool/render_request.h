@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "examples/tool/output_files.h"
 #include "examples/tool/render_options.h"
 #include "runtime/diagnostic.h"
 
@@ -10,6 +11,9 @@ namespace nacre::tool {
 /// Puts into RenderOptions::settings what other options say in words. Errors for what is none of
 /// them, or does not go together.
 void complete_request(RenderOptions& options, Diagnostics& diagnostics);
+
+/// What is to be written; --out first.
+std::vector<OutputFile> outputs_of(const RenderOptions& options);
 
 /// Whether several pictures, of these frames, have names and a checkpoint of their own; an error
 /// otherwise.

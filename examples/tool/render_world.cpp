@@ -21,7 +21,10 @@ std::optional<host::Environment> load_environment(const RenderOptions& options,
 }
 
 host::Scene load_world(const RenderOptions& options, Diagnostics& diagnostics) {
-  if (options.scene.empty()) return host::make_builtin_scene();
+  if (options.scene.empty()) {
+    host::check_looks({{}, options.variant, options.animation}, {}, diagnostics);
+    return host::make_builtin_scene();
+  }
   const host::RenderSettings& s = options.settings;
   const double time = static_cast<double>(s.time);
   const host::Shutter shutter{time + static_cast<double>(s.shutter_open),

@@ -12,7 +12,7 @@ void add_scene_limits(CLI::App& command, host::SceneLimits& limits) {
         ->capture_default_str()
         ->group("Limits, beyond which a scene is refused (sizes: 64MB, 2GB)");
   };
-  const auto size = CLI::AsSizeValue(false);
+  const auto size = as_size();
   add("--max-scene-file-size", limits.file_bytes, "Bytes of the scene's files together")
       ->transform(size)
       ->type_name("SIZE");

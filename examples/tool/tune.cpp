@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "examples/tool/front_plot.h"
 #include "examples/tool/number_range.h"
 #include "examples/tool/options.h"
+#include "examples/tool/output_files.h"
 #include "examples/tool/process.h"
 #include "examples/tool/recorded_option.h"
 #include "examples/tool/stop.h"
@@ -109,6 +111,11 @@ std::vector<TuneSubject> subjects(const ToolOptions& options, const Opened& open
 
 int run(ToolOptions& options) {
   Diagnostics diagnostics;
+  const std::array<OutputFile, 2> outputs{{{"--profile", options.out}, {"--plot", options.plot}}};
+  if (!check_outputs(outputs, {options.common.file, options.recorded.file}, diagnostics)) {
+    report(diagnostics);
+    return status_usage;
+  }
   promise_files({options.out, options.plot});
   for (const std::string& file : {options.out, options.plot}) {
     if (file.empty() || host::prepare_output(file, diagnostics)) continue;
@@ -119,7 +126,7 @@ int run(ToolOptions& options) {
   if (options.recorded.read(options.tune.recorded, diagnostics)) {
     opened = open(options.common, diagnostics);
   }
-  if (!opened) {
+  if (!opened || !check_outputs(outputs, opened.document->files(), diagnostics)) {
     if (options.json) print_json(Json::array());
     return report(diagnostics);
   }

@@ -64,8 +64,10 @@ bool add_udim_sets(const Document& document, std::vector<UdimTile>& tiles,
   return true;
 }
 
-void add_files(const Element& input, const std::vector<std::string>& search_paths,
-               const FileRoots& roots, std::vector<UdimTile>& tiles) {
+/// The tiles of an image's set; nothing where there is no file of it.
+std::optional<std::vector<UdimTile>> tiles_of_set(const Element& input,
+                                                  const std::vector<std::string>& search_paths,
+                                                  const FileRoots& roots) {
   const std::string name =
       std::string(input.inherited_attribute("fileprefix")) + std::string(input.attribute("value"));
   std::vector<fs::path> folders{fs::path(input.document().file_of(input)).parent_path()};
@@ -76,22 +78,52 @@ void add_files(const Element& input, const std::vector<std::string>& search_path
     Diagnostics ignored;
     const auto files = find_tiles(place.string(), {}, ignored);
     if (!files) continue;
+    std::vector<UdimTile> tiles;
     for (const TileFile& file : *files) {
       const bool has_number = file.u >= 0 && file.u <= 9 && file.v >= 0 && file.v <= 899;
       if (has_number) add_tile(tiles, {file.u, file.v});
     }
-    return;
+    return tiles;
+  }
+  return std::nullopt;
+}
+
+/// see(input, tiles) for each image of which there are files.
+template <class See>
+void each_set(const Element& element, const std::vector<std::string>& search_paths,
+              const FileRoots& roots, const See& see) {
+  for (const Element& child : element.children()) {
+    if (child.attribute("type") == "filename" && has_tile_token(child.attribute("value"))) {
+      if (const auto tiles = tiles_of_set(child, search_paths, roots)) see(child, *tiles);
+    }
+    each_set(child, search_paths, roots, see);
   }
 }
 
-void add_all_files(const Element& element, const std::vector<std::string>& search_paths,
-                   const FileRoots& roots, std::vector<UdimTile>& tiles) {
-  for (const Element& child : element.children()) {
-    if (child.attribute("type") == "filename" && has_tile_token(child.attribute("value"))) {
-      add_files(child, search_paths, roots, tiles);
-    }
-    add_all_files(child, search_paths, roots, tiles);
-  }
+FileRoots roots_of(const Document& document, const std::vector<std::string>& search_paths,
+                   bool anywhere) {
+  FileRoots roots;
+  if (anywhere) return roots;
+  roots.add(fs::path(document.files().front()).parent_path());
+  for (const std::string& path : search_paths) roots.add(path);
+  return roots;
+}
+
+/// Images that lack a tile which is asked for: their nodes' defaults stand there.
+void report_lacking(const Document& document, const std::vector<std::string>& search_paths,
+                    const FileRoots& roots, const std::vector<UdimTile>& asked,
+                    Diagnostics& diagnostics) {
+  each_set(document.root(), search_paths, roots,
+           [&](const Element& input, const std::vector<UdimTile>& tiles) {
+             std::vector<UdimTile> lacking;
+             for (const UdimTile& tile : asked) {
+               if (std::ranges::find(tiles, tile) == tiles.end()) lacking.push_back(tile);
+             }
+             if (lacking.empty()) return;
+             diagnostics.warning("missing-tile", location(input),
+                                 "the image has no such tile: there it is its node's default",
+                                 numbers_of(tiles), numbers_of(lacking));
+           });
 }
 
 }  // namespace
@@ -108,7 +140,12 @@ std::vector<UdimTile> parse_tiles(std::string_view text, const SourceLocation& w
 std::vector<UdimTile> read_tiles(std::string_view text, const Document& document,
                                  const std::vector<std::string>& search_paths,
                                  Diagnostics& diagnostics, bool anywhere) {
-  if (text == "auto") return tiles_of(document, search_paths, diagnostics, anywhere);
+  const FileRoots roots = roots_of(document, search_paths, anywhere);
+  if (text == "auto") {
+    std::vector<UdimTile> tiles = tiles_of(document, search_paths, diagnostics, anywhere);
+    report_lacking(document, search_paths, roots, tiles, diagnostics);
+    return tiles;
+  }
   const SourceLocation where{document.files().front(), 0, 0, {}};
   Diagnostics ignored;
   const std::vector<UdimTile> known = tiles_of(document, search_paths, ignored, anywhere);
@@ -135,6 +172,9 @@ std::vector<UdimTile> read_tiles(std::string_view text, const Document& document
     diagnostics.error("no-such-tile", where, "the document has no such tile", numbers_of(known),
                       tile.number());
   }
+  if (!diagnostics.has_errors()) {
+    report_lacking(document, search_paths, roots, tiles, diagnostics);
+  }
   return tiles;
 }
 
@@ -143,12 +183,12 @@ std::vector<UdimTile> tiles_of(const Document& document,
                                Diagnostics& diagnostics, bool anywhere) {
   std::vector<UdimTile> tiles;
   if (!add_udim_sets(document, tiles, diagnostics)) return {};
-  FileRoots roots;
-  if (!anywhere) {
-    roots.add(fs::path(document.files().front()).parent_path());
-    for (const std::string& path : search_paths) roots.add(path);
+  if (tiles.empty()) {
+    each_set(document.root(), search_paths, roots_of(document, search_paths, anywhere),
+             [&](const Element&, const std::vector<UdimTile>& more) {
+               for (const UdimTile& tile : more) add_tile(tiles, tile);
+             });
   }
-  if (tiles.empty()) add_all_files(document.root(), search_paths, roots, tiles);
   if (tiles.empty()) {
     diagnostics.error("no-udim", {document.files().front(), 0, 0, {}},
                       "the document says nothing of tiles",
