@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "nodes/noise/perlin.h"
+#include "nodes/noise/record_noise.h"
 #include "runtime/node/node_call.h"
 #include "runtime/value/control.h"
 
@@ -23,6 +25,11 @@ struct Octaves {
         lacunarity(call.number("lacunarity")),
         diminish(call.number("diminish")) {}
 };
+
+/// Whether what is within_reach() is finite after so many factors.
+inline bool stays_finite(Float factor, int times) {
+  return factor.is_constant() && std::pow(std::abs(factor.constant()), times) <= 0x1p64;
+}
 
 inline Float2 scaled(Float2 p, Float s) { return p * s; }
 inline Float3 scaled(Float3 p, Float s) { return p * Float3(s); }
@@ -45,14 +52,20 @@ void visit(FractalState<P, R>& s, F&& f) {
 template <class R, class P, class Noise>
 R fractal(Recorder& recorder, P p, const Octaves& octaves, Noise&& noise) {
   FractalState<P, R> state{p, 1.0f, R(0.0f)};
+  const bool is_known = octaves.count.is_constant();
+  const int most = is_known ? std::min(octaves.count.constant(), most_octaves) : most_octaves;
+  // Infinite coordinates have no noise, nor has an infinite amplitude one where that is 0.
+  const bool are_near = stays_finite(octaves.lacunarity, most);
+  const bool is_small = stays_finite(octaves.diminish, most);
   const auto octave = [&](FractalState<P, R>& s) {
     s.sum = s.sum + R(s.amplitude) * noise(s.p);
     s.amplitude *= octaves.diminish;
     s.p = scaled(s.p, octaves.lacunarity);
+    if (!is_small) s.amplitude = min(0x1p120f, max(-0x1p120f, s.amplitude));  // NaN stays.
+    if (!are_near) s.p = within_reach(s.p);
   };
-  if (octaves.count.is_constant()) {
-    const int count = std::min(octaves.count.constant(), most_octaves);
-    for (int i = 0; i < count; ++i) octave(state);
+  if (is_known) {
+    for (int i = 0; i < most; ++i) octave(state);
     return state.sum;
   }
   const auto body = [&](Int i, FractalState<P, R>& s) {

@@ -7,8 +7,7 @@ namespace nacre {
 /// diminish^i. MaterialX 1.39 Standard Nodes, "fractal2d". Two components are
 /// fractals at texcoord and at texcoord + (19, 193); a fourth is one at the
 /// latter. No octaves give 0; those beyond 64 are left out. Coordinates as in
-/// noise2d; lacunarity and diminish are not limited: what they take beyond the
-/// floats gives infinities or NaN.
+/// noise2d, those of all octaves; amplitudes up to 2^120. A diminish of NaN gives that.
 void record_fractal2d(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Octaves octaves(call);

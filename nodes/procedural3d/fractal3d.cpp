@@ -7,8 +7,7 @@ namespace nacre {
 /// diminish^i. MaterialX 1.39 Standard Nodes, "fractal3d". Two components are
 /// fractals at position and at position + (19, 193, 17); a fourth is one at the
 /// latter. No octaves give 0; those beyond 64 are left out. Coordinates as in
-/// noise3d; lacunarity and diminish are not limited: what they take beyond the
-/// floats gives infinities or NaN.
+/// noise3d, those of all octaves; amplitudes up to 2^120. A diminish of NaN gives that.
 void record_fractal3d(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Octaves octaves(call);

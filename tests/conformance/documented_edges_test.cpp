@@ -89,7 +89,7 @@ std::vector<Edge> edges() {
        {{"position", {nan, inf, 1e8f}}, {"amplitude", {1}}, {"pivot", {0.25f}}},
        {0.25f}},
       {"ND_noise2d_float", {{"texcoord", {2, 3}}, {"amplitude", {inf}}}, {nan}},
-      {"ND_fractal2d_float", fractal(inf, 0.5f), {nan}},
+      {"ND_fractal2d_float", fractal(inf, 0.5f), {0}},
       {"ND_fractal3d_float", fractal(2.0f, nan), {nan}},
       {"ND_worleynoise2d_float", {{"texcoord", {nan, 0}}, {"jitter", {1}}}, {1000}},
       {"ND_worleynoise2d_float", {{"texcoord", {inf, 0}}, {"jitter", {1}}}, {1000}},

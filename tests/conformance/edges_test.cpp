@@ -41,7 +41,7 @@ using Causes = std::map<std::string_view, std::set<Cause>>;
 const Causes& differing_classes(bool wild) {
   using enum Cause;
   static const Causes at_edges{
-      {"fractal2d", {overflow, rounding}},
+      {"fractal2d", {rounding}},
       {"fractal3d", {overflow, rounding}},
       {"hextilednormalmap", {rounding}},
   };

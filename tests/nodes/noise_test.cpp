@@ -261,6 +261,24 @@ TEST(Fractal, EndsForAnyNumberOfOctaves) {
   EXPECT_TRUE(std::isfinite(run_node(fractal_node, p).at("out.x")[0]));
 }
 
+// Of finite numbers there is finite noise: what is far beyond where noise is 0 stays where it is.
+TEST(Fractal, IsFiniteWhateverItsFactors) {
+  const auto kernel = make_interpreter(node_program(fractal_node));
+  Columns p{{"amplitude.x", {1.0f}}, {"octaves", {64.0f}}};
+  for (const float lacunarity : {1e10f, -3e38f, 2.0f, 0.0f}) {
+    for (const float diminish : {0.5f, 1e30f, -1e30f, 2.0f}) {
+      for (const float x : {0.3f, -7.25f, 1e20f}) {
+        p["lacunarity"].push_back(lacunarity), p["diminish"].push_back(diminish);
+        p["texcoord.x"].push_back(x), p["texcoord.y"].push_back(0.7f);
+      }
+    }
+  }
+  const auto out = run(*kernel, p).at("out.x");
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    EXPECT_TRUE(std::isfinite(out[i])) << p["lacunarity"][i] << " " << p["diminish"][i];
+  }
+}
+
 template <int n>
 void expect_worley(const char* category, const char* port, Type coordinate) {
   Columns p = points(port);
