@@ -53,7 +53,8 @@ void add(ChannelUse& use, const std::string& name, const Channel& channel, bool 
   use.is_used = true;
   (is_stored ? use.is_stored : use.is_read) = true;
   use.is_scalar = use.is_scalar || name == channel.name;
-  use.type = channel.type;
+  // All of the state is one array of floats, whatever its numbers are.
+  if (channel.role != NACRE_STATE || name == channel.name) use.type = channel.type;
   const int component =
       channel.role == NACRE_STATE ? channel.component : component_of(channel.name);
   if (name != channel.name) use.least = std::max(use.least, component + 1);

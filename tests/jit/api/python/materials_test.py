@@ -108,6 +108,24 @@ def test_the_state_is_the_callers_if_it_is_bound(system, documents):
     assert numpy.array_equal(f, two.run(POINTS | {"wi": WI}, Entry.EVALUATE)["f"])
 
 
+def test_the_state_may_end_with_a_truth_value(system):
+    """Whether roughness that comes with points is a mirror's is kept too."""
+    document = nacre.Document.parse("""<materialx version="1.39">
+      <conductor_bsdf name="b" type="BSDF"><input name="roughness" type="vector2" value=".1, .1"/>
+      </conductor_bsdf><surface name="s" type="surfaceshader">
+        <input name="bsdf" type="BSDF" nodename="b"/></surface><surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial></materialx>""")
+    shader = system.compile_material(document, "M", no_footprints=True, live=["b/roughness"],
+                                     varying=["b/roughness"], compensation="nothing")
+    types = [each.dtype for each in shader.results(Entry.BEGIN) if each.name.startswith("state")]
+    assert "int32" in types
+    points = POINTS | {"b/roughness": (0.1, 0.2)}
+    values = shader.run(points | {"wi": WI}, Entry.EVALUATE)
+    assert (values["pdf"] > 0).mean() > 0.9
+    samples = shader.run(points | {"u": hemisphere(8)}, Entry.SAMPLE)
+    assert (samples["flags"] & nacre.SampleFlag.VALID).mean() > 0.9
+
+
 def test_points_past_the_state_are_refused(system, documents):
     two = system.compile_material(nacre.Document.parse(documents["two_lobes"]), "M",
                                   no_footprints=True, entries=[Entry.EVALUATE_AT])
