@@ -46,6 +46,12 @@ Points points_of_film(Accuracy accuracy) {
   return {accuracy == Accuracy::standard ? 34 : 89, 144};
 }
 
+/// In between, of a curve over both sides of an interface.
+Points points_of_curve(Accuracy accuracy, FacetDistribution distribution) {
+  return {points_of(accuracy, distribution).entering,
+          points_of_mean(accuracy, distribution).leaving};
+}
+
 /// The Fibonacci number before: what a lattice of so many points steps by.
 int fibonacci_before(int points) {
   int before = 1, at = 1;
@@ -337,8 +343,10 @@ Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const 
   const Float eta = relative_index(fresnel.index(), inside);
   const FacetFresnelPtr filmed = in_sums(fresnel);
   const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
-  return over_facets(recorder, in_lanes(points_of_film(accuracy), eta < 1.0f), wo, facets,
-                     Color3(0.0f),
+  // A curve is cheap beside a film.
+  const Points points =
+      filmed == nullptr ? points_of_curve(accuracy, facets.distribution) : points_of_film(accuracy);
+  return over_facets(recorder, in_lanes(points, eta < 1.0f), wo, facets, Color3(0.0f),
                      [&](const Facet& facet, const auto& unshadowed, Float share, Color3& sum) {
                        const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
                        const Float forth = unshadowed(bent.wi, bent.possible);
