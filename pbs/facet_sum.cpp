@@ -343,7 +343,7 @@ Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const 
   const Float eta = relative_index(fresnel.index(), inside);
   const FacetFresnelPtr filmed = in_sums(fresnel);
   const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
-  // A curve is cheap beside a film.
+  // Not by whether there is a film, which nobody knows of one that may come.
   const Points points =
       filmed == nullptr ? points_of_curve(accuracy, facets.distribution) : points_of_film(accuracy);
   return over_facets(recorder, in_lanes(points, eta < 1.0f), wo, facets, Color3(0.0f),
