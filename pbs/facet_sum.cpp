@@ -344,8 +344,9 @@ Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const 
   const FacetFresnelPtr filmed = in_sums(fresnel);
   const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
   // Not by whether there is a film, which nobody knows of one that may come.
-  const Points points =
-      filmed == nullptr ? points_of_curve(accuracy, facets.distribution) : points_of_film(accuracy);
+  const Points points = fresnel.covers_dielectric()
+                            ? points_of_film(accuracy)
+                            : points_of_curve(accuracy, facets.distribution);
   return over_facets(recorder, in_lanes(points, eta < 1.0f), wo, facets, Color3(0.0f),
                      [&](const Facet& facet, const auto& unshadowed, Float share, Color3& sum) {
                        const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
