@@ -77,10 +77,6 @@ Float sample_slope(Recorder& recorder, Float cosine, Float sine, Float u) {
   return inverse_erf(clamp(found.at, -most, most));
 }
 
-}  // namespace
-
-namespace {
-
 /// `slope2`: the square of the slope, over roughness, times z^2.
 Float distribution(Float slope2, Float z, Float length2, Float area) {
   const Float z2 = max(square(z), 1e-12f * length2);

@@ -40,7 +40,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
 
 /// What FacetSum::total has more by channel where the Fresnel factor is another than the
 /// dielectric's: that of those facets only which let light pass. By as few facets as
-/// reflection_of_facets().
+/// reflection_of_facets() where that is a film's, which is dear; of other curves by more.
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                         const FacetFresnel& fresnel, Bool inside);
 

@@ -29,7 +29,7 @@ Polarised fresnel_dielectric_polarised(Float cosine, Float eta) {
   const Float cosine2 = square(cosine);
   const Float g = safe_sqrt(fma(cosine, cosine, d));
   const Float eta2 = square(eta);
-  // Over their common denominator, for divisions are what this takes its time with; of any eta that
+  // Over their common denominator, by one division; of any eta that
   // is not 1 both are above 1e-12.
   const Float below_s = max(square(cosine + g), 1e-15f);
   const Float below_p = max(square(fma(eta2, cosine, g)), 1e-15f);

@@ -98,12 +98,13 @@ class Lobe {
   /// LobeSample::delta_weight of such a lobe where it is smooth.
   virtual Color3 mirrored(const View& view) const { return (void)view, Color3(0.0f); }
   /// Fraction of the light from wo that leaves again: in [0, 1]. What lobes are
-  /// selected by, and the `albedo` kernel's answer.
+  /// selected by.
   virtual Color3 albedo(const View& view) const = 0;
   /// Above 0 in a channel wherever the lobe scatters any light of it, and as cheap as can be: what
   /// a lobe that is alone is selected by.
   virtual Color3 presence(const View& view) const { return albedo(view); }
-  /// The albedo of models that send back more than they get: more than 1 there.
+  /// The same, but of models that send back more than they get, where it is more than 1. What the
+  /// `albedo` kernel sums.
   virtual Color3 light(const View& view) const { return albedo(view); }
   /// What passes to a layer below, for a lobe of weight 1: 1 - albedo for an
   /// interface, 0 for an opaque lobe. MaterialX PBS 1.39, "Layering".

@@ -25,6 +25,14 @@ Float3 normal_of_cap(Float3 wo, Float2 alpha, Float root, Float bound, Float u, 
   return {h.x * alpha.x, h.y * alpha.y, max(h.z, 0.0f)};
 }
 
+/// Of a direction by its parts along the normal and along the surface; `least`: the less of both
+/// roughnesses.
+Float reflection_bound(Float z, Float across, Float least) {
+  const Float a2 = square(least);
+  const Float s2 = square(1.0f + across);
+  return (1.0f - a2) * s2 / fma(a2, square(z), s2);
+}
+
 }  // namespace
 
 Float ggx_distribution(Float3 h, Float2 alpha) {
@@ -62,16 +70,6 @@ Float smith_shadowing(Float cos_o, Float root_o, Float cos_i, Float root_i) {
 Float3 sample_visible_normal(Float3 wo, Float2 alpha, Float root, Float u, Float v) {
   return normalize(normal_of_cap(wo, alpha, root, 1.0f, u, v));
 }
-
-namespace {
-
-Float reflection_bound(Float z, Float across, Float least) {
-  const Float a2 = square(least);
-  const Float s2 = square(1.0f + across);
-  return (1.0f - a2) * s2 / fma(a2, square(z), s2);
-}
-
-}  // namespace
 
 Float reflection_bound(Float3 wo, Float2 alpha) {
   const Float across = sqrt(fma(wo.x, wo.x, square(wo.y)));

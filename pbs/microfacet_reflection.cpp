@@ -106,7 +106,7 @@ LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) cons
   const auto [wi, half, cosine] = pair(view, local, wi_world);
   const Float root = facets_.root(wo);
   const Float half_d = facets_.density(half, 0.5f);
-  // Density and f over their common denominator, for divisions are what this takes its time with.
+  // Density and f over their common denominator: one division.
   const Float seen_from = max(fma(facets_.bound(wo), wo.z, root), 1e-12f);
   const Float both = max(fma(wi.z, root, wo.z * facets_.root(wi)), 1e-24f);
   const Float over = half_d / (seen_from * both);

@@ -46,6 +46,11 @@ Range range_of(const Fact& fact) {
   auto low = static_cast<float>(fact.low), high = static_cast<float>(fact.high);
   if (double(low) < fact.low) low = std::nextafter(low, infinity);
   if (double(high) > fact.high) high = std::nextafter(high, -infinity);
+  // Denormals are zeros to kernels, which keep their signs.
+  const auto seen = [](float x) {
+    return std::abs(x) < std::numeric_limits<float>::min() ? std::copysign(0.0f, x) : x;
+  };
+  low = seen(low), high = seen(high);
   // From 0 on, by its sign too: so the sign of what is computed of it is known.
   return {low, high, false, !(low == 0.0f && !std::signbit(low))};
 }
@@ -229,8 +234,9 @@ Known known_by(std::span<const Fact> facts, const Program& program, Accuracy acc
     known.dots.push_back({factors->first, factors->second, range});
     const auto vector = vector_inputs(program, factors->first);
     if (factors->first != factors->second || !vector || range.high < 0) continue;
-    // No component is longer than the vector.
-    const double longest = std::sqrt(range.high) * (1 + 1e-6);
+    // No component is longer than the vector, but for squares that are denormal.
+    const double least = std::numeric_limits<float>::min();
+    const double longest = std::sqrt(std::max(range.high, least)) * (1 + 1e-6);
     for (const std::uint32_t i : *vector) narrow(known.inputs[i], {-longest, longest, false});
   }
   return known;

@@ -36,11 +36,10 @@ class Reader {
       std::uint64_t digest = mix(static_cast<std::uint64_t>(instruction.op), meaning(instruction));
       std::uint32_t depth = 0;
       std::uint64_t both = 0;
-      int left = info(instruction.op).commutes ? 2 : 0;
       for (const ValueId operand : function.operands(instruction)) {
         depth = std::max(depth, made.depth[operand] + 1);
         const std::uint64_t part = made.digest[operand];
-        if (left-- > 0) {
+        if (info(instruction.op).commutes) {
           both += mix(part, 0);
         } else {
           digest = mix(digest, part);

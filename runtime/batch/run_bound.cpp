@@ -205,6 +205,7 @@ class Stage {
 
 bool fits(const Binding& binding, const Batch& batch) {
   return batch.arrays.size() >= binding.arrays &&
+         (batch.arrays.data() != nullptr || batch.arrays.empty()) &&
          (batch.instances != nullptr || !binding.reads_instances);
 }
 

@@ -142,7 +142,7 @@ struct OpInfo {
   std::string_view operands;
   Scalar result;    ///< none also where the instruction itself says (x).
   bool any_result;  ///< The result's type is that of the x operands.
-  bool commutes;    ///< The first two operands may change places.
+  bool commutes;    ///< Two operands may change places.
 };
 
 /// The row of an operation.

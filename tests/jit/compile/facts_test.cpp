@@ -131,6 +131,29 @@ TEST_F(Facts, KeepTheSignsOfZeros) {
   EXPECT_FALSE(std::signbit(found.at("sum")[0]));
 }
 
+// What is computed takes them for zeros, so what is known must too: of a number that is said to be
+// 2^-130 at least, and is 0, more than that would be concluded.
+TEST_F(Facts, TakeDenormalsForZeros) {
+  Recorder recorder;
+  const Float least(recorder.parameter("least", Scalar::f32, 0));
+  const Float x = input(recorder, "v.x"), y = input(recorder, "v.y"), z = input(recorder, "v.z");
+  const Program signs = slice(
+      recorder.program(), "test",
+      std::vector<SliceOutput>{
+          {"sign", select(least > 0.0f, Float(1.0f), Float(0.0f)).ref()},
+          {"same", select(least > 0.0f, least / least, Float(0.0f)).ref()},
+          {"large", select((abs(x) + abs(y) + abs(z)) * 1e20f < 0.5f, x, Float(7.0f)).ref()}});
+  options_.backend = Backend::interpreter;
+  const auto general = compile(signs, options_, service_.get(), diagnostics_, &stages_);
+  const Columns points{{"v.x", {1e-20f, 0.0f}}, {"v.y", {0.0f}}, {"v.z", {0.0f}}};
+  const Columns expected = run(*general, points);
+  for (const double low : {0x1p-149, 0x1p-130, 0x1p-126}) {
+    options_.facts = {{"least", low, 1}, {"dot(v,v)", 0, 0}};
+    const auto kernel = compile(signs, options_, service_.get(), diagnostics_, &stages_);
+    EXPECT_EQ(run(*kernel, points), expected) << low;
+  }
+}
+
 TEST_F(Facts, OfNothingThatIsReadChangeNothing) {
   const auto plain = make({});
   const std::size_t size = this->size();

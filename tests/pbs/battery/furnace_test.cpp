@@ -288,6 +288,28 @@ TEST(Furnace, AlbedoIsCutWhereTheSumIsMoreThanArrives) {
   }
 }
 
+// Nothing is there to reflect light, whether a film may come or not: one of no thickness is none.
+TEST(Furnace, FilmsThatMayComeMakeNoInterface) {
+  const double grazing = 89.5 * std::numbers::pi / 180.0;
+  for (const float index : {1.0009f, 0.9992f}) {
+    Recorder recorder;
+    Surface surface;
+    surface.bsdf = microfacet_bsdf(
+        recorder, "dielectric_bsdf",
+        {{"ior", number(index)},
+         {"roughness", roughness(0.3f, 0.3f)},
+         {"scatter_mode", text("RT")},
+         {"thinfilm_thickness", number(Float(recorder.parameter("film", Scalar::f32, 0)))}});
+    const SurfaceKernels kernels = record_kernels(recorder, surface, Accuracy::standard, {});
+    const auto evaluate =
+        lobe_kernel(slice(recorder.program(), "evaluate", kernels.evaluate), Accuracy::standard);
+    Columns in = view(89.5, 0.0);
+    in["wi.x"] = {static_cast<float>(-std::sin(grazing))};
+    in["wi.z"] = {static_cast<float>(std::cos(grazing))};
+    EXPECT_EQ(run(*evaluate, in).at("f.x")[0], 0.0f) << index;
+  }
+}
+
 TEST(Furnace, WhiteMetalUnderAFilmReturnsAllLight) {
   for (const float thickness : {100.0f, 550.0f, 2000.0f}) {
     for (const float alpha : {0.1f, 0.5f, 1.0f}) {
