@@ -1,6 +1,5 @@
 #include "jit/api/exactness.h"
 
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -68,15 +67,6 @@ std::vector<TunedSubject> by_name(const TuneSubject& subject, const Tuned& tuned
 }
 
 }  // namespace
-
-bool is_exactness_meant(const nacre_compile_options& asked) {
-  // One of a thousand is of a thousand at least.
-  const bool has_points =
-      asked.error_points == 0 || (asked.error_points >= 1000 && asked.error_points <= 1'000'000);
-  return has_points && std::isfinite(asked.max_error) && asked.max_error >= 0 &&
-         asked.error_floor >= 0 && asked.error_floor <= 1 &&
-         (asked.max_error == 0 || asked.profile == nullptr);
-}
 
 bool choose_exactness(const nacre_compile_options& asked, const TuneSubject& subject,
                       ShaderOptions& options, std::shared_ptr<const ShaderError>& error,

@@ -16,9 +16,6 @@ struct ShaderError {
   std::string profile;  ///< Empty: nothing was chosen.
 };
 
-/// Whether what a host asks for says one thing about it.
-bool is_exactness_meant(const nacre_compile_options& asked);
-
 /// Has options of a subject ask for what its profile says, or for the cheapest that keeps the error
 /// that its host allows. False, with a diagnostic, where there is none, or a text cannot be read.
 /// `error`: what was measured, where that was asked for; else null.

@@ -12,6 +12,8 @@
 
 #include "jit/passes/range_arithmetic.h"
 #include "jit/passes/range_dots.h"
+#include "runtime/channel/channel_name.h"
+#include "runtime/channel/channel_table.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/transform.h"
 
@@ -163,6 +165,29 @@ bool check_facts(std::span<const Fact> facts, Diagnostics& diagnostics) {
     }
   }
   return diagnostics.error_count() == errors;
+}
+
+void warn_of_unread(std::span<const Fact> facts, std::span<const Program> programs,
+                    Diagnostics& diagnostics) {
+  const auto is_channel = [](std::string_view name) {
+    return find_channel_group(parse_channel(name).group) != nullptr;
+  };
+  for (const Fact& fact : facts) {
+    Diagnostics of_its_own;
+    const auto factors = factors_of(fact.name);
+    if (!check_facts({&fact, 1}, of_its_own)) continue;
+    if (factors ? is_channel(factors->first) && is_channel(factors->second)
+                : is_channel(fact.name)) {
+      continue;
+    }
+    const auto reads = [&](const Program& program) {
+      return !facts_of({&fact, 1}, program).empty();
+    };
+    if (std::ranges::any_of(programs, reads)) continue;
+    diagnostics.warning("unread-fact", {}, "no kernel reads what a fact is of",
+                        "a channel, a live parameter, or dot(a,b) of two channels",
+                        "'" + fact.name + "'");
+  }
 }
 
 std::vector<Fact> facts_of(std::span<const Fact> facts, const Program& program) {

@@ -39,6 +39,11 @@ struct FactUse {
 /// Whether they can be read; an error for each that cannot.
 bool check_facts(std::span<const Fact> facts, Diagnostics& diagnostics);
 
+/// Says of each that none of the Programs reads, nor could read of other points, that it is of
+/// nothing: a warning.
+void warn_of_unread(std::span<const Fact> facts, std::span<const Program> programs,
+                    Diagnostics& diagnostics);
+
 /// What they say of what a Program reads: a fact for each channel or slot.
 std::vector<Fact> facts_of(std::span<const Fact> facts, const Program& program);
 /// Whether facts_of() has made one of the other.

@@ -42,7 +42,7 @@ class CompiledKernel : public Kernel {
   virtual void when_ended(std::function<void()> call) = 0;
   /// Where the time went. Zeros until ready.
   virtual CompileStats stats() const = 0;
-  /// Why it failed, and warnings about the cache. Empty until ready or failed.
+  /// Why it failed or was given up, and warnings about the cache. Empty while waiting.
   virtual Diagnostics diagnostics() const = 0;
 };
 

@@ -30,14 +30,18 @@ bool CompileJob::join() {
 
 void CompileJob::leave() {
   if (!process_.is_this()) return;
-  const std::scoped_lock lock(mutex_);
-  --interested_;
+  {
+    const std::scoped_lock lock(mutex_);
+    if (--interested_ > 0 || state_ != State::waiting) return;
+    state_ = State::cancelled;
+  }
+  // Calls of when_ended() are left to a thread that compiles: hosts may leave with locks held.
+  ended_.notify_all();
 }
 
 bool CompileJob::unwanted() {
   {
     const std::scoped_lock lock(mutex_);
-    if (state_ == State::waiting && interested_ == 0) state_ = State::cancelled;
     if (state_ == State::waiting) return false;
   }
   tell();
@@ -93,12 +97,13 @@ void CompileJob::end_with(std::shared_ptr<const LoadedCode> code, const CompileS
                           Diagnostics said) {
   {
     const std::scoped_lock lock(mutex_);
-    if (state_ != State::waiting) return;
-    state_ = code != nullptr ? State::ready : State::failed;
-    code_ = std::move(code);
-    stats_ = stats;
-    diagnostics_ = std::move(said);
-    if (code_ != nullptr) entry_.store(code_->entry(), std::memory_order_release);
+    if (state_ == State::waiting) {
+      state_ = code != nullptr ? State::ready : State::failed;
+      code_ = std::move(code);
+      stats_ = stats;
+      diagnostics_ = std::move(said);
+      if (code_ != nullptr) entry_.store(code_->entry(), std::memory_order_release);
+    }
   }
   tell();
 }
@@ -143,7 +148,7 @@ std::optional<ObjectCode> CompileJob::compile(Compiler& compiler, KernelCache* c
 void CompileJob::give_up() {
   {
     const std::scoped_lock lock(mutex_);
-    if (state_ != State::waiting) return;
+    if (state_ != State::waiting && state_ != State::cancelled) return;
     state_ = State::cancelled;
   }
   tell();

@@ -28,7 +28,7 @@ class CompileJob {
 
   /// One more waits for the code. False if the job was given up or has failed.
   bool join();
-  /// One less does.
+  /// One less does. Without any, the job is given up.
   void leave();
 
   /// Takes the code from the cache, if it is there. Before anybody else knows of the job.
@@ -62,7 +62,7 @@ class CompileJob {
   std::shared_ptr<const LoadedCode> make(JitSession& session, Compiler& compiler,
                                          KernelCache* cache, Diagnostics& said,
                                          CompileStats& stats);
-  /// Given up, now or before, because nobody waits for it.
+  /// Whether it was given up, because nobody waits for it.
   bool unwanted();
   /// Tells everybody. Not under the lock.
   void tell();

@@ -66,6 +66,21 @@ std::optional<CompiledKernel::Code> ServiceKernel::code(bool single) const {
   return Code{entry, lanes_, limit_.max_steps()};
 }
 
+CompiledKernel::State ServiceKernel::state() const {
+  const State of_job = job_->state();
+  return of_job == State::waiting && left_ ? State::cancelled : of_job;
+}
+
+Diagnostics ServiceKernel::diagnostics() const {
+  Diagnostics said = job_->diagnostics();
+  if (state() == State::cancelled && said.all().empty()) {
+    said.warning("cancelled", {},
+                 "a kernel is interpreted, because its code was withdrawn before it was there", {},
+                 program_->name);
+  }
+  return said;
+}
+
 void ServiceKernel::cancel() {
   if (!left_.exchange(true)) job_->leave();
 }

@@ -26,13 +26,13 @@ class ServiceKernel final : public CompiledKernel {
   int lanes() const override;
   const char* engine() const override;
 
-  State state() const override { return job_->state(); }
+  State state() const override;
   std::optional<Code> code(bool single) const override;
-  bool wait() const override { return job_->wait(); }
+  bool wait() const override { return left_ ? job_->entry() != nullptr : job_->wait(); }
   void cancel() override;
   void when_ended(std::function<void()> call) override { job_->when_ended(std::move(call)); }
   CompileStats stats() const override { return job_->stats(); }
-  Diagnostics diagnostics() const override { return job_->diagnostics(); }
+  Diagnostics diagnostics() const override;
 
  private:
   std::shared_ptr<const Program> program_;

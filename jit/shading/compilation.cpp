@@ -8,6 +8,7 @@
 
 #include "jit/compile/compile.h"
 #include "jit/compile/fact_kernel.h"
+#include "jit/compile/facts.h"
 #include "jit/compile/lower.h"
 #include "jit/compile/stages.h"
 #include "jit/passes/scale_footprints.h"
@@ -201,6 +202,11 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
   std::vector<std::vector<StageReport>> reports;
   Diagnostics said;
   CompileOptions options = options_.compile;
+  if (!options.facts.empty() && options.backend == Backend::reference) {
+    said.warning("unread-fact", {}, "the reference engine computes as if no facts were known");
+  } else {
+    warn_of_unread(options.facts, programs, said);
+  }
   std::ranges::move(state_facts(programs, options), std::back_inserter(options.facts));
   auto compiled = compile_all(std::move(programs), options, parts_.service.get(), said, &reports);
   add_located(said);

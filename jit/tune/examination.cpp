@@ -81,6 +81,7 @@ std::optional<Examination> examine(const TuneSubject& subject, const TuneTrial& 
   made.points.given.merge(exactly.directions(made.points));
   made.exact = exactly.results(made.points);
   if (!made.exact.empty()) return made;
+  if (exactly.is_stopped()) return std::nullopt;
   diagnostics.error("not-tuned", {.file = {}, .path = subject.text()},
                     "there is nothing to compare", "results at every point",
                     "none, or a kernel that takes too many steps");

@@ -66,6 +66,23 @@ KernelRun::KernelRun(BoundKernel kernel, const Columns& given, std::shared_ptr<c
   }
 }
 
+bool KernelRun::operator()(const Stop& stop) {
+  // What a kernel sums over facets takes a tenth of a millisecond of a point in double precision.
+  constexpr std::size_t points_between_looks = 256;
+  std::vector<const void*> from = inputs_;
+  std::vector<void*> to = outputs_;
+  for (std::size_t first = 0; first < count(); first += points_between_looks) {
+    if (stop.is_due()) return false;
+    for (std::size_t k = 0; k < from.size(); ++k) {
+      from[k] = static_cast<const float*>(inputs_[k]) + first;
+    }
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] = static_cast<float*>(outputs_[k]) + first;
+    const std::size_t some = std::min(points_between_looks, count() - first);
+    if (kernel_.run(from, to, some, parameters_) != RunStatus::done) return false;
+  }
+  return true;
+}
+
 Columns KernelRun::raw_results() const {
   Columns columns;
   for (const Channel& channel : program().outputs) {

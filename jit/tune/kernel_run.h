@@ -9,6 +9,7 @@
 #include "jit/shading/bound_kernel.h"
 #include "jit/tune/error.h"
 #include "jit/tune/points.h"
+#include "runtime/stop.h"
 
 namespace nacre {
 
@@ -26,6 +27,8 @@ class KernelRun {
   bool operator()() {
     return kernel_.run(inputs_, outputs_, points_.count, parameters_) == RunStatus::done;
   }
+  /// The same unless `stop` is due meanwhile.
+  bool operator()(const Stop& stop);
 
   const Kernel& kernel() const { return kernel_.kernel(); }
   std::size_t count() const { return points_.count; }

@@ -1,6 +1,7 @@
 #include "jit/tune/measure.h"
 
 #include "jit/tune/examination.h"
+#include "runtime/report_stop.h"
 
 namespace nacre {
 
@@ -10,7 +11,14 @@ std::optional<MeasuredError> measure_error(const TuneSubject& subject, const Tun
   if (exactly == nullptr) return std::nullopt;
   const auto examination =
       examine(subject, *exactly, options.points, options.recorded.get(), 1, diagnostics);
-  if (!examination) return std::nullopt;
+  const auto is_stopped = [&] {
+    return report_if_due(options.shader.compile.stop, "measuring an error",
+                         {.file = {}, .path = subject.text()}, diagnostics);
+  };
+  if (!examination) {
+    is_stopped();
+    return std::nullopt;
+  }
   // Interpreted: the same bits as compiled, at once.
   ShaderOptions asked = options.shader;
   asked.compile.backend = Backend::interpreter;
@@ -21,9 +29,9 @@ std::optional<MeasuredError> measure_error(const TuneSubject& subject, const Tun
     for (const Diagnostic& each : again.all()) diagnostics.add(each);
     return std::nullopt;
   }
-  return MeasuredError{
-      error_of(trial->results(examination->points), examination->exact, options.metric),
-      examination->about};
+  const Columns found = trial->results(examination->points);
+  if (is_stopped()) return std::nullopt;
+  return MeasuredError{error_of(found, examination->exact, options.metric), examination->about};
 }
 
 }  // namespace nacre

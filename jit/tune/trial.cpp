@@ -35,6 +35,7 @@ std::unique_ptr<TuneTrial> TuneTrial::compile(const TuneSubject& subject,
                                               const ShaderOptions& options,
                                               Diagnostics& diagnostics) {
   std::unique_ptr<TuneTrial> made(new TuneTrial());
+  made->stop_ = options.compile.stop;
   if (subject.is_material) {
     made->material_ = subject.system->compile_material(*subject.document, subject.names.at(0),
                                                        options, diagnostics);
@@ -76,7 +77,7 @@ bool TuneTrial::run_all(const TunePoints& points, F&& use) const {
   Columns given = points.given;
   for (const auto& [name, kernel] : kernels()) {
     KernelRun run(*kernel, given, {}, points.set);
-    if (!run()) return false;
+    if (!run(stop_)) return false;
     if (name == "begin") given.merge(run.raw_results());
     use(name, *kernel, run, given);
   }
@@ -89,7 +90,7 @@ double TuneTrial::cost(const TunePoints& points) const {
                       const Columns& given) {
     if (name == "albedo") return;
     const auto counting = std::make_shared<const CountingKernel>(kernel.program());
-    KernelRun(kernel.with(counting), given, {}, points.set)();
+    KernelRun(kernel.with(counting), given, {}, points.set)(stop_);
     sum += counting->cost();
   });
   return sum;

@@ -46,8 +46,11 @@ class TuneTrial {
   /// What it is: of a material f, albedo, emission, opacity and transmission, and what a medium,
   /// displacement or light is; of an output its channels. Not the densities of directions: they
   /// have no exact values but those that `sample` keeps. Empty where a kernel did not run to its
-  /// end.
+  /// end, as where the stop of what it was compiled by is due.
   Columns results(const TunePoints& points) const;
+
+  /// Whether that is why there are none.
+  bool is_stopped() const { return stop_.is_due(); }
 
   /// Of its kernels, what a renderer gives of each point.
   std::set<std::string> point_channels() const;
@@ -73,6 +76,7 @@ class TuneTrial {
   std::unique_ptr<MaterialKernels> material_;
   std::unique_ptr<OutputKernel> outputs_;
   Digest digest_{};
+  Stop stop_;
 };
 
 }  // namespace nacre

@@ -9,6 +9,7 @@
 
 #include "jit/tune/dimension.h"
 #include "jit/tune/examination.h"
+#include "runtime/report_stop.h"
 
 namespace nacre {
 
@@ -52,7 +53,9 @@ class Tuner {
     Tuned tuned;
     tuned.points = unseen_.about;
     tuned.front = front();
-    tuned.standard = *measured(standard_choices());
+    const Candidate* const standard = measured(standard_choices());
+    if (standard == nullptr) return std::nullopt;
+    tuned.standard = *standard;
     if (!verify(tuned.standard) || !choose(tuned)) return std::nullopt;
     if (options_.seconds_a_kernel > 0 && !time(tuned)) return std::nullopt;
     tuned.is_cut_short = is_cut_short_;
@@ -96,6 +99,7 @@ class Tuner {
       made.programs = trial->digest();
       made.cost = trial->cost(first_of(seen_.points, counted_points));
       made.error = error_at(*trial, seen_);
+      if (trial->is_stopped()) return nullptr;
     }
     made.choices = choices;
     return &candidates_.emplace(choices, made).first->second;
@@ -142,8 +146,9 @@ class Tuner {
     Choices choices = from;
     choices[dimension] = dimensions()[dimension].settings.size() - 1;
     const Candidate* const cheapest = choices == from ? nullptr : measured(choices);
-    if (cheapest == nullptr) return false;
-    if (cheapest->programs != measured(from)->programs) return true;
+    const Candidate* const before = measured(from);
+    if (cheapest == nullptr || before == nullptr) return false;
+    if (cheapest->programs != before->programs) return true;
     candidates_.erase(choices);  // Lest something be asked for that changes nothing.
     return false;
   }
@@ -177,7 +182,7 @@ class Tuner {
     const auto trial = compile(candidate.choices, Backend::interpreter);
     if (trial == nullptr) return false;
     candidate.unseen_error = error_at(*trial, unseen_);
-    return true;
+    return !trial->is_stopped();
   }
 
   bool choose(Tuned& tuned) {
@@ -192,7 +197,9 @@ class Tuner {
       tuned.chosen = each;
       return true;
     }
-    const Error& least = measured(exact_choices())->error;
+    const Candidate* const exact = measured(exact_choices());
+    if (exact == nullptr) return false;
+    const Error& least = exact->error;
     diagnostics_.error("no-such-error", {.file = {}, .path = subject_.text()},
                        "no way to compile this is so exact",
                        fmt::format("an error of {}", options_.max_error),
@@ -243,7 +250,13 @@ class Tuner {
 
 std::optional<Tuned> tune(const TuneSubject& subject, const TuneOptions& options,
                           Diagnostics& diagnostics) {
-  return Tuner(subject, options, diagnostics).run();
+  const std::size_t errors_before = diagnostics.error_count();
+  auto tuned = Tuner(subject, options, diagnostics).run();
+  if (!tuned && diagnostics.error_count() == errors_before) {
+    report_if_due(options.shader.compile.stop, "choosing how exact kernels are",
+                  {.file = {}, .path = subject.text()}, diagnostics);
+  }
+  return tuned;
 }
 
 }  // namespace nacre

@@ -32,6 +32,9 @@ class GraphBuild {
         diagnostics_(diagnostics),
         resolver_(document, definitions, options, diagnostics) {
     for (const VariantChoice& choice : options.variants) check_variant(choice);
+    check_space("working_space", options.working_space.value_or(""));
+    check_space("output_space", options.output_space);
+    check_distance_unit(options.distance_unit);
   }
 
   void add_output(const std::string& name) {
@@ -165,6 +168,25 @@ class GraphBuild {
     const std::string before = slash == std::string::npos ? "" : name.substr(0, slash + 1);
     return near_hint(diagnostics_, name, scope->children(),
                      [&](const Element& each) { return before + std::string(each.name()); });
+  }
+
+  /// Colours would be left as they are.
+  void check_space(const char* option, const std::string& name) {
+    if (name.empty() || name == "none" || resolver_.colors().is_known(name)) return;
+    diagnostics_.error("unknown-colorspace", at_root(document_, option),
+                       "there is no such colour space", "one built in, or of the configuration",
+                       fmt::format("'{}'", name), resolver_.colors().near_space(name));
+  }
+
+  /// Lengths would be left as they are, of a document that has no other.
+  void check_distance_unit(const std::string& name) {
+    if (name == GraphOptions().distance_unit) return;  // What libraries without units have, too.
+    const auto unit = definitions_.unit(name);
+    if (unit && unit->type == "distance") return;
+    diagnostics_.error("unknown-unit", at_root(document_, "distance_unit"),
+                       "there is no such unit of length", "the name of a <unit> of distance",
+                       fmt::format("'{}'", name),
+                       near_hint(diagnostics_, name, definitions_.unit_names()));
   }
 
   void check_variant(const VariantChoice& choice) {

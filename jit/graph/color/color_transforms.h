@@ -24,6 +24,11 @@ class ColorTransforms {
   ColorTransforms(const Document& document, const Definitions& definitions,
                   const GraphOptions& options, Complaints& complaints);
 
+  /// Whether it is the standard's or the configuration's.
+  bool is_known(std::string_view space) const;
+  /// What will have been meant by a space that is not known.
+  std::string near_space(std::string_view name) const;
+
   /// See find_working_space.
   const std::string& working_space() const { return working_space_; }
 
@@ -66,10 +71,6 @@ class ColorTransforms {
   const NodeDef* find_in_config(const ConfigSpaces& spaces, Type type, const Element& user);
   const Transform* transform_of(const NodeDef& def) const;
   void report_none(std::string_view from, std::string_view to, const Element& user);
-  /// Whether it is the standard's or the configuration's.
-  bool is_known(std::string_view space) const;
-  /// What will have been meant by a space that is not known.
-  std::string near_space(std::string_view name) const;
 
   const Definitions& definitions_;
   const std::shared_ptr<const ColorConfig> config_;

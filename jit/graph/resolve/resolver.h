@@ -50,6 +50,7 @@ class Resolver {
   Resolved resolve_input(const Element& node, std::uint32_t index, const Context* context);
   /// A colour as GraphOptions::output_space has it; other results as they are.
   Resolved in_output_space(const Resolved& result, const std::string& name, const Element& user);
+  const ColorTransforms& colors() const { return colors_; }
   /// Null, after an error, for an element that is no instance of anything.
   const NodeDef* nodedef_of(const Element& node) { return implementations_.nodedef_of(node); }
   /// What a graph's ports are resolved in.

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <nacre/nacre.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace nacre {
@@ -109,6 +111,30 @@ TEST(Exactness, NoneIsSaid) {
     FAIL() << "nothing is that exact";
   } catch (const Error& error) {
     EXPECT_EQ(error.diagnostics().at(0).code, "no-such-error") << error.what();
+  }
+}
+
+TEST(Exactness, ThatTakesLongEndsWhenItIsAskedTo) {
+  System system;
+  const Document document = Document::parse(white_metal);
+  for (const bool chooses : {false, true}) {
+    SCOPED_TRACE(chooses ? "chosen" : "measured");
+    StopSource stop;
+    CompileOptions options;
+    options.max_error = chooses ? 1e-3 : 0;
+    options.measure_error = !chooses;
+    options.error_points = 1'000'000;  // Minutes.
+    options.stop = &stop;
+    std::jthread later([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      stop.request();
+    });
+    try {
+      system.compile_material(document, "M", options);
+      ADD_FAILURE() << "it came to its end";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("stopped"), std::string::npos) << error.what();
+    }
   }
 }
 

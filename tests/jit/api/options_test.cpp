@@ -1,6 +1,7 @@
 // What a host may say of how documents are read and compiled.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nacre/nacre.hpp>
 #include <string>
 #include <vector>
@@ -161,20 +162,99 @@ TEST(ApiOptions, AProfileChoosesForWhatItNames) {
   EXPECT_THROW(exp_of_third("{}", said, NACRE_STANDARD), Error);
 }
 
-TEST(ApiOptions, ChoicesThatThereAreNotAreRefused) {
+/// What a check of an empty document says of options.
+std::vector<Diagnostic> refused(System& system, const nacre_compile_options& options) {
   const Document document = Document::parse(R"(<materialx version="1.39"/>)");
+  const detail::Said report;
+  EXPECT_EQ(nacre_check(system.get(), document.get(), &options, report.get()),
+            NACRE_WRONG_ARGUMENTS);
+  return report.all();
+}
+
+nacre_compile_options sized_options() {
+  nacre_compile_options options{};
+  options.size = sizeof options;
+  return options;
+}
+
+TEST(ApiOptions, ChoicesThatThereAreNotAreRefused) {
   System system;
   for (int nacre_compile_options::* choice :
        {&nacre_compile_options::engine, &nacre_compile_options::accuracy,
-        &nacre_compile_options::prefer, &nacre_compile_options::compensation}) {
+        &nacre_compile_options::prefer, &nacre_compile_options::compensation,
+        &nacre_compile_options::side}) {
     for (const int value : {-1, 3}) {
-      nacre_compile_options options{};
-      options.size = sizeof options;
+      nacre_compile_options options = sized_options();
       options.*choice = value;
-      EXPECT_EQ(nacre_check(system.get(), document.get(), &options, nullptr),
-                NACRE_WRONG_ARGUMENTS);
+      EXPECT_EQ(refused(system, options).size(), 1u);
     }
   }
+}
+
+TEST(ApiOptions, WhatMeansNothingIsNamed) {
+  System system;
+  const auto path_of = [&](auto&& change) {
+    nacre_compile_options options = sized_options();
+    change(options);
+    const std::vector<Diagnostic> said = refused(system, options);
+    return said.size() == 1 && said[0].code == "bad-options" ? said[0].path : "not one";
+  };
+  using O = nacre_compile_options;
+  EXPECT_EQ(path_of([](O& o) { o.max_anisotropy = 65; }), "max_anisotropy");
+  EXPECT_EQ(path_of([](O& o) { o.max_anisotropy = -5; }), "max_anisotropy");
+  EXPECT_EQ(path_of([](O& o) { o.side = 2; }), "side");
+  EXPECT_EQ(path_of([](O& o) { o.lobes = 0x100; }), "lobes");
+  EXPECT_EQ(path_of([](O& o) { o.entries = 1u << NACRE_ENTRY_COUNT; }), "entries");
+  EXPECT_EQ(path_of([](O& o) { o.max_seconds = std::nan(""); }), "max_seconds");
+  EXPECT_EQ(path_of([](O& o) { o.max_seconds = -1; }), "max_seconds");
+  EXPECT_EQ(path_of([](O& o) { o.live_count = 1; }), "live");
+  EXPECT_EQ(path_of([](O& o) { o.fact_count = 2; }), "facts");
+  EXPECT_EQ(path_of([](O& o) { o.error_points = 3; }), "error_points");
+}
+
+TEST(ApiOptions, NamesThatNobodyKnowsAreRefused) {
+  System system;
+  const Document document = Document::parse(R"(<materialx version="1.39">
+    <constant name="c" type="float"/></materialx>)");
+  const auto code_of = [&](auto&& change) {
+    CompileOptions options;
+    change(options);
+    try {
+      system.compile_outputs(document, {"c"}, options);
+    } catch (const Error& error) {
+      return error.diagnostics().at(0).code;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(code_of([](CompileOptions& o) { o.working_space = "rec2021"; }), "unknown-colorspace");
+  EXPECT_EQ(code_of([](CompileOptions& o) { o.output_space = "rec2021"; }), "unknown-colorspace");
+  EXPECT_EQ(code_of([](CompileOptions& o) { o.distance_unit = "cubit"; }), "unknown-unit");
+  EXPECT_EQ(code_of([](CompileOptions& o) { o.distance_unit = "degree"; }), "unknown-unit");
+  EXPECT_EQ(code_of([](CompileOptions& o) {
+              o.working_space = "acescg";
+              o.output_space = "srgb_texture";
+              o.distance_unit = "inch";
+            }),
+            "");
+}
+
+TEST(ApiOptions, FactsOfNothingAreSaid) {
+  System system;
+  const Document document = Document::parse(R"(<materialx version="1.39">
+    <constant name="c" type="float"/></materialx>)");
+  const auto codes_of = [&](const std::string& name) {
+    std::vector<Diagnostic> said;
+    CompileOptions options;
+    options.facts = {{name, 0.0, 1.0}};
+    options.live = {"c/value"};
+    system.compile_outputs(document, {"c"}, options, &said);
+    return said.empty() ? std::string() : said[0].code;
+  };
+  EXPECT_EQ(codes_of("nope"), "unread-fact");
+  EXPECT_EQ(codes_of("dot(N,nope)"), "unread-fact");
+  EXPECT_EQ(codes_of("c/value"), "");
+  EXPECT_EQ(codes_of("uv0.x"), "");
+  EXPECT_EQ(codes_of("dot(N,wo)"), "");
 }
 
 }  // namespace
