@@ -169,6 +169,7 @@ void nacre_binding_destroy(nacre_binding* binding) { delete binding; }
 nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
                        const nacre_instance* instance, const nacre_batch* given) {
   if (binding == nullptr || given == nullptr || !has_size(given)) return NACRE_WRONG_ARGUMENTS;
+  if (entry < 0 || entry >= NACRE_ENTRY_COUNT) return NACRE_WRONG_ARGUMENTS;
   const BoundKernel* kernel = binding->data->kernel(entry);
   if (kernel == nullptr) return NACRE_OK;
   if (!binding->entries[entry]) return NACRE_WRONG_ARGUMENTS;

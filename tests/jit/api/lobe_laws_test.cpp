@@ -101,6 +101,19 @@ TEST(LobeLaws, HoldForARightLobe) {
   }
 }
 
+// Its kind is transmission alone, and beyond the critical angle most facets reflect.
+TEST(LobeLaws, HoldWhereFacetsReflectTotally) {
+  LobeTestOptions options;
+  options.wo = {direction(85, 30)};
+  const LobeReport report = report_of(R"(<dielectric_bsdf name="b" type="BSDF">
+    <input name="ior" type="float" value="0.7"/>
+    <input name="roughness" type="vector2" value="0.3, 0.3"/>
+    <input name="scatter_mode" type="string" value="T"/></dielectric_bsdf>)",
+                                      options);
+  EXPECT_EQ(texts(report), "");
+  EXPECT_NEAR(report.views.at(0).energy.at(0), 1, 1e-2);
+}
+
 TEST(LobeLaws, FindWhatIsWrong) {
   Planted gains;
   gains.reflectance = 1.02f;

@@ -33,11 +33,12 @@ struct LobeTestOptions {
 struct LobeFault {
   /// "finite": f, pdf, weights and directions are, and none of the numbers is negative.
   /// "lost": a sample that is not valid has weight and density 0. "unit": wi is. "flags": those of
-  /// the side that wi is on. "sides": most samples are where the lobes' kinds say. "density":
-  /// NACRE_SAMPLE and NACRE_EVALUATE say the same. "weight": f / pdf. "support": f is 0 where pdf
-  /// is. "normalised": pdf integrates to the fraction of valid samples. "samples": they follow the
-  /// density. "light": the mean weight is the integral of f. "energy": no more leaves than arrives.
-  /// "albedo": that is what NACRE_ALBEDO says.
+  /// the side that wi is on. "sides": most samples are where the lobes' kinds say, but that what is
+  /// glossy and transmits may reflect totally. "density": NACRE_SAMPLE and NACRE_EVALUATE say the
+  /// same. "weight": f / pdf. "support": f is 0 where pdf is. "normalised": pdf integrates to the
+  /// fraction of valid samples. "samples": they follow the density. "light": the mean weight is the
+  /// integral of f. "energy": no more leaves than arrives. "albedo": that is what NACRE_ALBEDO
+  /// says.
   std::string law;
   Direction wo;
   double found = 0.0, expected = 0.0;
