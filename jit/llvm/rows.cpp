@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -68,17 +69,44 @@ class Finder {
   bool is_constant(ValueId id) const { return at(id).op == Op::constant; }
   bool is_fixed(ValueId id) const { return once_[id] || is_constant(id); }
 
-  /// Whether it is known to be no less than 0, or NaN.
-  bool is_not_negative(ValueId id) const {
+  /// What is known of a number, unless it is NaN; more than what stands before.
+  enum class Sign { any, not_negative, plus };  ///< The second may be -0.
+
+  /// Of what has been looked at before.
+  Sign sign_of(ValueId id) const {
     const Instruction& instruction = at(id);
-    const auto operand = [&](std::size_t k) { return is_not_negative(instruction.operands[k]); };
+    const auto of = [&](std::size_t k) { return signs_[instruction.operands[k]]; };
+    const auto both = [&](std::size_t a, std::size_t b) { return std::min(of(a), of(b)); };
+    const auto is_above_0 = [&](std::size_t k) {
+      const Instruction& operand = at(instruction.operands[k]);
+      return operand.op == Op::constant && std::bit_cast<float>(operand.imm) > 0.0f;
+    };
+    // x + 0 is x, which may be -0.
+    const auto sum = [&](Sign a, std::size_t k) {
+      const Sign least = std::min(a, of(k));
+      return least != Sign::any && is_above_0(k) ? Sign::plus : least;
+    };
     switch (instruction.op) {
-      case Op::constant: return std::bit_cast<float>(instruction.imm) >= 0.0f;
-      case Op::max: return operand(0) || operand(1);
+      case Op::constant: {
+        const auto number = std::bit_cast<float>(instruction.imm);
+        if (!(number >= 0.0f)) return Sign::any;
+        return std::signbit(number) ? Sign::not_negative : Sign::plus;
+      }
+      case Op::abs: return Sign::plus;
+      case Op::sqrt: return std::max(of(0), Sign::not_negative);
+      case Op::floor: return of(0);
+      case Op::max:
+        if (is_above_0(0) || is_above_0(1)) return Sign::plus;
+        // Of zeros either may be taken.
+        return std::max(both(0, 1), std::min(std::max(of(0), of(1)), Sign::not_negative));
       case Op::min:
-      case Op::mul: return operand(0) && operand(1);
-      case Op::floor: return operand(0);
-      default: return false;
+      case Op::mul: return both(0, 1);
+      case Op::div: return of(1) == Sign::plus ? of(0) : Sign::any;
+      case Op::add: return std::max(sum(of(0), 1), sum(of(1), 0));
+      case Op::fma: return sum(both(0, 1), 2);
+      case Op::select: return both(1, 2);
+      case Op::merge: return both(0, 1);
+      default: return Sign::any;
     }
   }
 
@@ -89,7 +117,7 @@ class Finder {
     if (place.op != Op::min) return std::nullopt;
     for (const std::size_t k : {0u, 1u}) {
       const Instruction& most = at(place.operands[k]);
-      if (most.op != Op::constant || !is_not_negative(place.operands[1 - k])) continue;
+      if (most.op != Op::constant || signs_[place.operands[1 - k]] == Sign::any) continue;
       const auto number = std::bit_cast<float>(most.imm);
       if (number >= 1.0f && number < static_cast<float>(most_numbers)) {
         return static_cast<std::uint32_t>(number);
@@ -143,6 +171,10 @@ class Finder {
   void look_at_all() {
     linear_.resize(entry_.code.size());
     index_.assign(entry_.code.size(), no_value);
+    signs_.assign(entry_.code.size(), Sign::any);
+    for (ValueId id = 0; id < entry_.code.size(); ++id) {
+      if (at(id).type == Scalar::f32) signs_[id] = sign_of(id);
+    }
     for (ValueId id = 0; id < entry_.code.size(); ++id) {
       if (!at(id).varying) continue;
       if (at(id).type == Scalar::i32) linear_[id] = linear_of(id);
@@ -309,6 +341,7 @@ class Finder {
   const std::uint32_t lanes_;
   std::vector<std::optional<Linear>> linear_;
   std::vector<ValueId> index_;
+  std::vector<Sign> signs_;
   std::vector<Read> reads_;
   std::map<ValueId, std::pair<std::uint32_t, std::uint32_t>> row_of_;  ///< And the shift.
   Rows result_;
