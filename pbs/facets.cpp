@@ -8,7 +8,7 @@
 namespace nacre {
 
 LocalView Facets::look(const View& view) const {
-  Frame frame = isotropic ? make_frame(normal) : make_frame(normal, tangent);
+  Frame frame = has_tangent ? make_frame(normal, tangent) : make_frame(normal);
   Float3 wo = frame.to_local(view.wo);
   const Bool below = wo.z < 0.0f;
   // x and y may stay: the lobes are even in both.
@@ -24,9 +24,22 @@ Facets Facets::upright() const {
   return turned;
 }
 
+bool Facets::may_be_equal(const Recorder& recorder) const {
+  return !isotropic && !recorder.is_varying(alpha.x.ref()) && !recorder.is_varying(alpha.y.ref());
+}
+
+Facets Facets::as_equal() const {
+  Facets equal = *this;
+  equal.isotropic = true;
+  equal.has_tangent = false;
+  equal.alpha.y = alpha.x;
+  return equal;
+}
+
 bool have_one_frame(const Facets& a, const Facets& b) {
   return a.distribution == b.distribution && a.isotropic == b.isotropic &&
-         same_value(a.normal, b.normal) && (a.isotropic || same_value(a.tangent, b.tangent));
+         a.has_tangent == b.has_tangent && same_value(a.normal, b.normal) &&
+         (!a.has_tangent || same_value(a.tangent, b.tangent));
 }
 
 FacetDirection Facets::viewer(const View& view, const LocalView& local) const {
@@ -109,7 +122,8 @@ Facets prepare_facets(NodeCall& call) {
           .threshold = threshold,
           .isotropic = isotropic,
           .normal = prepare_facing_normal(recorder, call.vector3("normal")),
-          .tangent = isotropic ? Float3(0.0f) : keep(recorder, call.vector3("tangent"))};
+          .tangent = isotropic ? Float3(0.0f) : keep(recorder, call.vector3("tangent")),
+          .has_tangent = !isotropic};
 }
 
 namespace {

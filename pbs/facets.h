@@ -42,12 +42,22 @@ struct Facets {
   Float2 alpha;     ///< In [threshold, 1]; the same value twice where isotropic.
   Bool delta;       ///< Smooth: both below the threshold. Mirrors, not lobes.
   float threshold;  ///< 1e-4; fast: 1e-3.
-  bool isotropic;   ///< Known while recording: needs no tangent.
+  bool isotropic;   ///< Known while recording, or known of where it is asked: as_equal().
   Float3 normal, tangent;
+  bool has_tangent;  ///< Its frame is that of the tangent.
 
   LocalView look(const View& view) const;
   /// The same where the normal is z and the tangent x.
   Facets upright() const;
+  /// Whether its roughnesses are the same for all points of a call, and not known while recording
+  /// to be equal.
+  bool may_be_equal(const Recorder& recorder) const;
+  /// The same facets where they are.
+  Facets as_equal() const;
+  /// Of what of_either() asks, those whose answers lobes of one frame may share: the likely ones.
+  Facets likely(const Recorder& recorder) const {
+    return may_be_equal(recorder) ? as_equal() : *this;
+  }
   /// As Lobe::roughness.
   Float roughness() const { return select(delta, 0.0f, sqrt(0.5f * (alpha.x + alpha.y))); }
   FacetView table_view(const LocalView& local) const {
@@ -160,6 +170,16 @@ auto choose(Bool condition, A&& a, B&& b) {
   if (condition.is_constant(false)) return b();
   const T other = if_any(!condition, T(), b);
   return if_any(condition, other, a);
+}
+
+/// f(facets), once for equal roughnesses and once for others where both are of a call: equal ones,
+/// as most materials have them, take less.
+template <class F>
+auto of_either(const Recorder& recorder, const Facets& facets, F&& f) {
+  if (!facets.may_be_equal(recorder)) return f(facets);
+  return choose(
+      facets.alpha.x == facets.alpha.y, [&] { return f(facets.as_equal()); },
+      [&] { return f(facets); });
 }
 
 }  // namespace nacre

@@ -147,7 +147,11 @@ LobeValue MicrofacetInterface::evaluate(const View& view, Float3 wi) const {
   const Terms seen = terms(view);
   return choose(
       separate(view), [&] { return evaluate_separate(view, seen, wi); },
-      [&] { return evaluate_joint(view, seen, wi); });
+      [&] {
+        return of_either(*view.recorder, facets_, [&](const Facets& facets) {
+          return evaluate_joint(view, facets, seen, wi);
+        });
+      });
 }
 
 LobeValue MicrofacetInterface::evaluate_separate(const View& view, const Terms& terms,
@@ -161,16 +165,16 @@ LobeValue MicrofacetInterface::evaluate_separate(const View& view, const Terms& 
   return {.f = select(pdf > 0.0f, fma(terms.passing, forth.f, back.f), Color3(0.0f)), .pdf = pdf};
 }
 
-LobeValue MicrofacetInterface::evaluate_joint(const View& view, const Terms& terms,
-                                              Float3 wi_world) const {
-  const LocalView local = facets_.look(view);
-  FacetDirection wi = facets_.direction(local, wi_world);
+LobeValue MicrofacetInterface::evaluate_joint(const View& view, const Facets& facets,
+                                              const Terms& terms, Float3 wi_world) const {
+  const LocalView local = facets.look(view);
+  FacetDirection wi = facets.direction(local, wi_world);
   if (!options_.retroreflective.is_constant(false)) {
     const Bool back = options_.retroreflective & (wi.z > 0.0f);
-    wi.v = select(back, facets_.turned(local, wi).v, wi.v);
+    wi.v = select(back, facets.turned(local, wi).v, wi.v);
   }
   const Float eta = relative_index(fresnel_->index(), local.below);
-  const FacetEvent event = facet_between(local, facets_.viewer(view, local), wi, eta, facets_);
+  const FacetEvent event = facet_between(local, facets.viewer(view, local), wi, eta, facets);
   const Bool reflects = wi.z > 0.0f;
   const Color3 fresnel = fresnel_->at(event.cosine, local.below);
   const Color3 share = select(reflects, fresnel, Color3(1.0f) - fresnel);
@@ -186,7 +190,10 @@ LobeSample MicrofacetInterface::sample(const View& view, Float3 u) const {
   const Terms seen = terms(view);
   return choose(
       separate(view), [&] { return sample_separate(view, seen, u); },
-      [&] { return sample_joint(view, u); });
+      [&] {
+        return of_either(*view.recorder, facets_,
+                         [&](const Facets& facets) { return sample_joint(view, facets, u); });
+      });
 }
 
 LobeSample MicrofacetInterface::sample_separate(const View& view, const Terms& terms,
@@ -207,9 +214,10 @@ LobeSample MicrofacetInterface::sample_separate(const View& view, const Terms& t
   return sample;
 }
 
-LobeSample MicrofacetInterface::sample_joint(const View& view, Float3 u) const {
-  const LocalView local = facets_.look(view);
-  const Float3 h = facets_.sample_visible(*view.recorder, local.wo, u.x, u.y);
+LobeSample MicrofacetInterface::sample_joint(const View& view, const Facets& facets,
+                                             Float3 u) const {
+  const LocalView local = facets.look(view);
+  const Float3 h = facets.sample_visible(*view.recorder, local.wo, u.x, u.y);
   const Float cosine = saturate(dot(local.wo, h));
   const Float eta = relative_index(fresnel_->index(), local.below);
   const Refraction bent = refract(local.wo, h, cosine, eta);

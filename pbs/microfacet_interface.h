@@ -58,9 +58,10 @@ class MicrofacetInterface final : public Lobe {
   /// facets' mean is known.
   Bool is_absent() const;
   LobeValue evaluate_separate(const View& view, const Terms& terms, Float3 wi) const;
-  LobeValue evaluate_joint(const View& view, const Terms& terms, Float3 wi) const;
+  LobeValue evaluate_joint(const View& view, const Facets& facets, const Terms& terms,
+                           Float3 wi) const;
   LobeSample sample_separate(const View& view, const Terms& terms, Float3 u) const;
-  LobeSample sample_joint(const View& view, Float3 u) const;
+  LobeSample sample_joint(const View& view, const Facets& facets, Float3 u) const;
   Float3 turned(Float3 wi) const;
 
   Facets facets_;

@@ -78,42 +78,50 @@ struct MicrofacetReflection::Pair {
   Float cosine;  ///< Of either to the facet between them, in [0, 1].
 };
 
-MicrofacetReflection::Pair MicrofacetReflection::pair(const View& view, const LocalView& local,
+MicrofacetReflection::Pair MicrofacetReflection::pair(const View& view, const Facets& facets,
+                                                      const LocalView& local,
                                                       Float3 wi_world) const {
-  FacetDirection wi = facets_.direction(local, wi_world);
+  FacetDirection wi = facets.direction(local, wi_world);
   // A lobe that is turned half round the normal sends light back.
   if (!options_.retroreflective.is_constant(false)) {
-    wi.v = select(options_.retroreflective, facets_.turned(local, wi).v, wi.v);
+    wi.v = select(options_.retroreflective, facets.turned(local, wi).v, wi.v);
   }
-  const HalfVector half = facets_.between(local, facets_.viewer(view, local), wi);
+  const HalfVector half = facets.between(local, facets.viewer(view, local), wi);
   return {wi, half, min(0.5f * sqrt(half.length2), 1.0f)};
 }
 
 void MicrofacetReflection::share_view(const View& view) const {
   const Float3 wo = facets_.look(view).wo;
-  (void)facets_.root(wo);
-  (void)facets_.bound(wo);
+  const Facets facets = facets_.likely(*view.recorder);
+  (void)facets.root(wo);
+  (void)facets.bound(wo);
 }
 
 void MicrofacetReflection::share_direction(const View& view, Float3 wi) const {
-  (void)pair(view, facets_.look(view), wi);
+  (void)pair(view, facets_.likely(*view.recorder), facets_.look(view), wi);
 }
 
-LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi_world) const {
+LobeValue MicrofacetReflection::evaluate(const View& view, Float3 wi) const {
   const Terms terms = this->terms(view);
-  const LocalView local = facets_.look(view);
+  return of_either(*view.recorder, facets_,
+                   [&](const Facets& facets) { return evaluate(view, facets, terms, wi); });
+}
+
+LobeValue MicrofacetReflection::evaluate(const View& view, const Facets& facets, const Terms& terms,
+                                         Float3 wi_world) const {
+  const LocalView local = facets.look(view);
   const Float3 wo = local.wo;
-  const auto [wi, half, cosine] = pair(view, local, wi_world);
-  const Float root = facets_.root(wo);
-  const Float half_d = facets_.density(half, 0.5f);
+  const auto [wi, half, cosine] = pair(view, facets, local, wi_world);
+  const Float root = facets.root(wo);
+  const Float half_d = facets.density(half, 0.5f);
   // Density and f over their common denominator: one division.
-  const Float seen_from = max(fma(facets_.bound(wo), wo.z, root), 1e-12f);
-  const Float both = max(fma(wi.z, root, wo.z * facets_.root(wi)), 1e-24f);
+  const Float seen_from = max(fma(facets.bound(wo), wo.z, root), 1e-12f);
+  const Float both = max(fma(wi.z, root, wo.z * facets.root(wi)), 1e-24f);
   const Float over = half_d / (seen_from * both);
   const Float pdf = over * both;
   // Below 1e-8 the half-way vector of two grazing directions is rounding.
   const Bool seen =
-      (min(wo.z, wi.z) > 0.0f) & (half.length2 > 1e-8f) & (pdf > 0.0f) & !facets_.delta;
+      (min(wo.z, wi.z) > 0.0f) & (half.length2 > 1e-8f) & (pdf > 0.0f) & !facets.delta;
   const Float f = over * seen_from * wi.z;
   const Bool inside = local.below & !view.thin_walled;
   const Color3 colour = options_.tint * fresnel_->at(cosine, inside) * terms.factor;
@@ -132,16 +140,18 @@ LobeSample sample_along(const LocalView& local, Float3 wi) {
 
 }  // namespace
 
-LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u, Bool back) {
-  const LocalView local = facets.look(view);
-  const Float3 wo = local.wo;
-  const Float3 h = facets.sample_reflecting(*view.recorder, wo, u.x, u.y);
-  const Float3 mirrored{-wo.x, -wo.y, wo.z};
-  const Float3 wi = select(facets.delta, mirrored, reflect_about(wo, h));
-  const Float3 sent{select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};
-  LobeSample sample = sample_along(local, sent);
-  sample.delta = facets.delta;
-  if (!facets.delta.is_constant(false)) sample.delta_probability = 1.0f;
+LobeSample sample_reflection(const Facets& all, const View& view, Float3 u, Bool back) {
+  LobeSample sample = of_either(*view.recorder, all, [&](const Facets& facets) {
+    const LocalView local = facets.look(view);
+    const Float3 wo = local.wo;
+    const Float3 h = facets.sample_reflecting(*view.recorder, wo, u.x, u.y);
+    const Float3 mirrored{-wo.x, -wo.y, wo.z};
+    const Float3 wi = select(facets.delta, mirrored, reflect_about(wo, h));
+    const Float3 sent{select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};
+    return sample_along(local, sent);
+  });
+  sample.delta = all.delta;
+  if (!all.delta.is_constant(false)) sample.delta_probability = 1.0f;
   return sample;
 }
 

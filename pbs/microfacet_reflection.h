@@ -8,7 +8,7 @@ namespace nacre {
 
 /// A direction that facets reflect a view to, or send it `back`; of smooth ones without
 /// LobeSample::delta_weight.
-LobeSample sample_reflection(const Facets& facets, const View& view, Float3 u, Bool back = false);
+LobeSample sample_reflection(const Facets& all, const View& view, Float3 u, Bool back = false);
 
 /// Light reflected once by GGX facets, scaled up for what several reflections
 /// bring back (pbs/energy.h). Smooth surfaces are mirrors. Reciprocal but for
@@ -72,7 +72,8 @@ class MicrofacetReflection final : public Lobe {
   std::optional<Terms> tabulated(const View& view) const;
   Terms terms(const View& view) const;
   struct Pair;
-  Pair pair(const View& view, const LocalView& local, Float3 wi_world) const;
+  Pair pair(const View& view, const Facets& facets, const LocalView& local, Float3 wi_world) const;
+  LobeValue evaluate(const View& view, const Facets& facets, const Terms& terms, Float3 wi) const;
 
   Facets facets_;
   FacetFresnelPtr fresnel_;

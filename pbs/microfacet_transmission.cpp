@@ -120,8 +120,9 @@ void MicrofacetTransmission::prepare(const View& view, Bool mask) const {
 
 void MicrofacetTransmission::share_view(const View& view) const {
   const Float3 wo = facets_.look(view).wo;
-  if (!view.thin_walled.is_constant(true)) (void)facets_.root(wo);
-  if (!view.thin_walled.is_constant(false)) (void)thin_facets_.root(wo);
+  const Recorder& recorder = *view.recorder;
+  if (!view.thin_walled.is_constant(true)) (void)facets_.likely(recorder).root(wo);
+  if (!view.thin_walled.is_constant(false)) (void)thin_facets_.likely(recorder).root(wo);
 }
 
 Bool MicrofacetTransmission::delta(const View&) const { return facets_.delta | straight_; }
@@ -129,16 +130,19 @@ Bool MicrofacetTransmission::delta(const View&) const { return facets_.delta | s
 LobeValue MicrofacetTransmission::evaluate(const View& view, Float3 wi_world) const {
   const Terms terms = terms_.get(view, [&] { return compute(view); });
   const LocalView local = facets_.look(view);
-  const FacetDirection wo = facets_.viewer(view, local);
-  const FacetDirection wi = facets_.direction(local, wi_world);
-  const Bool crosses = wi.z < 0.0f;
+  const Bool crosses = dot(wi_world, local.frame.z) < 0.0f;
   const Float eta = relative_index(index_, local.below);
+  const auto event_of = [&](const Facets& all, bool is_thin) {
+    return of_either(*view.recorder, all, [&](const Facets& facets) {
+      const FacetDirection wo = facets.viewer(view, local);
+      const FacetDirection wi = facets.direction(local, wi_world);
+      return is_thin ? facet_between(local, wo, facets.mirrored(local, wi), 1.0f, facets)
+                     : facet_between(local, wo, wi, eta, facets);
+    });
+  };
   const FacetEvent event = choose(
-      view.thin_walled,
-      [&] {
-        return facet_between(local, wo, thin_facets_.mirrored(local, wi), 1.0f, thin_facets_);
-      },
-      [&] { return facet_between(local, wo, wi, eta, facets_); });
+      view.thin_walled, [&] { return event_of(thin_facets_, true); },
+      [&] { return event_of(facets_, false); });
   const Bool turns = (!view.thin_walled) & totally_reflected(event.cosine, eta);
   const Float share = select(crosses, 1.0f, select(turns, terms.turned, 0.0f));
   const Bool seen = event.possible & !delta(view);
@@ -148,31 +152,37 @@ LobeValue MicrofacetTransmission::evaluate(const View& view, Float3 wi_world) co
 
 LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
   const Terms terms = terms_.get(view, [&] { return compute(view); });
-  const LocalView local = facets_.look(view);
-  const Float3 wo = local.wo;
-  const Refraction chosen = choose(
-      view.thin_walled,
-      [&] {
-        const Float3 h = thin_facets_.sample_visible(*view.recorder, wo, u.x, u.y);
-        const Float3 wi = reflect(wo, h);
-        const Float3 through = select(delta(view), -wo, Float3(wi.x, wi.y, -wi.z));
-        return Refraction{through, through.z < 0.0f};
-      },
-      [&] {
-        const Float3 rough = facets_.sample_visible(*view.recorder, wo, u.x, u.y);
-        const Float3 h = select(facets_.delta, Float3(0.0f, 0.0f, 1.0f), rough);
-        const Float eta = relative_index(index_, local.below);
-        const Float cosine = saturate(dot(wo, h));
-        const Refraction bent = refract(wo, h, cosine, eta);
-        const Float3 back = reflect(wo, h);
-        const Bool turns = totally_reflected(cosine, eta) & (back.z > 0.0f) &
-                           (facets_.delta | (u.z < terms.turned));
-        return Refraction{select(straight_, -wo, select(turns, back, bent.wi)),
-                          straight_ | turns | bent.possible};
-      });
-  const Float3 world = local.frame.to_world(chosen.wi);
-  LobeSample sample{
-      .wi = world, .valid = (wo.z > 0.0f) & chosen.possible & is_unit(world), .delta = delta(view)};
+  const auto along = [&](const LocalView& local, const Refraction& chosen) {
+    const Float3 world = local.frame.to_world(chosen.wi);
+    return LobeSample{.wi = world, .valid = (local.wo.z > 0.0f) & chosen.possible & is_unit(world)};
+  };
+  const auto through_wall = [&](const Facets& facets) {
+    const LocalView local = facets.look(view);
+    const Float3 wo = local.wo;
+    const Float3 h = facets.sample_visible(*view.recorder, wo, u.x, u.y);
+    const Float3 wi = reflect(wo, h);
+    const Float3 through = select(delta(view), -wo, Float3(wi.x, wi.y, -wi.z));
+    return along(local, {through, through.z < 0.0f});
+  };
+  const auto bent_by = [&](const Facets& facets) {
+    const LocalView local = facets.look(view);
+    const Float3 wo = local.wo;
+    const Float3 rough = facets.sample_visible(*view.recorder, wo, u.x, u.y);
+    const Float3 h = select(facets.delta, Float3(0.0f, 0.0f, 1.0f), rough);
+    const Float eta = relative_index(index_, local.below);
+    const Float cosine = saturate(dot(wo, h));
+    const Refraction bent = refract(wo, h, cosine, eta);
+    const Float3 back = reflect(wo, h);
+    const Bool turns =
+        totally_reflected(cosine, eta) & (back.z > 0.0f) & (facets.delta | (u.z < terms.turned));
+    return along(local, {select(straight_, -wo, select(turns, back, bent.wi)),
+                         straight_ | turns | bent.possible});
+  };
+  const Recorder& recorder = *view.recorder;
+  LobeSample sample = choose(
+      view.thin_walled, [&] { return of_either(recorder, thin_facets_, through_wall); },
+      [&] { return of_either(recorder, facets_, bent_by); });
+  sample.delta = delta(view);
   if (!sample.delta.is_constant(false)) {
     sample.delta_weight = tint_;
     sample.delta_probability = 1.0f;

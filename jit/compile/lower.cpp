@@ -17,6 +17,7 @@
 #include "jit/passes/expand_math.h"
 #include "jit/passes/flatten.h"
 #include "jit/passes/scale_footprints.h"
+#include "jit/passes/sink.h"
 #include "jit/passes/tabulate/tabulate.h"
 #include "runtime/float_environment.h"
 
@@ -182,6 +183,7 @@ Program lower_to_engine(Program program, const CompileOptions& options,
     passes.run("check",
                [&](const Program& p) { return with_check(p, facts, options.max_instructions); });
   }
+  passes.run("sink", sink);
   Program made = scale();
   if (options.all_varying && !is_too_large(made, options) && !options.stop.is_due()) {
     mark_varying(made, true);
