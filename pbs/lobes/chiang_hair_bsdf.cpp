@@ -86,6 +86,9 @@ Turn select(Bool condition, Turn a, Turn b) {
   return {nacre::select(condition, a.cosine, b.cosine), nacre::select(condition, a.sine, b.sine)};
 }
 
+/// What lies less across the fibre has no azimuth.
+constexpr float least_across = 1e-6f;
+
 /// A direction by the fibre: its elevation from the plane across, and what is in that plane.
 struct Along {
   Float sine, cosine;
@@ -131,7 +134,11 @@ class ChiangHair final : public Lobe {
   LobeValue evaluate(const View& view, Float3 wi_world) const override {
     const Terms terms = get(view);
     const Along wi = along(frame(view), wi_world);
-    const Turn turn = Turn{wi.y, wi.z} + -terms.across;
+    // Along the fibre it has no azimuth but that of its rounding, which is another in each kernel of
+    // `fast`: one is taken, as of wo.
+    const Bool is_across = wi.cosine > least_across;
+    const Turn turn =
+        Turn{select(is_across, wi.y, 0.0f), select(is_across, wi.z, 1.0f)} + -terms.across;
     const std::array exits = exits_of(terms);
     Color3 f = Color3(0.0f);
     Float pdf = 0.0f;
@@ -241,7 +248,7 @@ class ChiangHair final : public Lobe {
     const Along wo = along(frame(view), view.wo);
     Terms terms;
     terms.sine = wo.sine, terms.cosine = wo.cosine;
-    const Bool is_across = wo.cosine > 1e-6f;
+    const Bool is_across = wo.cosine > least_across;
     terms.across = {select(is_across, wo.y / wo.cosine, 0.0f),
                     select(is_across, wo.z / wo.cosine, 1.0f)};
     // Across the fibre light bends as if the index were larger: Bravais (Marschner et al. 2003).

@@ -32,10 +32,16 @@ class GraphBuild {
         diagnostics_(diagnostics),
         resolver_(document, definitions, options, diagnostics) {
     for (const VariantChoice& choice : options.variants) check_variant(choice);
+    const std::size_t errors = diagnostics.error_count();
     check_space("working_space", options.working_space.value_or(""));
     check_space("output_space", options.output_space);
     check_distance_unit(options.distance_unit);
+    knows_options_ = diagnostics.error_count() == errors;
   }
+
+  /// Whether there are the spaces and the unit that were asked for. Else nothing is worth adding:
+  /// all that is converted would be an error again.
+  bool knows_options() const { return knows_options_; }
 
   void add_output(const std::string& name) {
     const Element* element = find_element(document_, name);
@@ -274,6 +280,7 @@ class GraphBuild {
   const Definitions& definitions_;
   Diagnostics& diagnostics_;
   Resolver resolver_;
+  bool knows_options_ = false;
 };
 
 }  // namespace
@@ -283,6 +290,7 @@ std::optional<Graph> build_graph(const Document& document, const Definitions& de
                                  Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.error_count();
   GraphBuild build(document, definitions, options, diagnostics);
+  if (!build.knows_options()) return std::nullopt;
   for (const std::string& name : request.outputs) build.add_output(name);
   if (!request.material.empty()) build.add_material(request.material);
   for (const std::string& name : request.values) build.add_value(name);
@@ -315,6 +323,7 @@ void try_all_graphs(const Document& document, const Definitions& definitions,
     return build && (build->fullness() > 1 || done > most ||
                      diagnostics.error_count() - errors > most_errors);
   };
+  if (!renewed().knows_options()) return;
   for (const FoundMaterial& material : find_materials(document)) {
     if (is_hopeless()) return;
     renewed().add_material(material.name);

@@ -18,6 +18,21 @@ const NodeDefInput& disable_input() {
   return input;
 }
 
+/// Where a person finds what a node is there for: in the document, at what a graph of a library
+/// stands for, with the path of the node in it.
+SourceLocation place_of(const Instance& instance, const Document& document) {
+  const Instance* shown = &instance;
+  while (&shown->origin->document() != &document) {
+    const Context* context = shown->context;
+    while (context != nullptr && context->instance == nullptr) context = context->parent;
+    if (context == nullptr) break;
+    shown = context->instance;
+  }
+  SourceLocation where = location(*shown->origin);
+  if (shown != &instance) where.path = instance.path;
+  return where;
+}
+
 }  // namespace
 
 std::optional<Resolver::Key> Resolver::step_node(Task& task) {
@@ -31,7 +46,7 @@ std::optional<Resolver::Key> Resolver::step_node(Task& task) {
   node.category = def.category;
   node.nodedef = def.name;
   node.path = instance.path;
-  node.where = location(*instance.origin);
+  node.where = place_of(instance, document_);
   for (std::uint32_t i = 0; i < def.inputs.size(); ++i) {
     const Resolved& result = slots_.at({Kind::input, i, &instance, nullptr}).result;
     if (result.failed) task.result.failed = true;

@@ -401,5 +401,34 @@ TEST(BuildGraph, ParametersCarryTheirInterface) {
   EXPECT_EQ(roughness.where.line, 2 + 1);
 }
 
+// Who reads an error knows no graph of a library, but the node that it stands for.
+TEST(BuildGraph, NodesOfLibraryGraphsAreShownInTheDocument) {
+  const Graph graph = graph_of(R"(<tiledimage name="wall" type="color3">
+                                    <input name="file" type="filename" value="wall.png"/>
+                                  </tiledimage>
+                                  <nodegraph name="NG"><add name="sum" type="color3">
+                                      <input name="in1" type="color3" nodename="own"/></add>
+                                    <constant name="own" type="color3"/>
+                                    <output name="out" type="color3" nodename="sum"/></nodegraph>
+                                  <output name="out" type="color3" nodename="wall"/>)",
+                               {"out", "NG/out"});
+  bool has_image = false;
+  for (const GraphNode& node : graph.nodes) {
+    const bool is_own = node.path == "NG/sum" || node.path == "NG/own";
+    if (!is_own) {
+      EXPECT_EQ(node.where.line, 2) << node.path;
+    }
+    if (node.category == "image") {
+      has_image = true;
+      EXPECT_TRUE(node.path.starts_with("wall/")) << node.path;
+      EXPECT_EQ(node.where.path, node.path);
+    }
+    if (node.path == "NG/sum") {
+      EXPECT_EQ(node.where.line, 5);
+    }
+  }
+  EXPECT_TRUE(has_image);
+}
+
 }  // namespace
 }  // namespace nacre
