@@ -85,13 +85,13 @@ class Places {
       case Op::texture_call:
       case Op::result:
       case Op::keep:
-      case Op::store: return false;
+      case Op::store:
+      // Neighbours are read together, which no region is to part.
+      case Op::table:
+      case Op::texel: return false;
       default: return instruction.varying && !is_structural(instruction.op);
     }
   }
-  /// Look-ups are too dear to be made twice.
-  static bool may_be_copied(Op op) { return op != Op::table && op != Op::texel; }
-
   /// Where a user wants an operand to be.
   void add_wanted(ValueId user, ValueId operand, std::vector<RegionId>& wanted) const {
     const Instruction& instruction = at(user);
@@ -133,9 +133,7 @@ class Places {
     if (!may_move(at(id)) || uses_[id].empty()) return {home};
     std::vector<RegionId> wanted;
     for (const ValueId user : uses_[id]) add_wanted(user, id, wanted);
-    const RegionId one = innermost(home, wanted);
-    if (!may_be_copied(at(id).op)) return {one};
-    return copies(one, wanted);
+    return copies(innermost(home, wanted), wanted);
   }
 
   /// In each of the regions in `from` in which something is wanted.

@@ -134,8 +134,8 @@ class ChiangHair final : public Lobe {
   LobeValue evaluate(const View& view, Float3 wi_world) const override {
     const Terms terms = get(view);
     const Along wi = along(frame(view), wi_world);
-    // Along the fibre it has no azimuth but that of its rounding, which is another in each kernel of
-    // `fast`: one is taken, as of wo.
+    // Along the fibre it has no azimuth but that of its rounding, which is another in each kernel
+    // of `fast`: one is taken, as of wo.
     const Bool is_across = wi.cosine > least_across;
     const Turn turn =
         Turn{select(is_across, wi.y, 0.0f), select(is_across, wi.z, 1.0f)} + -terms.across;

@@ -20,9 +20,10 @@ namespace nacre {
 namespace {
 
 /// A Program that begins with inputs x and y and parameters p and q.
-Program program_of(const std::string& body) {
+Program program_of(const std::string& body, const std::string& tables) {
   const std::string text =
-      "program test\nparameter f32 p = 1\nparameter f32 q = 1\nentry\n"
+      "program test\nparameter f32 p = 1\nparameter f32 q = 1\n" + tables +
+      "entry\n"
       "  %0 = f32 input x\n  %1 = f32 input y\n  %2 = f32 param p\n  %3 = f32 param q\n" +
       body;
   Diagnostics diagnostics;
@@ -32,8 +33,8 @@ Program program_of(const std::string& body) {
 }
 
 /// The entry, an operation a word: "input if_any( mul merge ) store".
-std::string sunk(const std::string& body) {
-  const Program result = sink(program_of(body));
+std::string sunk(const std::string& body, const std::string& tables = "") {
+  const Program result = sink(program_of(body, tables));
   EXPECT_EQ(verify(result), "");
   std::string words;
   for (const Instruction& instruction : result.entry().code) {
@@ -145,6 +146,23 @@ TEST(Sink, NothingIsComputedAgainInEachRoundOfALoop) {
   store z %10
 )"),
             "input input mul loop( carry add lt next again ) store");
+}
+
+TEST(Sink, NeighboursInATableAreReadTogether) {
+  const std::string body = R"(  %4 = i32 f_to_i %0
+  %5 = i32 const 1
+  %6 = i32 iadd %4 %5
+  %7 = f32 table steps %4
+  %8 = f32 table steps %6
+  %9 = b1 lt %7 %2
+  if_any %9
+    %11 = f32 sqrt %8
+    %12 = f32 merge %11 %7
+  end_if
+  store z %12
+)";
+  EXPECT_EQ(sunk(body, "table steps = 1 2 3\n"),
+            "input input f_to_i iadd table table lt if_any( sqrt merge ) store");
 }
 
 TEST(Sink, WhatIsOfACallStays) {
