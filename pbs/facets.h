@@ -123,8 +123,8 @@ class FacetFresnel {
   /// 0 in channels of which nothing is reflected at any angle; above it in others.
   virtual Color3 presence() const { return Color3(1.0f); }
   /// Its mean over the light that a surface reflects to a view.
-  Color3 mean(Recorder& recorder, const FacetReflection& reflection, const FacetView& view,
-              Bool inside) const;
+  Color3 mean(Recorder& recorder, Accuracy accuracy, const FacetReflection& reflection,
+              const FacetView& view, Bool inside) const;
   /// Index of the inside relative to the outside, for lobes that transmit.
   virtual Float index() const { return 1.0f; }
   /// Whether light from the denser side is totally reflected beyond the critical

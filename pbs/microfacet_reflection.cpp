@@ -17,7 +17,7 @@ FacetReflection MicrofacetReflection::facets(const View& view) const {
 Color3 MicrofacetReflection::mean_fresnel(const View& view, const FacetReflection& perfect) const {
   const LocalView local = facets_.look(view);
   const Bool inside = local.below & !view.thin_walled;
-  return fresnel_->mean(*view.recorder, perfect, facets_.table_view(local), inside);
+  return fresnel_->mean(*view.recorder, view.accuracy, perfect, facets_.table_view(local), inside);
 }
 
 MicrofacetReflection::Terms MicrofacetReflection::compute(const View& view,
