@@ -193,8 +193,11 @@ std::array<FacetReflection, 2> spread(Recorder& recorder, const FacetReflection&
   const auto of_half = [&](Float FacetReflection::* half) {
     const Float y = 1.0f - reflection.*half;
     const Float apart = max(reflection.*half - steep.*half, 0.0f) * (1.0f - view.stretch);
-    const Float mean = fma(apart, -4.4f / 4.6f, y);
-    const Float s = safe_sqrt((2.0f / 4.6f) * (y * apart));
+    // At grazing both roots are nearly one number, of which tables know too little: no spread is
+    // wider than that of all cosines from 0 to twice this one.
+    const Float s2 = min((2.0f / 4.6f) * (y * apart), square(reflection.*half) * (1.0f / 3.0f));
+    const Float mean = fma(s2, -2.2f / max(y, 0.05f), y);
+    const Float s = sqrt(s2);
     sides[0].*half = saturate(1.0f - (mean + s));
     sides[1].*half = saturate(1.0f - (mean - s));
   };

@@ -54,5 +54,21 @@ TEST(FurnaceFilms, AnyFilmKeepsTheLight) {
   }
 }
 
+// All that there is to see at grazing is the film's, which is a mirror there: no base below it is
+// to be brighter than the light, however little the tables know of facets so near to smooth.
+TEST(FurnaceFilms, OnNothingMakeNoLightAtGrazing) {
+  for (const float index : {1.001f, 1.003f, 1.05f}) {
+    const Furnace over_white([&](Recorder& r) {
+      const Film film{.alpha = 0.01f, .index = index, .thickness = 550.0f, .film_index = 1.3f};
+      return std::make_shared<LayerBsdf>(under_film(r, film, "R"), white_diffuse(r));
+    });
+    for (const double angle : {88.0, 89.0, 89.5, 89.9, 89.99}) {
+      const double light = over_white.light(angle, 30.0, 1 << 16);
+      EXPECT_LE(light, 1.02) << index << " angle " << angle;
+      EXPECT_GE(light, 0.95) << index << " angle " << angle;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nacre
