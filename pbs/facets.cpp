@@ -27,7 +27,9 @@ Facets Facets::upright() const {
 }
 
 bool Facets::may_be_equal(const Recorder& recorder) const {
-  return !isotropic && !recorder.is_varying(alpha.x.ref()) && !recorder.is_varying(alpha.y.ref());
+  const bool is_known = alpha.x.is_constant() && alpha.y.is_constant();
+  return !isotropic && !is_known && !recorder.is_varying(alpha.x.ref()) &&
+         !recorder.is_varying(alpha.y.ref());
 }
 
 Facets Facets::as_equal() const {

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "jit/api/call.h"
-#include "jit/api/exactness.h"
 #include "jit/api/handles.h"
 #include "jit/graph/look/look.h"
 
@@ -37,11 +36,11 @@ GraphOptions graph_options(const nacre_compile_options& asked, const Document& d
   if (asked.distance_unit != nullptr) options.distance_unit = asked.distance_unit;
   if (asked.has_frame != 0) options.frame = asked.frame;
   options.prefer = preferences.at(static_cast<std::size_t>(asked.prefer));
-  for (std::size_t i = 0; asked.names != nullptr && i < asked.name_count; ++i) {
+  for (std::size_t i = 0; i < asked.name_count; ++i) {
     options.host_attributes[text_or_empty(asked.names[i].name)] =
         text_or_empty(asked.names[i].text);
   }
-  for (std::size_t i = 0; asked.variants != nullptr && i < asked.variant_count; ++i) {
+  for (std::size_t i = 0; i < asked.variant_count; ++i) {
     options.variants.push_back(
         {text_or_empty(asked.variants[i].set), text_or_empty(asked.variants[i].variant)});
   }
@@ -178,7 +177,7 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   if (asked.max_instructions != 0) options.compile.max_instructions = asked.max_instructions;
   if (asked.max_steps != 0) options.compile.max_steps = asked.max_steps;
   if (asked.max_seconds > 0) options.compile.max_seconds = asked.max_seconds;
-  for (std::size_t i = 0; asked.facts != nullptr && i < asked.fact_count; ++i) {
+  for (std::size_t i = 0; i < asked.fact_count; ++i) {
     const nacre_fact& fact = asked.facts[i];
     options.compile.facts.push_back({text_or_empty(fact.name), fact.minimum, fact.maximum});
   }

@@ -11,6 +11,7 @@
 #include "jit/compile/facts.h"
 #include "jit/compile/lower.h"
 #include "jit/compile/stages.h"
+#include "jit/graph/find.h"
 #include "jit/passes/scale_footprints.h"
 #include "jit/record/leaves.h"
 #include "jit/record/pattern.h"
@@ -56,6 +57,12 @@ Compilation::Compilation(const SystemParts& parts, ShaderOptions options, Diagno
       errors_before_(diagnostics.error_count()) {}
 
 std::optional<Graph> Compilation::build(const Document& document, const GraphRequest& request) {
+  // Of a parameter of the document another of its materials may be known.
+  unfound_facts_ = options_.compile.facts;
+  std::erase_if(unfound_facts_, [&](const Fact& fact) {
+    const std::size_t slash = fact.name.rfind('/');
+    return slash != std::string::npos && find_element(document, fact.name.substr(0, slash));
+  });
   return Stages(&stages_).run(
       "graph", [&] { return parts_.build(document, request, options_, diagnostics_); },
       [&](const std::optional<Graph>& graph, StageReport& report) {
@@ -205,7 +212,7 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
   if (!options.facts.empty() && options.backend == Backend::reference) {
     said.warning("unread-fact", {}, "the reference engine computes as if no facts were known");
   } else {
-    warn_of_unread(options.facts, programs, said);
+    warn_of_unread(unfound_facts_, programs, said);
   }
   std::ranges::move(state_facts(programs, options), std::back_inserter(options.facts));
   auto compiled = compile_all(std::move(programs), options, parts_.service.get(), said, &reports);

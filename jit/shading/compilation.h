@@ -91,8 +91,9 @@ class Compilation {
   std::shared_ptr<RecordedTextures> textures_;
   SourceLocation where_;  ///< Of what is compiled.
   std::vector<StageReport> stages_;
-  std::vector<FactUse> facts_;  ///< Of all kernels.
-  std::size_t errors_before_;   ///< What was wrong before there was anything to compile.
+  std::vector<FactUse> facts_;       ///< Of all kernels.
+  std::vector<Fact> unfound_facts_;  ///< Those of no node of the document.
+  std::size_t errors_before_;        ///< What was wrong before there was anything to compile.
 };
 
 }  // namespace nacre

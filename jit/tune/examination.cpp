@@ -50,6 +50,7 @@ std::unique_ptr<TuneTrial> compile_exactly(const TuneSubject& subject, ShaderOpt
                                            Diagnostics& diagnostics) {
   apply_choices(exact_choices(), options);
   options.compile.backend = Backend::reference;
+  options.compile.facts.clear();  // They change no number.
   options.compile.asynchronous = false;
   return TuneTrial::compile(subject, options, diagnostics);
 }

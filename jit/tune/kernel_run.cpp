@@ -67,7 +67,7 @@ KernelRun::KernelRun(BoundKernel kernel, const Columns& given, std::shared_ptr<c
 }
 
 bool KernelRun::operator()(const Stop& stop) {
-  // What a kernel sums over facets takes a tenth of a millisecond of a point in double precision.
+  // What a kernel sums over facets takes long for each point in double precision.
   constexpr std::size_t points_between_looks = 256;
   std::vector<const void*> from = inputs_;
   std::vector<void*> to = outputs_;

@@ -45,7 +45,8 @@ class Tuner {
       : subject_(subject), options_(options), diagnostics_(diagnostics) {}
 
   std::optional<Tuned> run() {
-    const auto exactly = compile(exact_choices(), Backend::reference);
+    const auto exactly = compile_exactly(subject_, options_.shader, diagnostics_);
+    has_said_ = true;
     if (exactly == nullptr || !examine(*exactly, 0, seen_) || !examine(*exactly, 1, unseen_) ||
         !measure_all()) {
       return std::nullopt;

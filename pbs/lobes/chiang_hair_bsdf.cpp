@@ -192,8 +192,8 @@ class ChiangHair final : public Lobe {
     const Float logistic = clamp(s * log(q / (1.0f - q)), -pi, pi);
     const Float from_exit = select(uniform, 2.0f * pi * rest, logistic);
     Turn out = terms.across + exit + Turn{cos(from_exit), sin(from_exit)};
-    // In `fast` it is shorter than 1 by up to 4e-5, and so would be all that is across the fibre:
-    // light would leave nearer to it, by a thirtieth of the narrowest lobe.
+    // In `fast` it is not of length 1, nor would be what is across the fibre: light would leave
+    // nearer to it than the density says (narrow_test.cpp has by how much of the narrowest lobe).
     if (view.accuracy == Accuracy::fast) out = out.unit();
     const Float3 local{sin_i, cos_i * out.cosine, cos_i * out.sine};
     const Float3 wi = frame(view).to_world(local);

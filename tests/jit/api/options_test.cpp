@@ -241,7 +241,7 @@ TEST(ApiOptions, NamesThatNobodyKnowsAreRefused) {
 TEST(ApiOptions, FactsOfNothingAreSaid) {
   System system;
   const Document document = Document::parse(R"(<materialx version="1.39">
-    <constant name="c" type="float"/></materialx>)");
+    <constant name="c" type="float"/><sin name="other" type="float"/></materialx>)");
   const auto codes_of = [&](const std::string& name) {
     std::vector<Diagnostic> said;
     CompileOptions options;
@@ -253,8 +253,29 @@ TEST(ApiOptions, FactsOfNothingAreSaid) {
   EXPECT_EQ(codes_of("nope"), "unread-fact");
   EXPECT_EQ(codes_of("dot(N,nope)"), "unread-fact");
   EXPECT_EQ(codes_of("c/value"), "");
+  EXPECT_EQ(codes_of("other/in"), "");  // Of what another kernel of the document may read.
+  EXPECT_EQ(codes_of("nowhere/in"), "unread-fact");
   EXPECT_EQ(codes_of("uv0.x"), "");
   EXPECT_EQ(codes_of("dot(N,wo)"), "");
+}
+
+TEST(ApiOptions, EntriesThatThereAreNotAreNotRun) {
+  System system;
+  const Document document = Document::parse(R"(<materialx version="1.39">
+    <constant name="c" type="float"/></materialx>)");
+  const Shader shader = system.compile_outputs(document, {"c"});
+  Binder binder;
+  binder.array("c", {.array = 0, .stride = sizeof(float)});
+  const Binding binding(binder, shader);
+  nacre_batch batch{};
+  batch.size = sizeof batch;
+  for (const int entry : {-1, static_cast<int>(NACRE_ENTRY_COUNT), 99}) {
+    EXPECT_EQ(nacre_run(binding.get(), static_cast<nacre_entry>(entry), nullptr, &batch),
+              NACRE_WRONG_ARGUMENTS)
+        << entry;
+  }
+  // One that a shader of outputs lacks computes nothing.
+  EXPECT_EQ(nacre_run(binding.get(), NACRE_EMISSION, nullptr, &batch), NACRE_OK);
 }
 
 }  // namespace
