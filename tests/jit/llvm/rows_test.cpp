@@ -103,6 +103,45 @@ TEST(Rows, AreFoundWhereOneAxisVaries) {
 }
 
 /// Two tables of one index, whose nodes lie other ways apart: a node further is no place further.
+/// Whether there is a row where a look-up is at a coordinate that is never above 1.
+bool has_row(Float (*coordinate)(Float x, Float y)) {
+  constexpr int nodes = 8;
+  Recorder recorder;
+  const Float x = input(recorder, "x"), y = input(recorder, "y");
+  const Float p(recorder.parameter("p", Scalar::f32, 0));
+  const std::uint32_t table = recorder.table("table", table_values(nodes));
+  const Float place = coordinate(x, y) * Float(nodes - 1.0f);
+  const Float first = min(floor(place), Float(nodes - 2.0f));
+  const Int base = to_int(first) + to_int(p) * Int(nodes);
+  const auto entry = [&](int offset) {
+    const Ref index = (base + Int(offset)).ref();
+    return Float(recorder.emit(Op::table, std::span(&index, 1), table));
+  };
+  const Float found =
+      lerp(lerp(entry(0), entry(nodes), p), lerp(entry(1), entry(nodes + 1), p), place - first);
+  Program program = slice(recorder.program(), "rows", std::vector<SliceOutput>{{"z", found.ref()}});
+  mark_varying(program);
+  return !rows_of(program).rows.empty();
+}
+
+// Clamps that change nothing are left out of kernels, so what keeps an index from being negative is
+// read off what it is computed of.
+TEST(Rows, AreFoundWhereNoClampSaysThatAnIndexIsNotNegative) {
+  EXPECT_TRUE(has_row([](Float x, Float) { return min(max(x, 0.0f), 1.0f); }));
+  EXPECT_TRUE(has_row([](Float x, Float) { return min(abs(x), 1.0f); }));
+  EXPECT_TRUE(has_row([](Float x, Float) { return min(sqrt(x), 1.0f); }));
+  EXPECT_TRUE(
+      has_row([](Float x, Float y) { return min(abs(x) / max(abs(x) + abs(y), 1e-3f), 1.0f); }));
+  EXPECT_TRUE(
+      has_row([](Float x, Float y) { return min(abs(x) / fma(abs(x), abs(y), 0.5f), 1.0f); }));
+  EXPECT_TRUE(has_row(
+      [](Float x, Float y) { return min(if_any(x < y, abs(x), [&] { return abs(y); }), 1.0f); }));
+  EXPECT_FALSE(has_row([](Float x, Float) { return min(x, 1.0f); }));
+  // -0 makes -infinity of what it divides.
+  EXPECT_FALSE(has_row([](Float x, Float y) { return min(abs(x) / max(y, 0.0f), 1.0f); }));
+  EXPECT_FALSE(has_row([](Float x, Float y) { return min(fma(x, abs(y), 0.5f), 1.0f); }));
+}
+
 TEST(Rows, OfTablesWithOtherStridesAreApart) {
   Recorder recorder;
   const Cell of_x = cell(input(recorder, "x"), 24);
