@@ -104,6 +104,13 @@ PRESERVING = [
          node("chiang_hair_bsdf", "vector3 absorption_coefficient 0, 0, 0")),
 ]
 
+# Name, nodes, the one that has the film, the viewer's side.
+UNDER_FILMS = [
+    ("dielectric_bsdf R over white", over_white(dielectric(1.5, "R", *FILM, name="top")), "top", 1),
+    ("dielectric_bsdf RT, from outside", dielectric(1.5, "RT", *FILM), "lobe", 1),
+    ("dielectric_bsdf RT, from inside", dielectric(1.5, "RT", *FILM), "lobe", -1),
+]
+
 WHITE = "color3 base_color 1, 1, 1"
 MODELS = [
     Case("burley_diffuse_bsdf, roughness 1",
@@ -214,7 +221,9 @@ def model_rows(system: nacre.System, say) -> list:
 
 
 def film_rows(system: nacre.System, say) -> list:
-    rows = furnace_films.rows(system, roberts(furnace_films.SAMPLES), say)
+    cases = [(name, DOCUMENT.format(nodes=(nodes + SURFACE).format(x=0.3, y=0.3)), node_of_film, side)
+             for name, nodes, node_of_film, side in UNDER_FILMS]
+    rows = furnace_films.rows(system, cases, ACCURACIES, roberts(SAMPLES), say)
     return [[name, *(f"{both((low, high))}, {share(off)}"
                      for low, high, off in zip(cells[::3], cells[1::3], cells[2::3]))]
             for name, *cells in rows]

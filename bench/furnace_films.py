@@ -4,39 +4,8 @@ import nacre
 import numpy
 
 FILMS = 500
-SAMPLES = 1 << 16
 ANGLES = (0, 30, 60, 75, 80, 85, 88, 89.5)
-ACCURACIES = ("fast", "standard", "precise")
 VARIED = ("ior", "roughness", "thinfilm_thickness", "thinfilm_ior")
-
-DIELECTRIC = """
-  <dielectric_bsdf name="film" type="BSDF">
-    <input name="roughness" type="vector2" value="0.3, 0.3" />
-    <input name="thinfilm_thickness" type="float" value="300" />
-    <input name="scatter_mode" type="string" value="{mode}" />
-  </dielectric_bsdf>"""
-OVER_WHITE = """
-  <oren_nayar_diffuse_bsdf name="paper" type="BSDF">
-    <input name="color" type="color3" value="1, 1, 1" />
-  </oren_nayar_diffuse_bsdf>
-  <layer name="lobe" type="BSDF">
-    <input name="top" type="BSDF" nodename="film" />
-    <input name="base" type="BSDF" nodename="paper" />
-  </layer>"""
-DOCUMENT = """<?xml version="1.0"?>
-<materialx version="1.39" colorspace="lin_rec709">{nodes}
-  <surface name="S" type="surfaceshader">
-    <input name="bsdf" type="BSDF" nodename="{lobe}" />
-  </surface>
-  <surfacematerial name="M" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="S" />
-  </surfacematerial>
-</materialx>
-"""
-# Name, nodes, which of them scatters, the viewer's side.
-CASES = (("dielectric_bsdf R over white", DIELECTRIC.format(mode="R") + OVER_WHITE, "lobe", 1),
-         ("dielectric_bsdf RT, from outside", DIELECTRIC.format(mode="RT"), "film", 1),
-         ("dielectric_bsdf RT, from inside", DIELECTRIC.format(mode="RT"), "film", -1))
 
 
 def films():
@@ -47,13 +16,13 @@ def films():
                random.uniform(20.0, 1500.0), random.uniform(1.1, 2.5), random.choice(ANGLES))
 
 
-def lights(system: nacre.System, nodes: str, lobe: str, side: int, accuracy: str, u) -> numpy.ndarray:
-    """What comes back of each channel under each film."""
-    slots = [f"film/{name}" for name in VARIED]
+def lights(system: nacre.System, document: str, node: str, side: int, accuracy: str,
+           u) -> numpy.ndarray:
+    """What comes back of each channel under each film, which is that of a node of the document."""
+    slots = [f"{node}/{name}" for name in VARIED]
     shader = system.compile_material(
-        nacre.Document.parse(DOCUMENT.format(nodes=nodes, lobe=lobe)), "M", no_footprints=True,
-        accuracy=accuracy, live=slots, varying=slots,
-        entries=[nacre.Entry.BEGIN, nacre.Entry.SAMPLE])
+        nacre.Document.parse(document), "M", no_footprints=True, accuracy=accuracy, live=slots,
+        varying=slots, entries=[nacre.Entry.BEGIN, nacre.Entry.SAMPLE])
     found = []
     for alpha, index, thickness, film_index, angle in films():
         theta = numpy.radians(angle)
@@ -66,14 +35,15 @@ def lights(system: nacre.System, nodes: str, lobe: str, side: int, accuracy: str
     return numpy.array(found)
 
 
-def rows(system: nacre.System, u, say) -> list:
-    """Of each closure and accuracy the least and the most, and what a hundredth is beyond."""
+def rows(system: nacre.System, cases, accuracies, u, say) -> list:
+    """Of each case (name, document, node with the film, the viewer's side) by accuracy the least
+    and the most, and what a hundredth is beyond."""
     table = []
-    for name, nodes, lobe, side in CASES:
+    for name, document, node, side in cases:
         cells = [name]
-        for accuracy in ACCURACIES:
+        for accuracy in accuracies:
             say(f"{name}, films, {accuracy}")
-            found = lights(system, nodes, lobe, side, accuracy, u)
+            found = lights(system, document, node, side, accuracy, u)
             off = numpy.quantile(numpy.abs(found - 1.0).max(axis=1), 0.99)
             cells += [found.min(), found.max(), off]
         table.append(cells)
