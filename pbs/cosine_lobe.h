@@ -25,10 +25,13 @@ class CosineLobe : public Lobe {
   LobeSample sample(const View& view, Float3 u) const final;
   Float3 normal(const View&) const final { return normal_; }
   Float roughness(const View&) const final { return 1.0f; }
+  std::optional<Color3> share(const View& view, Float3 wi) const final {
+    return scattered(view, wi);
+  }
 
  protected:
   /// What of the light along wi is scattered towards wo: f over that density.
-  virtual Color3 share(const View& view, Float3 wi) const = 0;
+  virtual Color3 scattered(const View& view, Float3 wi) const = 0;
   /// The normal on the side that the light comes from.
   Float3 axis(const View& view) const;
 
@@ -47,7 +50,7 @@ class LambertLobe final : public CosineLobe {
   Color3 albedo(const View&) const override { return saturate(color_); }
 
  private:
-  Color3 share(const View&, Float3) const override { return color_; }
+  Color3 scattered(const View&, Float3) const override { return color_; }
 
   Color3 color_;
 };

@@ -283,13 +283,15 @@ class SurfaceRecorder {
   void finish_sample(const LobeSample& chosen, Int lobe, Color3 weight, Float probability) {
     // A step of Newton's: lobes give unit vectors up to the errors of frames and of fast sines.
     const Float3 wi = chosen.wi * Float3(fma(-0.5f, dot(chosen.wi, chosen.wi), 1.5f));
+    const Bool found = chosen.valid & is_unit(chosen.wi);
     const Total total = evaluate(view_, scattering_, wi);
-    const Bool smooth = chosen.valid & !chosen.delta & (total.pdf > 0.0f);
+    const Bool smooth = found & !chosen.delta & (total.pdf > 0.0f);
     const Float chance = chosen.delta_probability * probability;
-    const Bool delta = chosen.valid & chosen.delta & (chance > 0.0f);
+    const Bool delta = found & chosen.delta & (chance > 0.0f);
     const Bool valid = smooth | delta;
     const Float inverse = 1.0f / total.pdf;
-    const Color3 ratio = select(smooth, total.f * Color3(inverse), Color3(0.0f));
+    const Color3 known = weight_alone(wi).value_or(total.f * Color3(inverse));
+    const Color3 ratio = select(smooth, known, Color3(0.0f));
     Color3 discrete = chosen.delta_weight * weight * Color3(1.0f / probability);
     if (request_.transport) discrete = discrete * Color3(delta_transport(lobe, wi));
     const Color3 out = select(delta, discrete, ratio);
@@ -326,6 +328,17 @@ class SurfaceRecorder {
           select(smooth, total.by_lobe[i] * Color3(inverse), select(mine, discrete, Color3(0.0f)));
       add_color(kernels_.sample, "weight.lobe" + std::to_string(i), part);
     }
+  }
+
+  /// Of a sample of a lobe that is alone, whole and says so: it is always chosen.
+  std::optional<Color3> weight_alone(Float3 wi) const {
+    if (scattering_.size() != 1 || request_.transport || request_.by_lobe) return std::nullopt;
+    const Term& term = scattering_.front();
+    const ScopedOrigin origin(recorder_, term.origin);
+    const bool is_whole = term.weight.x.is_constant(1.0f) && term.weight.y.is_constant(1.0f) &&
+                          term.weight.z.is_constant(1.0f);
+    if (!is_whole) return std::nullopt;
+    return term.lobe->share(wanting(view_, term), wi);
   }
 
   /// The mean alpha of that lobe's facets; 0 where it has none.

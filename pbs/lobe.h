@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "pbs/vdf.h"
@@ -34,7 +35,7 @@ struct LobeValue {
 
 /// A direction that a lobe chose.
 struct LobeSample {
-  Float3 wi;           ///< Unit, world space; anything where not valid.
+  Float3 wi;           ///< World space; the sample is lost where is_unit() does not hold.
   Bool valid;          ///< False: the sample is lost (its energy is, too).
   Bool delta = false;  ///< wi is one of finitely many directions; evaluate() gives 0 there.
   /// Only where delta: f cos / probability of the choice made with u.
@@ -93,6 +94,10 @@ class Lobe {
   /// @}
   /// u: three independent numbers in [0, 1).
   virtual LobeSample sample(const View& view, Float3 u) const = 0;
+  /// f over pdf, where that is less to compute than either; else nothing.
+  virtual std::optional<Color3> share(const View& view, Float3 wi) const {
+    return (void)view, (void)wi, std::nullopt;
+  }
   /// Facets that sample() reflects about, whatever else the lobe is; null of other lobes.
   virtual const Facets* reflecting_facets() const { return nullptr; }
   /// LobeSample::delta_weight of such a lobe where it is smooth.

@@ -226,7 +226,7 @@ LobeSample MicrofacetInterface::sample_joint(const View& view, const Facets& fac
   const Bool reflects = u.z < reflection_probability(view, fresnel);
   const Float3 world = local.frame.to_world(select(reflects, mirrored, bent.wi));
   const Bool possible = select(reflects, mirrored.z > 0.0f, bent.possible);
-  return {.wi = world, .valid = (local.wo.z > 0.0f) & possible & is_unit(world)};
+  return {.wi = world, .valid = (local.wo.z > 0.0f) & possible};
 }
 
 Color3 MicrofacetInterface::albedo(const View&) const { return options_.tint; }

@@ -134,8 +134,7 @@ namespace {
 
 /// A direction in the frame of facets, where it is above them.
 LobeSample sample_along(const LocalView& local, Float3 wi) {
-  const Float3 world = local.frame.to_world(wi);
-  return {.wi = world, .valid = (local.wo.z > 0.0f) & (wi.z > 0.0f) & is_unit(world)};
+  return {.wi = local.frame.to_world(wi), .valid = (local.wo.z > 0.0f) & (wi.z > 0.0f)};
 }
 
 }  // namespace

@@ -153,8 +153,8 @@ LobeValue MicrofacetTransmission::evaluate(const View& view, Float3 wi_world) co
 LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
   const Terms terms = terms_.get(view, [&] { return compute(view); });
   const auto along = [&](const LocalView& local, const Refraction& chosen) {
-    const Float3 world = local.frame.to_world(chosen.wi);
-    return LobeSample{.wi = world, .valid = (local.wo.z > 0.0f) & chosen.possible & is_unit(world)};
+    return LobeSample{.wi = local.frame.to_world(chosen.wi),
+                      .valid = (local.wo.z > 0.0f) & chosen.possible};
   };
   const auto through_wall = [&](const Facets& facets) {
     const LocalView local = facets.look(view);

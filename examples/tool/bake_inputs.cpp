@@ -80,6 +80,7 @@ Facts facts_of(const CommonOptions& options) {
     facts["lanes"] = fmt::format("{}", options.lanes);
     for (const Fact& fact : options.facts) facts["facts"] += to_string(fact) + "; ";
   }
+  if (options.fade_noise) facts["fade-noise"] = "yes";
   facts["missing-images"] =
       options.missing_images == MissingImages::error ? "error" : "use_default";
   facts["prefer"] = name_of(options.graph_limits.prefer);

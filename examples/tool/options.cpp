@@ -165,6 +165,9 @@ void CommonOptions::add_exactness(CLI::App& command) {
                   "How much longer than wide a pixel may be on an image without blur; 1: no care")
       ->check(CLI::Range(1, largest_anisotropy))
       ->capture_default_str();
+  command.add_flag("--fade-noise", fade_noise,
+                   "Noise fades where a pixel covers its cells: less flicker, and octaves that "
+                   "nobody can see cost nothing");
   command.option_defaults()->group("Options");
 }
 
@@ -194,7 +197,7 @@ void CommonOptions::add_profile(CLI::App& command) {
           .add_option("--profile", profile,
                       "What `nacre tune` chose for the materials and outputs of this document")
           ->type_name("FILE.json");
-  for (const char* chosen : {"--accuracy", "--anisotropy", "--compensation"}) {
+  for (const char* chosen : {"--accuracy", "--anisotropy", "--compensation", "--fade-noise"}) {
     if (CLI::Option* const other = command.get_option_no_throw(chosen)) option->excludes(other);
   }
   command.option_defaults()->group("Options");
@@ -236,6 +239,7 @@ ShaderOptions CommonOptions::shader_options() const {
   options.compile.stop = stop();
   options.compile.asynchronous = begins_at_once && options.compile.backend == Backend::jit;
   options.max_anisotropy = anisotropy;
+  options.fade_noise = fade_noise;
   options.graph.prefer = graph_limits.prefer;
   options.graph.lenient = !strict;
   options.graph.max_nodes = graph_limits.max_nodes;

@@ -39,6 +39,7 @@ struct CommonOptions {
   std::string ocio;  ///< A file, or "env".
   int lanes = 0;
   int anisotropy = default_anisotropy;
+  bool fade_noise = false;
   int threads = 0;
   bool no_cache = false;
   bool compile_here = false;

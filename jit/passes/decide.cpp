@@ -94,8 +94,12 @@ class Decider {
   /// Which of its operands it is, if that is certain.
   std::optional<std::size_t> same_as(const Instruction& x) const {
     switch (x.op) {
-      case Op::min: return chosen(of(x, 0), of(x, 1), of(x, 0), of(x, 1));
-      case Op::max: return chosen(of(x, 0), of(x, 1), of(x, 1), of(x, 0));
+      case Op::min:
+        if (const auto least = end_of_multiples(x)) return 1 - *least;
+        return chosen(of(x, 0), of(x, 1), of(x, 0), of(x, 1));
+      case Op::max:
+        if (const auto most = end_of_multiples(x)) return most;
+        return chosen(of(x, 0), of(x, 1), of(x, 1), of(x, 0));
       case Op::abs:
         if (!of(x, 0).nan && is_positive(of(x, 0))) return 0;
         return std::nullopt;
@@ -114,6 +118,25 @@ class Decider {
         return std::nullopt;
       default: return std::nullopt;
     }
+  }
+
+  /// Which operand is larger of two that are one number times others of known order, as what passes
+  /// to a base is times the channels of its colour.
+  std::optional<std::size_t> end_of_multiples(const Instruction& x) const {
+    const Instruction& a = code_[x.operands[0]];
+    const Instruction& b = code_[x.operands[1]];
+    if (a.op != Op::mul || b.op != Op::mul) return std::nullopt;
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Range& common = of(a, i);
+        if (a.operands[i] != b.operands[k] || common.nan || !is_positive(common)) continue;
+        const Range &of_a = of(a, 1 - i), &of_b = of(b, 1 - k);
+        if (!is_positive(of_a) || !is_positive(of_b) || !common.is_bounded()) continue;
+        if (is_at_most(of_b, of_a) == true) return 0;
+        if (is_at_most(of_a, of_b) == true) return 1;
+      }
+    }
+    return std::nullopt;
   }
 
   /// Whether the product of both is 0, of either sign.

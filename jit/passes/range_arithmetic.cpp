@@ -163,7 +163,10 @@ Range exponential(const Range& a) {
 
 Range of_table(const Table& table) {
   const auto [low, high] = std::ranges::minmax(table.values);
-  return std::isfinite(low) && std::isfinite(high) ? rounded(low, high) : Range{};
+  if (!std::isfinite(low) || !std::isfinite(high)) return {};
+  // Nothing rounds what stands there, but what is denormal counts as 0.
+  const auto stands = [](float x) { return x == 0 || std::isnormal(x); };
+  return stands(low) && stands(high) ? Range{low, high, false} : rounded(low, high);
 }
 
 Range of_signed(const Range& a) {

@@ -262,8 +262,10 @@ class GraphRecorder {
 
   NodeCall make_call(const GraphNode& node, Ports inputs, Ports outputs) {
     if (options_.before_node) options_.before_node(node);
-    return NodeCall(recorder_, node.category, node.nodedef, std::move(inputs), std::move(outputs),
-                    options_.accuracy, options_.textures, diagnostics_, node.where);
+    NodeCall call(recorder_, node.category, node.nodedef, std::move(inputs), std::move(outputs),
+                  options_.accuracy, options_.textures, diagnostics_, node.where);
+    call.fade_noise(options_.fade_noise);
+    return call;
   }
 
   Ports record(const GraphNode& node, const NodeBody& body, Ports inputs, Ports outputs) {

@@ -42,6 +42,8 @@ struct RecordOptions {
   bool lazy = true;
   /// Told which node is recorded next; may be null.
   std::function<void(const GraphNode& node)> before_node = {};
+  /// See ShaderOptions.
+  bool fade_noise = false;
   /// A graph that leads to more is refused.
   std::size_t max_instructions = 500'000;
   /// A graph that takes more for each pass of points, every loop counted for one round, is

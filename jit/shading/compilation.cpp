@@ -115,6 +115,7 @@ RecordOptions Compilation::record_options(const FileRoots& roots) {
           .holds_lobes = options_.holds_lobes,
           .lazy = options_.lazy,
           .before_node = [this](const GraphNode& node) { textures_->asked_by(node.where); },
+          .fade_noise = options_.fade_noise && options_.footprints,
           .max_instructions = options_.compile.max_instructions,
           .max_steps = options_.compile.max_steps,
           .resolve_file =

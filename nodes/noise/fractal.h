@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "nodes/noise/fade.h"
 #include "nodes/noise/perlin.h"
 #include "nodes/noise/record_noise.h"
 #include "runtime/node/node_call.h"
@@ -39,30 +41,34 @@ struct FractalState {
   P p;
   Float amplitude;
   R sum;
+  std::optional<Float> covered;  ///< See covered() (fade.h); nothing where noise does not fade.
 };
 template <class P, class R, class F>
 void visit(FractalState<P, R>& s, F&& f) {
   visit(s.p, f);
   visit(s.amplitude, f);
   visit(s.sum, f);
+  if (s.covered) visit(*s.covered, f);
 }
 
 /// Sum over i < count of diminish^i noise(lacunarity^i p); 0 for no octaves. R is
-/// Float or Float3. A literal count is written out, another one loops.
+/// Float or Float3. A literal count is written out, another one loops. Where noise `fades`, octaves
+/// do by the footprint of p, and those of which nothing is left are not computed.
 template <class R, class P, class Noise>
-R fractal(Recorder& recorder, P p, const Octaves& octaves, Noise&& noise) {
-  FractalState<P, R> state{p, 1.0f, R(0.0f)};
+R fractal(Recorder& recorder, P p, const Octaves& octaves, bool fades, Noise&& noise) {
+  FractalState<P, R> state{p, 1.0f, R(0.0f), fades ? std::optional(covered(p)) : std::nullopt};
   const bool is_known = octaves.count.is_constant();
   const int most = is_known ? std::min(octaves.count.constant(), most_octaves) : most_octaves;
   // Infinite coordinates have no noise, nor has an infinite amplitude one where that is 0.
   const bool are_near = stays_finite(octaves.lacunarity, most);
   const bool is_small = stays_finite(octaves.diminish, most);
   const auto octave = [&](FractalState<P, R>& s) {
-    s.sum = s.sum + R(s.amplitude) * noise(s.p);
+    s.sum = s.sum + R(s.amplitude) * faded<R>(s.covered, [&] { return noise(s.p); });
     s.amplitude *= octaves.diminish;
     s.p = scaled(s.p, octaves.lacunarity);
     if (!is_small) s.amplitude = min(0x1p120f, max(-0x1p120f, s.amplitude));  // NaN stays.
     if (!are_near) s.p = within_reach(s.p);
+    if (s.covered) *s.covered *= octaves.lacunarity * octaves.lacunarity;
   };
   if (is_known) {
     for (int i = 0; i < most; ++i) octave(state);

@@ -37,7 +37,7 @@ class BurleyDiffuse final : public CosineLobe {
   Color3 presence(const View&) const override { return color_; }
 
  private:
-  Color3 share(const View& view, Float3 wi) const override {
+  Color3 scattered(const View& view, Float3 wi) const override {
     const Float cos_o = facing_cosine(normal(view), view.wo);
     const Float cos_i = saturate(dot(wi, axis(view)));
     // Squared cosine of half the angle between the two; needs no half-way vector.

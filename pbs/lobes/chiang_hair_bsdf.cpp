@@ -197,7 +197,7 @@ class ChiangHair final : public Lobe {
     if (view.accuracy == Accuracy::fast) out = out.unit();
     const Float3 local{sin_i, cos_i * out.cosine, cos_i * out.sine};
     const Float3 wi = frame(view).to_world(local);
-    return {.wi = wi, .valid = is_unit(wi) & (below > 0.0f)};
+    return {.wi = wi, .valid = below > 0.0f};
   }
 
   Color3 albedo(const View& view) const override {

@@ -90,7 +90,7 @@ class OrenNayar final : public CosineLobe {
   Color3 presence(const View&) const override { return color_; }
 
  private:
-  Color3 share(const View& view, Float3 wi) const override {
+  Color3 scattered(const View& view, Float3 wi) const override {
     const Float cos_o = facing_cosine(normal(view), view.wo);
     const Float cos_i = saturate(dot(wi, axis(view)));
     const Float s = clamp(fma(-cos_i, cos_o, dot(view.wo, wi)), -1.0f, 1.0f);

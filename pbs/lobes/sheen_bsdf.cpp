@@ -95,7 +95,7 @@ class ContyKullaSheen final : public Lobe {
     const Float2 on = on_circle(u.y);
     const Frame frame = facing_frame(normal_, view.wo);
     const Float3 wi = frame.to_world({radius * on.x, radius * on.y, z});
-    return {.wi = wi, .valid = is_unit(wi)};
+    return {.wi = wi, .valid = true};
   }
 
   Color3 albedo(const View& view) const override {
@@ -160,7 +160,7 @@ class ZeltnerSheen final : public Lobe {
     // Of the length that the inverse matrix would give times a: no division by it.
     const Float3 bent = normalize({fma(-terms.b, w.z, w.x), w.y, terms.a * w.z});
     const Float3 wi = frame(view).to_world(bent);
-    return {.wi = wi, .valid = is_unit(wi)};
+    return {.wi = wi, .valid = true};
   }
 
   Color3 albedo(const View& view) const override {

@@ -52,7 +52,7 @@ class SubsurfaceLobe final : public Lobe {
     const Float3 below = -facing(geometric_normal(*view.recorder), view.wo);
     const Float3 wi = make_frame(below).to_world(sample_cosine(u.x, u.y));
     result.wi = select(enters, wi, result.wi);
-    result.valid = is_unit(result.wi);
+    result.valid = true;
     result.delta = enters;
     result.delta_weight = Color3(1.0f);
     result.delta_probability = 1.0f;

@@ -37,6 +37,10 @@ class NodeCall {
   std::string_view nodedef() const { return nodedef_; }
   /// What the closure approximations and tables should aim at.
   Accuracy accuracy() const { return accuracy_; }
+  /// Whether noise fades where a footprint covers its cells (nodes/noise/fade.h).
+  bool fades_noise() const { return fades_noise_; }
+  /// False unless set, by who records graphs.
+  void fade_noise(bool fades) { fades_noise_ = fades; }
   /// Null where the host has no textures.
   TextureProvider* textures() { return textures_; }
   /// Where a body says what it cannot do. An error keeps the kernel from being made.
@@ -104,6 +108,7 @@ class NodeCall {
   std::vector<Port> inputs_;
   std::vector<Port> outputs_;
   Accuracy accuracy_;
+  bool fades_noise_ = false;
   TextureProvider* textures_;
   Diagnostics& diagnostics_;
   SourceLocation where_;

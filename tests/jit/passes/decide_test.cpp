@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -181,6 +182,31 @@ TEST(Decide, NumbersThatAreKnownAreLiterals) {
   const Body product = [](Recorder&, Float x, Float y) { return x * y; };
   EXPECT_TRUE(has(decided(product, {0, 0, false, false}, {-5, 5, false}), "mul"));
   EXPECT_FALSE(has(decided(product, {0, 0, false, false}, {1, 5, false}), "mul"));
+}
+
+TEST(Decide, OfMultiplesOfOneNumberTheOrderIsThatOfTheFactors) {
+  const Body most = [](Recorder&, Float x, Float y) { return max(max(0.2f * x, x * 0.8f), x * y); };
+  const std::string known = decided(most, {0, 1, false, false}, {0.3, 0.5, false});
+  EXPECT_FALSE(has(known, "max") || has(known, "fma")) << known;
+  EXPECT_TRUE(has(known, "mul")) << known;
+  // Below 0 it is the other way round, and a number that may be NaN is not known.
+  EXPECT_TRUE(has(decided(most, {-1, 1, false}, {0.3, 0.5, false}), "max"));
+  EXPECT_TRUE(has(decided(most, {0, 1, true, false}, {0.3, 0.5, false}), "max"));
+  EXPECT_TRUE(has(decided(most, {0, 1, false, false}, {0.3, 0.9, false}), "max"));
+  const Body least = [](Recorder&, Float x, Float) { return min(0.2f * x, x * 0.8f); };
+  EXPECT_FALSE(has(decided(least, {0, 1, false, false}, {}), "min"));
+}
+
+TEST(Decide, TablesOfOneNumberAreLiterals) {
+  const auto text = [](std::vector<float> values) {
+    const Body body = [&](Recorder& recorder, Float x, Float) {
+      const Ref index = recorder.emit(Op::f_to_i, std::array{x.ref()});
+      return Float(recorder.emit(Op::table, std::array{index}, recorder.table("some", values)));
+    };
+    return decided(body, {0, 2, false}, {});
+  };
+  EXPECT_EQ(text({0.4f, 0.4f, 0.4f}).find("table"), std::string::npos);
+  EXPECT_NE(text({0.4f, 0.4f, 0.5f}).find("table"), std::string::npos);
 }
 
 TEST(Decide, WhatIsLeftOutMakesMoreCertain) {

@@ -251,8 +251,7 @@ typedef struct nacre_compile_options {
   uint64_t max_steps;        /* Of a pass of points through a kernel, roughly instructions: more are
                                 NACRE_TOO_MANY_STEPS, or an error if known before. 0: 4,000,000. */
   const nacre_stop* stop;    /* NULL: never. */
-  int prefer; /* Where a nodedef has several implementations: NACRE_BODY, NACRE_GRAPH, NACRE_TEXT.
-               */
+  int prefer; /* Of several implementations of a nodedef: NACRE_BODY, NACRE_GRAPH, NACRE_TEXT. */
   int single_points;     /* 1: code for one point is made too, and taken by batches of one: the same
                             bits, at a fraction of the cost of a pass of many lanes. */
   int energy_conserving; /* 1: what the lobes give together is divided, in each channel, by what of
@@ -272,8 +271,8 @@ typedef struct nacre_compile_options {
                           of images from 1 to the one above, which it is unless set. */
   int compensation;    /* NACRE_COMPENSATE_ALL */
   const char* profile; /* What `nacre tune` wrote, the text: says accuracy, compensation,
-                          max_anisotropy and whether points have footprints, in place of the above,
-                          of materials and outputs that it names. NULL: none. */
+                          max_anisotropy, fade_noise and whether points have footprints, in place of
+                          the above, of materials and outputs that it names. NULL: none. */
   /* Greater than 0: the cheapest kernels whose numbers, but for one of a thousand, are off by no
      more than that, and each by no more than three times that, against double precision with
      everything exact. Found by measuring, which takes seconds, in place of what a profile says;
@@ -289,6 +288,8 @@ typedef struct nacre_compile_options {
                                for. */
   const nacre_fact* facts;  /* Not of NACRE_REFERENCE. */
   size_t fact_count;
+  int fade_noise; /* 1: noise fades where the footprint of a point covers its cells; octaves of
+                     which nothing is left cost nothing. Without footprints nothing fades. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;

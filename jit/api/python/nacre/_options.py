@@ -76,11 +76,14 @@ class CompileOptions(TypedDict, total=False):
     # Parameters change footprints later: footprint_scale multiplies them, max_anisotropy, an int, is
     # at most the one above.
     live_footprints: bool
+    # Noise fades where the footprint of a point covers its cells; octaves of which nothing is left
+    # are not computed.
+    fade_noise: bool
     # Of facets, for what several scatterings between them bring back: "all", of "reflection" alone
     # (rough glass is darker), or "nothing" (rough metals too). What is left out costs nothing.
     compensation: Literal["all", "reflection", "nothing"]
-    # The text of a file that `nacre tune` wrote: says accuracy, compensation, max_anisotropy and
-    # no_footprints of the materials and outputs that it names.
+    # The text of a file that `nacre tune` wrote: says accuracy, compensation, max_anisotropy,
+    # fade_noise and no_footprints of the materials and outputs that it names.
     profile: str
     # In place of all these: the cheapest kernels whose numbers, but for one of a thousand, are off
     # by no more, and each by no more than three times that; found by measuring, which takes
