@@ -339,8 +339,7 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
 }
 
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
-                        const FacetFresnel& fresnel, Bool inside) {
-  const Float eta = relative_index(fresnel.index(), inside);
+                        const FacetFresnel& fresnel, Float eta, Bool inside) {
   const FacetFresnelPtr filmed = in_sums(fresnel);
   const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
   // Not by whether there is a film, which nobody knows of one that may come.

@@ -38,11 +38,12 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
                                      const LocalView& local, const FacetFresnel& fresnel,
                                      Bool inside);
 
-/// What FacetSum::total has more by channel where the Fresnel factor is another than the
-/// dielectric's: that of those facets only which let light pass. By as few facets as
-/// reflection_of_facets() where that is a film's, which is dear; of other curves by more.
+/// What FacetSum::total has more by channel where the Fresnel factor is another than that of a
+/// dielectric whose relative index is `eta`: that of those facets only which let light pass. By as
+/// few facets as reflection_of_facets() where that is a film's, which is dear; of other curves by
+/// more.
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
-                        const FacetFresnel& fresnel, Bool inside);
+                        const FacetFresnel& fresnel, Float eta, Bool inside);
 
 /// How much of the sum to take rather than of the tables: all of it for unequal roughnesses, and
 /// for indices so near each other that the tables' axes cannot tell the angle of total reflection

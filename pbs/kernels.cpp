@@ -283,15 +283,16 @@ class SurfaceRecorder {
   void finish_sample(const LobeSample& chosen, Int lobe, Color3 weight, Float probability) {
     // A step of Newton's: lobes give unit vectors up to the errors of frames and of fast sines.
     const Float3 wi = chosen.wi * Float3(fma(-0.5f, dot(chosen.wi, chosen.wi), 1.5f));
-    const Bool found = chosen.valid & is_unit(chosen.wi);
+    const Bool found = chosen.valid & (is_unit(chosen.wi) | is_checked(lobe));
     const Total total = evaluate(view_, scattering_, wi);
     const Bool smooth = found & !chosen.delta & (total.pdf > 0.0f);
     const Float chance = chosen.delta_probability * probability;
     const Bool delta = found & chosen.delta & (chance > 0.0f);
     const Bool valid = smooth | delta;
     const Float inverse = 1.0f / total.pdf;
-    const Color3 known = weight_alone(wi).value_or(total.f * Color3(inverse));
-    const Color3 ratio = select(smooth, known, Color3(0.0f));
+    const std::optional<Color3> alone = weight_alone(wi);
+    const auto weight_of = [&](Color3 f) { return alone.value_or(f * Color3(inverse)); };
+    const Color3 ratio = select(smooth, weight_of(total.f), Color3(0.0f));
     Color3 discrete = chosen.delta_weight * weight * Color3(1.0f / probability);
     if (request_.transport) discrete = discrete * Color3(delta_transport(lobe, wi));
     const Color3 out = select(delta, discrete, ratio);
@@ -325,14 +326,14 @@ class SurfaceRecorder {
     for (std::size_t i = 0; i < total.by_lobe.size(); ++i) {
       const Bool mine = delta & (lobe == Int(static_cast<int>(i)));
       const Color3 part =
-          select(smooth, total.by_lobe[i] * Color3(inverse), select(mine, discrete, Color3(0.0f)));
+          select(smooth, weight_of(total.by_lobe[i]), select(mine, discrete, Color3(0.0f)));
       add_color(kernels_.sample, "weight.lobe" + std::to_string(i), part);
     }
   }
 
   /// Of a sample of a lobe that is alone, whole and says so: it is always chosen.
   std::optional<Color3> weight_alone(Float3 wi) const {
-    if (scattering_.size() != 1 || request_.transport || request_.by_lobe) return std::nullopt;
+    if (scattering_.size() != 1 || request_.transport) return std::nullopt;
     const Term& term = scattering_.front();
     const ScopedOrigin origin(recorder_, term.origin);
     const bool is_whole = term.weight.x.is_constant(1.0f) && term.weight.y.is_constant(1.0f) &&
@@ -361,6 +362,15 @@ class SurfaceRecorder {
       factor = select(lobe == Int(static_cast<int>(i)), transport_factor(each, view_, wi), factor);
     }
     return factor;
+  }
+
+  /// Whether that lobe has looked at its samples.
+  Bool is_checked(Int lobe) const {
+    Bool result = false;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (terms_[i].lobe->checks_samples()) result = result | (lobe == Int(static_cast<int>(i)));
+    }
+    return result;
   }
 
   /// Whether light of that lobe, where it is a delta, goes below the surface.

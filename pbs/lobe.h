@@ -35,8 +35,8 @@ struct LobeValue {
 
 /// A direction that a lobe chose.
 struct LobeSample {
-  Float3 wi;           ///< World space; the sample is lost where is_unit() does not hold.
-  Bool valid;          ///< False: the sample is lost (its energy is, too).
+  Float3 wi;           ///< World space, unit; anything where not valid.
+  Bool valid;          ///< False: the sample is lost (its energy is, too); see checks_samples().
   Bool delta = false;  ///< wi is one of finitely many directions; evaluate() gives 0 there.
   /// Only where delta: f cos / probability of the choice made with u.
   Color3 delta_weight = Color3(0.0f);
@@ -94,6 +94,8 @@ class Lobe {
   /// @}
   /// u: three independent numbers in [0, 1).
   virtual LobeSample sample(const View& view, Float3 u) const = 0;
+  /// Whether it says itself which samples are not unit; else kernels lose those.
+  virtual bool checks_samples() const { return false; }
   /// f over pdf, where that is less to compute than either; else nothing.
   virtual std::optional<Color3> share(const View& view, Float3 wi) const {
     return (void)view, (void)wi, std::nullopt;

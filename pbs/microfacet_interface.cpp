@@ -1,6 +1,7 @@
 #include "pbs/microfacet_interface.h"
 
 #include "pbs/facet_sum.h"
+#include "pbs/tables/axes.h"
 
 namespace nacre {
 
@@ -45,7 +46,10 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
   Recorder& recorder = *view.recorder;
   const LocalView local = facets_.look(view);
   const FacetView seen = facets_.table_view(local);
-  const Float index = fresnel_->index();
+  // What a curve of more has more than the last dielectric of the tables is summed below.
+  constexpr auto last = static_cast<float>(table_axes::last_index);
+  const Float index = clamp(fresnel_->index(), 1.0f / last, last);
+  const Float eta = relative_index(index, local.below);
   const Float dense = max(index, 1.0f / index);
   const Float rare = min(index, 1.0f / index);
   FacetInterface both = choose(
@@ -63,7 +67,6 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
   FacetSum light{perfect.albedo, both.transmission, both.total, 0.0f};
   const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
   light = if_any(share > 0.0f, light, [&] {
-    const Float eta = relative_index(index, local.below);
     const FacetSum sum =
         sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta, LobeOfFacets::joint);
     return lerp(light, sum, share);
@@ -89,7 +92,7 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
     const Float by_sum = facets_.isotropic ? rough : max(facet_stretch(facets_.alpha), rough);
     more = if_any(by_sum > 0.0f, more, [&] {
       const Color3 sum =
-          sum_over_fresnel(recorder, view.accuracy, local.wo, facets_, *fresnel_, local.below);
+          sum_over_fresnel(recorder, view.accuracy, local.wo, facets_, *fresnel_, eta, local.below);
       return fma(sum - more, Color3(by_sum), more);
     });
     const Color3 total = Color3(light.total) + more;

@@ -166,8 +166,8 @@ void CommonOptions::add_exactness(CLI::App& command) {
       ->check(CLI::Range(1, largest_anisotropy))
       ->capture_default_str();
   command.add_flag("--fade-noise", fade_noise,
-                   "Noise fades where a pixel covers its cells: less flicker, and octaves that "
-                   "nobody can see cost nothing");
+                   "noise2d, noise3d and fractals fade where a pixel covers their cells: less "
+                   "flicker, and octaves that nobody can see cost nothing");
   command.option_defaults()->group("Options");
 }
 

@@ -58,6 +58,8 @@ class HostLobe final : public Lobe {
                 Float(recording.take(made.delta_probability, Scalar::f32, "delta_probability"))};
   }
 
+  bool checks_samples() const override { return true; }  // What a host says is left as it is.
+
   Color3 albedo(const View& view) const override { return three(lobe_.albedo, view, "albedo"); }
 
   Color3 throughput(const View& view) const override {

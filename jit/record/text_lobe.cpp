@@ -96,6 +96,7 @@ class TextLobe final : public Lobe {
         options_.is_held ? is_unit(wi) : (wi.x != 0.0f) | (wi.y != 0.0f) | (wi.z != 0.0f);
     return {.wi = frame.to_world(wi), .valid = is_there & is_on_side(wi.z)};
   }
+  bool checks_samples() const override { return true; }
 
   Color3 albedo(const View& view) const override { return saturate(light(view)); }
   Color3 light(const View& view) const override {

@@ -89,9 +89,9 @@ struct ShaderOptions {
   /// Slots "footprint_scale" and "max_anisotropy", which change footprints later (see
   /// jit/passes/scale_footprints.h, runtime/node/live_anisotropy.h). Not where there are none.
   bool live_footprints = false;
-  /// Noise fades where the footprint covers its cells, and octaves of which nothing is left are not
-  /// computed: what is too small to be seen neither costs nor flickers. Without footprints nothing
-  /// fades.
+  /// noise2d, noise3d and fractals fade where the footprint covers their cells, and octaves of
+  /// which nothing is left are not computed: what is too small to be seen neither costs nor
+  /// flickers. Without footprints nothing fades.
   bool fade_noise = false;
   Side side = Side::front;  ///< Of a material; see MaterialKernels::has_back.
   /// Folders, beside the document's own, in which image files are looked for.

@@ -288,8 +288,8 @@ typedef struct nacre_compile_options {
                                for. */
   const nacre_fact* facts;  /* Not of NACRE_REFERENCE. */
   size_t fact_count;
-  int fade_noise; /* 1: noise fades where the footprint of a point covers its cells; octaves of
-                     which nothing is left cost nothing. Without footprints nothing fades. */
+  int fade_noise; /* 1: noise2d, noise3d and fractals fade where the footprint of a point covers
+                     their cells; octaves of which nothing is left cost nothing. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;

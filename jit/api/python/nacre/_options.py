@@ -76,8 +76,8 @@ class CompileOptions(TypedDict, total=False):
     # Parameters change footprints later: footprint_scale multiplies them, max_anisotropy, an int, is
     # at most the one above.
     live_footprints: bool
-    # Noise fades where the footprint of a point covers its cells; octaves of which nothing is left
-    # are not computed.
+    # noise2d, noise3d and fractals fade where the footprint of a point covers their cells; octaves
+    # of which nothing is left are not computed.
     fade_noise: bool
     # Of facets, for what several scatterings between them bring back: "all", of "reflection" alone
     # (rough glass is darker), or "nothing" (rough metals too). What is left out costs nothing.
