@@ -11,9 +11,18 @@ get_property(nacre_benches GLOBAL PROPERTY NACRE_BENCHES)
 set(nacre_bench_results "${CMAKE_BINARY_DIR}/bench-results")
 set(nacre_bench_programs ${nacre_benches})
 list(TRANSFORM nacre_bench_programs REPLACE "(.+)" "$<TARGET_FILE:\\1>")
+set(nacre_bench_figures "")
 if(TARGET nacre_python)
   list(APPEND nacre_benches nacre_python)
   list(APPEND nacre_bench_programs "${PROJECT_SOURCE_DIR}/bench/python/bench_python.py")
+  # The other figures of the README; Mitsuba comes from PyPI where there is none.
+  set(nacre_bench_python "${CMAKE_COMMAND}" -E env "PYTHONPATH=${CMAKE_BINARY_DIR}/python"
+    "${NACRE_BENCH_PYTHON}")
+  set(nacre_bench_figures
+    COMMAND ${nacre_bench_python} "${PROJECT_SOURCE_DIR}/bench/front.py"
+      --install "${CMAKE_BINARY_DIR}/bench-peers" --out "${nacre_bench_results}/report"
+    COMMAND ${nacre_bench_python} "${PROJECT_SOURCE_DIR}/bench/fading.py"
+      --out "${nacre_bench_results}/report")
 endif()
 set(nacre_bench_hosts startup_host)
 set(nacre_bench_tool "")
@@ -36,6 +45,7 @@ add_custom_target(bench
   COMMAND "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/startup.py"
     --host $<TARGET_FILE:startup_host> ${nacre_bench_tool}
     --out "${nacre_bench_results}/report/startup.md"
+  ${nacre_bench_figures}
   ${nacre_bench_renders}
   COMMAND ${CMAKE_COMMAND} -E echo "Tables and plots: ${nacre_bench_results}/report"
   DEPENDS ${nacre_benches} ${nacre_bench_hosts}

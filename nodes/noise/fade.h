@@ -12,7 +12,7 @@ namespace nacre {
 ///
 /// The noise of a point, times what faded() leaves, is near what is best known by it of the average
 /// over the footprint: the share c that makes the mean of (average - c noise)^2 least. Measured for
-/// squares of any direction, NoiseFade.IsTheShareThatTellsMostOfAnAverage: 1 - covered to the
+/// squares of any direction, FadeNoise.IsTheShareThatTellsMostOfAnAverage: 1 - covered to the
 /// fourth power is within .07 of that. Sums over squares of both axes stand for footprints that are
 /// no squares. NaN counts as no footprint.
 /// @{
