@@ -47,6 +47,8 @@ add_custom_target(bench
     --out "${nacre_bench_results}/report/startup.md"
   ${nacre_bench_figures}
   ${nacre_bench_renders}
+  COMMAND "${NACRE_BENCH_PYTHON}" "${PROJECT_SOURCE_DIR}/bench/report.py"
+    "${nacre_bench_results}" --verify
   COMMAND ${CMAKE_COMMAND} -E echo "Tables and plots: ${nacre_bench_results}/report"
   DEPENDS ${nacre_benches} ${nacre_bench_hosts}
   USES_TERMINAL VERBATIM)

@@ -272,20 +272,29 @@ PAGES = {
 }
 
 
+def untimed(run: results.Run) -> list[tuple[str, str]]:
+    """Kernels whose results were wrong, and what could not be made, with the reason."""
+    return [(name, message) for name, message in run.errors.items() if message != "nothing to do"]
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("results", type=pathlib.Path)
-    parser.add_argument("--out", type=pathlib.Path, required=True)
+    wanted = parser.add_mutually_exclusive_group(required=True)
+    wanted.add_argument("--out", type=pathlib.Path)
+    wanted.add_argument("--verify", action="store_true",
+                        help="write nothing; exit status 1 where something was not timed")
     arguments = parser.parse_args()
     run = results.Run(arguments.results)
+    if arguments.verify:
+        sys.exit("\n".join(f"not timed: {name}: {message}" for name, message in untimed(run)) or 0)
     arguments.out.mkdir(parents=True, exist_ok=True)
     for name, (title, write) in PAGES.items():
         page = f"# {title}\n\n{machine(run)}\n{write(run)}"
         (arguments.out / f"{name}.md").write_text(page, encoding="utf-8")
     print(acceptance(run))
-    for name, message in run.errors.items():
-        if message != "nothing to do":
-            print(f"not timed: {name}: {message}")
+    for name, message in untimed(run):
+        print(f"not timed: {name}: {message}")
     try:
         plots.draw(run, arguments.out)
     except ImportError as error:

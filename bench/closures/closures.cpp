@@ -71,6 +71,15 @@ std::vector<Form> forms(const NodeDef& def) {
   return found;
 }
 
+/// The library's nodedefs do not list it: nodes that do have graphs of lobes with it.
+void set_beckmann(Graph& graph) {
+  for (GraphNode& node : graph.nodes) {
+    for (GraphInput& input : node.inputs) {
+      if (input.name == "distribution") input.source.value.texts = {"beckmann"};
+    }
+  }
+}
+
 /// A surface of the lobe alone. Roughness differs from point to point, as from a texture;
 /// the rest is as the nodedef and the form have it.
 std::shared_ptr<const Graph> lobe_graph(const NodeDef& def, const Form& form, std::string& error) {
@@ -94,7 +103,6 @@ std::shared_ptr<const Graph> lobe_graph(const NodeDef& def, const Form& form, st
   if (!form.mode.empty()) {
     builder.set(lobe, mode_input(def), {Type::string, {}, {}, {form.mode}});
   }
-  if (form.beckmann) builder.set(lobe, "distribution", {Type::string, {}, {}, {"beckmann"}});
   if (form.film) {
     builder.set(lobe, "thinfilm_thickness", {Type::float_, {450.0f}, {}, {}});
     builder.set(lobe, "thinfilm_ior", {Type::float_, {1.35f}, {}, {}});
@@ -104,9 +112,12 @@ std::shared_ptr<const Graph> lobe_graph(const NodeDef& def, const Form& form, st
   builder.output("surfaceshader", surface);
   Diagnostics diagnostics;
   auto graph = builder.finish(graph_options(), diagnostics);
-  if (graph) return std::make_shared<Graph>(std::move(*graph));
-  error = diagnostics.to_string();
-  return nullptr;
+  if (!graph) {
+    error = diagnostics.to_string();
+    return nullptr;
+  }
+  if (form.beckmann) set_beckmann(*graph);
+  return std::make_shared<Graph>(std::move(*graph));
 }
 
 void register_lobe(const NodeDef& def, const Form& form) {

@@ -21,7 +21,9 @@ constexpr int instances_of_each = 50;
 /// A standard_surface with its colour from one of four patterns, and those of five further features
 /// that the number has as bits: no two numbers give one graph.
 Document document_of(int number) {
-  constexpr const char* patterns[] = {R"(<constant name="pattern" type="color3"/>)",
+  // None is black: of black metal nothing is live.
+  constexpr const char* patterns[] = {R"(<constant name="pattern" type="color3">
+      <input name="value" type="color3" value="0.8, 0.5, 0.3"/></constant>)",
                                       R"(<checkerboard name="pattern" type="color3"/>)",
                                       R"(<fractal3d name="pattern" type="color3"/>)",
                                       R"(<ramplr name="pattern" type="color3"/>)"};
