@@ -113,6 +113,12 @@ Facets prepare_facets(NodeCall& call) {
   Recorder& recorder = call.recorder();
   Float2 roughness = call.vector2("roughness");
   const float threshold = call.accuracy() == Accuracy::fast ? 1e-3f : 1e-4f;
+  // What differs by roundings is equal: `fast` computes each of two in an order of its own, and
+  // what facets of equal roughness take is far less.
+  if (!same_value(roughness.x.ref(), roughness.y.ref())) {
+    const Bool are_alike = abs(roughness.x - roughness.y) <= 1e-6f * abs(roughness.x);
+    roughness.y = select(are_alike, roughness.x, roughness.y);
+  }
   const bool isotropic = same_value(roughness.x.ref(), roughness.y.ref());
   if (recorder.has_leaf("min_alpha")) {
     const Float least(recorder.parameter("min_alpha", Scalar::f32, 0));

@@ -173,14 +173,13 @@ auto choose(Bool condition, A&& a, B&& b) {
 }
 
 /// f(facets), once for equal roughnesses and once for others where both are of a call: equal ones,
-/// as most materials have them, take less. What differs by some roundings is equal: `fast` computes
-/// each of the two in an order of its own.
+/// as most materials have them, take less.
 template <class F>
 auto of_either(const Recorder& recorder, const Facets& facets, F&& f) {
   if (!facets.may_be_equal(recorder)) return f(facets);
-  const auto [x, y] = facets.alpha;
   return choose(
-      abs(x - y) <= 1e-6f * x, [&] { return f(facets.as_equal()); }, [&] { return f(facets); });
+      facets.alpha.x == facets.alpha.y, [&] { return f(facets.as_equal()); },
+      [&] { return f(facets); });
 }
 
 }  // namespace nacre

@@ -63,10 +63,13 @@ class RixBxdfPage : public ::testing::Test {
   /// What an entry stores at `count` points, after NACRE_BEGIN at `points` of them where that is
   /// not 0. Of points that lie flat, are seen from above, and have what `in` says else.
   static Columns ask(const Shader& shader, nacre_entry entry, Columns in, std::size_t count = 1,
-                     std::size_t points = 0, std::uint32_t point = 0) {
+                     std::size_t points = 0, std::uint32_t point = 0,
+                     const Instance* instance = nullptr) {
     if (entry != NACRE_BEGIN) {
       const std::size_t begun = points != 0 ? points : count;
-      for (auto& [name, column] : ask(shader, NACRE_BEGIN, in, begun)) in[name] = column;
+      for (auto& [name, column] : ask(shader, NACRE_BEGIN, in, begun, 0, 0, instance)) {
+        in[name] = column;
+      }
     }
     Binder binder;
     for (const char* up : {"N", "No", "Ng", "wo", "wi"}) binder.constant(up, {0, 0, 1});
@@ -89,7 +92,7 @@ class RixBxdfPage : public ::testing::Test {
     Batch batch;
     batch.count = count;
     batch.point = point;
-    Binding(binder, shader, 1u << entry).run(entry, arrays, batch);
+    Binding(binder, shader, 1u << entry).run(entry, arrays, batch, instance);
     return out;
   }
 
