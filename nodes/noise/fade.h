@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "runtime/node/node_call.h"
 #include "runtime/value/control.h"
 #include "runtime/value/vector.h"
 
@@ -12,13 +13,19 @@ namespace nacre {
 ///
 /// The noise of a point, times what faded() leaves, is near what is best known by it of the average
 /// over the footprint: the share c that makes the mean of (average - c noise)^2 least. Measured for
-/// squares of any direction, FadeNoise.IsTheShareThatTellsMostOfAnAverage: 1 - covered to the
-/// fourth power is within .07 of that. Sums over squares of both axes stand for footprints that are
-/// no squares. NaN counts as no footprint.
+/// squares of any direction, FadeNoiseOfAverages.OfSquaresIsTheShareThatTellsMost: 1 - covered to
+/// the fourth power is within .07 of that. Sums over squares of both axes stand for footprints that
+/// are no squares: long ones fade sooner than that, by up to .25. NaN counts as no footprint.
 /// @{
 Float covered(Float2 p);
 Float covered(Float3 p);
 /// @}
+
+/// That where the noise of a node fades.
+template <class P>
+std::optional<Float> covered(const NodeCall& call, P p) {
+  return call.fades_noise() ? std::optional(covered(p)) : std::nullopt;
+}
 
 /// What of noise is left of 1.
 inline Float left_of_noise(Float covered) {

@@ -52,11 +52,12 @@ void visit(FractalState<P, R>& s, F&& f) {
 }
 
 /// Sum over i < count of diminish^i noise(lacunarity^i p); 0 for no octaves. R is
-/// Float or Float3. A literal count is written out, another one loops. Where noise `fades`, octaves
-/// do by the footprint of p, and those of which nothing is left are not computed.
+/// Float or Float3. A literal count is written out, another one loops. Octaves fade by what the
+/// footprint of p has `covered`, if anything; those of which nothing is left are not computed.
 template <class R, class P, class Noise>
-R fractal(Recorder& recorder, P p, const Octaves& octaves, bool fades, Noise&& noise) {
-  FractalState<P, R> state{p, 1.0f, R(0.0f), fades ? std::optional(covered(p)) : std::nullopt};
+R fractal(Recorder& recorder, P p, const Octaves& octaves, std::optional<Float> covered,
+          Noise&& noise) {
+  FractalState<P, R> state{p, 1.0f, R(0.0f), covered};
   const bool is_known = octaves.count.is_constant();
   const int most = is_known ? std::min(octaves.count.constant(), most_octaves) : most_octaves;
   // Infinite coordinates have no noise, nor has an infinite amplitude one where that is 0.

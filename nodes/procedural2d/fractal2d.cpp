@@ -12,11 +12,11 @@ void record_fractal2d(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Octaves octaves(call);
   const auto one = [&](Float2 p) {
-    return fractal<Float>(recorder, p, octaves, call.fades_noise(),
+    return fractal<Float>(recorder, p, octaves, covered(call, p),
                           [&](Float2 q) { return perlin(recorder, q); });
   };
   const auto three = [&](Float2 p) {
-    return fractal<Float3>(recorder, p, octaves, call.fades_noise(),
+    return fractal<Float3>(recorder, p, octaves, covered(call, p),
                            [&](Float2 q) { return perlin3(recorder, q); });
   };
   record_noise(call, call.vector2("texcoord"), Float2{19.0f, 193.0f}, true, 0.0f, one, three);

@@ -10,13 +10,12 @@ namespace nacre {
 /// (record_noise.h). Infinite amplitudes make NaN where the noise is 0.
 void record_noise2d(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  const auto extent = [&](Float2 p) {
-    return call.fades_noise() ? std::optional(covered(p)) : std::nullopt;
-  };
   record_noise(
       call, call.vector2("texcoord"), Float2{19.0f, 73.0f}, false, call.number("pivot"),
-      [&](Float2 p) { return faded<Float>(extent(p), [&] { return perlin(recorder, p); }); },
-      [&](Float2 p) { return faded<Float3>(extent(p), [&] { return perlin3(recorder, p); }); });
+      [&](Float2 p) { return faded<Float>(covered(call, p), [&] { return perlin(recorder, p); }); },
+      [&](Float2 p) {
+        return faded<Float3>(covered(call, p), [&] { return perlin3(recorder, p); });
+      });
 }
 
 }  // namespace nacre

@@ -12,11 +12,11 @@ void record_fractal3d(NodeCall& call) {
   Recorder& recorder = call.recorder();
   const Octaves octaves(call);
   const auto one = [&](Float3 p) {
-    return fractal<Float>(recorder, p, octaves, call.fades_noise(),
+    return fractal<Float>(recorder, p, octaves, covered(call, p),
                           [&](Float3 q) { return perlin(recorder, q); });
   };
   const auto three = [&](Float3 p) {
-    return fractal<Float3>(recorder, p, octaves, call.fades_noise(),
+    return fractal<Float3>(recorder, p, octaves, covered(call, p),
                            [&](Float3 q) { return perlin3(recorder, q); });
   };
   record_noise(call, call.vector3("position"), Float3(19.0f, 193.0f, 17.0f), true, 0.0f, one,

@@ -10,13 +10,12 @@ namespace nacre {
 /// (record_noise.h). Infinite amplitudes make NaN where the noise is 0.
 void record_noise3d(NodeCall& call) {
   Recorder& recorder = call.recorder();
-  const auto extent = [&](Float3 p) {
-    return call.fades_noise() ? std::optional(covered(p)) : std::nullopt;
-  };
   record_noise(
       call, call.vector3("position"), Float3(19.0f, 73.0f, 29.0f), false, call.number("pivot"),
-      [&](Float3 p) { return faded<Float>(extent(p), [&] { return perlin(recorder, p); }); },
-      [&](Float3 p) { return faded<Float3>(extent(p), [&] { return perlin3(recorder, p); }); });
+      [&](Float3 p) { return faded<Float>(covered(call, p), [&] { return perlin(recorder, p); }); },
+      [&](Float3 p) {
+        return faded<Float3>(covered(call, p), [&] { return perlin3(recorder, p); });
+      });
 }
 
 }  // namespace nacre

@@ -76,7 +76,8 @@ struct Squares {
   std::string group;
   std::size_t dimensions;
 
-  Squares(const std::string& group_name, std::size_t count, double width)
+  /// `other`: how wide they are across, of that; 0: lines.
+  Squares(const std::string& group_name, std::size_t count, double width, double other = 1)
       : group(group_name), dimensions(group_name == "uv0" ? 2 : 3) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-100, 100);
@@ -86,7 +87,8 @@ struct Squares {
       for (std::size_t k = 0; k < dimensions; ++k) x[k] = normal(random), y[k] = normal(random);
       const double along = (x[0] * y[0] + x[1] * y[1] + x[2] * y[2]) / squared(x);
       for (std::size_t k = 0; k < dimensions; ++k) y[k] -= along * x[k];
-      const double to_x = width / std::sqrt(squared(x)), to_y = width / std::sqrt(squared(y));
+      const double to_x = width / std::sqrt(squared(x)),
+                   to_y = other * width / std::sqrt(squared(y));
       for (std::size_t k = 0; k < dimensions; ++k) {
         const std::string c{'.', "xyz"[k]};
         middles[group + c].push_back(static_cast<float>(place(random)));
@@ -126,34 +128,60 @@ double squared_distance(const std::vector<float>& a, const std::vector<float>& b
   return mean(a, a) - 2 * mean(a, b) + mean(b, b);
 }
 
-/// What is left of noise of one octave by nodes/noise/fade.h, against the share of a point's value
-/// that is nearest to the average over the square around it: by least squares over 2,500 of them.
-TEST_F(FadeNoise, IsTheShareThatTellsMostOfAnAverage) {
-  const std::pair<const char*, const char*> kinds[]{{"flat_out", "uv0"}, {"solid_out", "Po"}};
-  for (const auto& [output, group] : kinds) {
-    const std::size_t components = group == std::string("Po") ? 3 : 1;
+/// Averages over the squares.
+using Averages = std::vector<float>;
+
+class FadeNoiseOfAverages : public FadeNoise {
+ protected:
+  static Averages average(const Shader& plain, const std::string& output, const Squares& squares,
+                          int steps, std::size_t components = 1) {
+    Averages sum;
+    const float weight = 1.0f / static_cast<float>(steps * steps);
+    for (int k = 0; k < steps * steps; ++k) {
+      const double s = (k % steps + 0.5) / steps - 0.5, t = (k / steps + 0.5) / steps - 0.5;
+      const auto part = run(plain, output, squares.at(s, t), components);
+      sum.resize(part.size());
+      for (std::size_t i = 0; i < part.size(); ++i) sum[i] += weight * part[i];
+    }
+    return sum;
+  }
+
+  /// How much more of noise of one octave is left by nodes/noise/fade.h than the share of a point's
+  /// value that is nearest to the average around it: by least squares over 2,500 of them.
+  double excess(const std::string& output, const std::string& group, double width, double other) {
+    const std::size_t components = group == "Po" ? 3 : 1;
     const Shader plain = compile(output, false);
-    const Shader fading = compile(output, true);
+    const Squares squares(group, 2500, width, other);
+    const auto middle = run(plain, output, squares.at(0, 0), components);
+    const Averages averages = average(plain, output, squares, 8, components);
+    const auto left = run(compile(output, true), output, squares.middles, components);
+    return (mean(left, middle) - mean(averages, middle)) / mean(middle, middle);
+  }
+};
+
+const std::pair<const char*, const char*> one_octave[]{{"flat_out", "uv0"}, {"solid_out", "Po"}};
+
+TEST_F(FadeNoiseOfAverages, OfSquaresIsTheShareThatTellsMost) {
+  for (const auto& [output, group] : one_octave) {
     for (const double width : {0.125, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0}) {
-      const Squares squares(group, 2500, width);
-      const auto middle = run(plain, output, squares.at(0, 0), components);
-      std::vector<float> average(middle.size());
-      constexpr int steps = 8;
-      for (int k = 0; k < steps * steps; ++k) {
-        const double s = (k % steps + 0.5) / steps - 0.5, t = (k / steps + 0.5) / steps - 0.5;
-        const auto part = run(plain, output, squares.at(s, t), components);
-        for (std::size_t i = 0; i < part.size(); ++i) average[i] += part[i] / (steps * steps);
-      }
-      const auto left = run(fading, output, squares.middles, components);
-      const double best = mean(average, middle) / mean(middle, middle);
-      const double share = mean(left, middle) / mean(middle, middle);
-      EXPECT_NEAR(share, best, 0.07) << output << ' ' << width;
+      EXPECT_NEAR(excess(output, group, width, 1.0), 0.0, 0.07) << output << ' ' << width;
+    }
+  }
+}
+
+/// Noise that nearly cancels along a line is left out: it is never more than there is.
+TEST_F(FadeNoiseOfAverages, OfLinesIsLess) {
+  for (const auto& [output, group] : one_octave) {
+    for (const double width : {0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0}) {
+      const double found = excess(output, group, width, 0.0);
+      EXPECT_LT(found, 0.03) << output << ' ' << width;
+      EXPECT_GT(found, -0.25) << output << ' ' << width;
     }
   }
 }
 
 /// With octaves: nearer to the average, where squares cover cells of some of them.
-TEST_F(FadeNoise, FractalsAreNearerToTheirAverages) {
+TEST_F(FadeNoiseOfAverages, FractalsAreNearer) {
   const std::pair<const char*, const char*> kinds[]{{"cloth_out", "uv0"}, {"rock_out", "Po"}};
   for (const auto& [output, group] : kinds) {
     const Shader plain = compile(output, false);
@@ -161,15 +189,9 @@ TEST_F(FadeNoise, FractalsAreNearerToTheirAverages) {
     for (const double width : {0.1, 0.5}) {
       const Squares squares(group, 1000, width);
       const auto middle = run(plain, output, squares.at(0, 0));
-      std::vector<float> average(middle.size());
-      constexpr int steps = 16;
-      for (int k = 0; k < steps * steps; ++k) {
-        const double s = (k % steps + 0.5) / steps - 0.5, t = (k / steps + 0.5) / steps - 0.5;
-        const auto part = run(plain, output, squares.at(s, t));
-        for (std::size_t i = 0; i < part.size(); ++i) average[i] += part[i] / (steps * steps);
-      }
+      const Averages averages = average(plain, output, squares, 16);
       const auto faded = run(fading, output, squares.middles);
-      EXPECT_LT(squared_distance(faded, average), 0.35 * squared_distance(middle, average))
+      EXPECT_LT(squared_distance(faded, averages), 0.35 * squared_distance(middle, averages))
           << output << ' ' << width;
     }
   }
