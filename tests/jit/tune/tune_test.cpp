@@ -113,6 +113,27 @@ TEST(Tune, SlantedFootprintsNeedTheirAnisotropy) {
   EXPECT_EQ(setting(coarse->chosen, "footprints"), "no");
 }
 
+// Grain of cells that footprints cover, a hundredth of what it lies on: it is worth its octaves
+// only where an error is smaller than that.
+TEST(Tune, NoiseThatFootprintsCoverGoesWhereAnErrorAllows) {
+  const std::string grain = R"(<materialx version="1.39"><texcoord name="uv" type="vector2"/>
+    <multiply name="at" type="vector2"><input name="in1" type="vector2" nodename="uv"/>
+      <input name="in2" type="float" value="300"/></multiply>
+    <fractal2d name="f" type="float"><input name="texcoord" type="vector2" nodename="at"/>
+      <input name="amplitude" type="float" value="0.005"/>
+      <input name="octaves" type="integer" value="5"/></fractal2d>
+    <add name="a" type="float"><input name="in1" type="float" nodename="f"/>
+      <input name="in2" type="float" value="0.5"/></add>
+    <output name="out" type="float" nodename="a"/></materialx>)";
+  Diagnostics diagnostics;
+  const auto fine = tuned(grain, 1e-4, false, diagnostics);
+  const auto coarse = tuned(grain, 0.03, false, diagnostics);
+  ASSERT_TRUE(fine && coarse) << diagnostics.to_string();
+  EXPECT_EQ(setting(fine->chosen, "noise"), "all");
+  EXPECT_EQ(setting(coarse->chosen, "noise"), "resolved");
+  EXPECT_LT(coarse->chosen.cost, 0.7 * fine->chosen.cost);
+}
+
 TEST(Tune, TheFrontFallsInCostAndRisesInError) {
   Diagnostics diagnostics;
   const auto found = tuned(material_of(white_metal), 0.01, true, diagnostics);
