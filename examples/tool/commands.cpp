@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "examples/tool/completion.h"
-#include "examples/tool/manual.h"
-#include "examples/tool/option_text.h"
+#include "examples/tool/help/completion.h"
+#include "examples/tool/help/manual.h"
+#include "examples/tool/help/option_text.h"
 #include "examples/tool/options.h"
 #include "examples/tool/report.h"
 

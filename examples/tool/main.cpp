@@ -3,10 +3,10 @@
 #include <string_view>
 
 #include "examples/tool/commands.h"
+#include "examples/tool/help/usage.h"
 #include "examples/tool/options.h"
 #include "examples/tool/process.h"
 #include "examples/tool/stop.h"
-#include "examples/tool/usage.h"
 
 namespace {
 

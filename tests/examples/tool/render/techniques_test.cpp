@@ -1,0 +1,212 @@
+// Ways to less noise, through the tool: what each leaves out, and that the others change no mean.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/examples/tool/render/image_layers.h"
+#include "tests/examples/tool/tool_fixture.h"
+
+namespace nacre {
+namespace {
+
+constexpr int size = 48;
+
+/// What is seen of which of the two meshes.
+struct Picture {
+  std::vector<float> floor, wall;
+
+  /// The share of pixels that differ. Kernels with other inputs round otherwise, and few paths
+  /// take another turn for that.
+  static double difference(const std::vector<float>& a, const std::vector<float>& b) {
+    if (a.size() != b.size() || a.empty()) return 1;
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) others += std::abs(a[i] - b[i]) > 1e-3f * b[i];
+    return static_cast<double>(others) / static_cast<double>(a.size());
+  }
+  static double mean(const std::vector<float>& values) {
+    double sum = 0;
+    for (const float each : values) sum += static_cast<double>(each);
+    return sum / static_cast<double>(values.size());
+  }
+};
+
+class Techniques : public Tool {
+ protected:
+  /// A material by the text of its BSDF, which is called "b" and its name, and where it goes.
+  static std::string material(const std::string& name, const std::string& bsdf) {
+    return bsdf + R"(<surface name="s)" + name +
+           R"(" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b)" + name +
+           R"("/></surface><surfacematerial name=")" + name +
+           R"(" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s)" +
+           name + R"("/></surfacematerial><materialassign name="m)" + name + R"(" material=")" +
+           name + R"(" geom="/)" + name + R"("/>)";
+  }
+  static std::string metal(const std::string& name, const std::string& alpha) {
+    return material(name, R"(<conductor_bsdf name="b)" + name +
+                              R"(" type="BSDF"><input name="roughness" type="vector2" value=")" +
+                              alpha + ", " + alpha + R"("/></conductor_bsdf>)");
+  }
+  static std::string diffuse(const std::string& name, const std::string& color) {
+    return material(name, R"(<oren_nayar_diffuse_bsdf name="b)" + name +
+                              R"(" type="BSDF"><input name="color" type="color3" value=")" + color +
+                              ", " + color + ", " + color + R"("/></oren_nayar_diffuse_bsdf>)");
+  }
+  static std::string glass(const std::string& name, const std::string& alpha) {
+    return material(name, R"(<dielectric_bsdf name="b)" + name +
+                              R"(" type="BSDF"><input name="scatter_mode" type="string" value="RT"/>
+           <input name="roughness" type="vector2" value=")" +
+                              alpha + ", " + alpha + R"("/></dielectric_bsdf>)");
+  }
+
+  /// A floor and a wall of these materials, "floor" and "wall", under the studio.
+  Picture render(const std::string& materials, const std::string& options) {
+    std::string text = R"(<materialx version="1.39" colorspace="lin_rec709">)" + materials;
+    // Assignments belong into a look.
+    std::string look;
+    for (std::size_t at = text.find("<materialassign"); at != std::string::npos;
+         at = text.find("<materialassign")) {
+      const std::size_t end = text.find("/>", at) + 2;
+      look += text.substr(at, end - at);
+      text.erase(at, end - at);
+    }
+    write("a.mtlx", text + "<look name=\"l\">" + look + "</look></materialx>");
+    write("a.obj", R"(v -1 0 -1
+v 1 0 -1
+v 1 0 1
+v -1 0 1
+v -1 2 -1
+v 1 2 -1
+o floor
+f 4 3 2 1
+o wall
+f 1 2 6 5
+)");
+    EXPECT_EQ(
+        run("render " + file("a.mtlx") + " --scene " + file("a.obj") + " --size " +
+            std::to_string(size) + " --aov mesh_id --out " + file("a.exr") + " -q " + options),
+        0)
+        << errors_;
+    EXPECT_EQ(errors_, "");
+    const Layers layers = layers_of(file("a.exr"));
+    const auto value = [&](int x, int y, const char* channel) {
+      return layers[channel][static_cast<std::size_t>(y * size + x)];
+    };
+    // A pixel at an edge shows both.
+    const auto is_within = [&](int x, int y, float mesh) {
+      for (int k = 0; k < 9; ++k) {
+        if (value(x + k % 3 - 1, y + k / 3 - 1, "mesh_id.V") != mesh) return false;
+      }
+      return true;
+    };
+    Picture picture;
+    for (int y = 1; y + 1 < size; ++y) {
+      for (int x = 1; x + 1 < size; ++x) {
+        if (is_within(x, y, 1.f)) picture.floor.push_back(value(x, y, "G"));
+        if (is_within(x, y, 2.f)) picture.wall.push_back(value(x, y, "G"));
+      }
+    }
+    EXPECT_GT(picture.floor.size(), 100u);
+    EXPECT_GT(picture.wall.size(), 100u);
+    return picture;
+  }
+
+  /// Standard deviations between what options give of the floor and wall together, of so many
+  /// seeds each.
+  double difference(const std::string& materials, const std::string& one,
+                    const std::string& other) {
+    constexpr int seeds = 8;
+    double sum[2] = {}, squares[2] = {};
+    for (int k = 0; k < 2 * seeds; ++k) {
+      const Picture p = render(
+          materials, (k % 2 == 0 ? one : other) + " --spp 16 --seed " + std::to_string(100 + k));
+      const double mean = Picture::mean(p.floor) + Picture::mean(p.wall);
+      sum[k % 2] += mean;
+      squares[k % 2] += mean * mean;
+    }
+    double variance = 0;
+    for (int k = 0; k < 2; ++k) {
+      variance += (squares[k] - sum[k] * sum[k] / seeds) / (seeds * (seeds - 1.0));
+    }
+    return std::abs(sum[0] - sum[1]) / seeds / std::sqrt(variance);
+  }
+};
+
+// A mirror gives what scatters diffusely nothing: as if it were black there. What the camera sees
+// of it stays.
+TEST_F(Techniques, WithoutCausticsMirrorsAreBlackToWhatIsDiffuse) {
+  const std::string floor = diffuse("floor", "0.7");
+  const Picture with = render(floor + metal("wall", "0.01"), "--spp 8");
+  const Picture without = render(floor + metal("wall", "0.01"), "--spp 8 --no-caustics");
+  const Picture black = render(floor + diffuse("wall", "0"), "--spp 8");
+  EXPECT_LT(Picture::difference(without.floor, black.floor), 0.01);
+  EXPECT_GT(Picture::mean(with.floor), 1.05 * Picture::mean(without.floor));
+  EXPECT_GT(Picture::mean(without.wall), 1.2 * Picture::mean(black.wall));
+}
+
+// The same where light is looked for by what lobes draw alone: behind gloss, mirrors stay.
+TEST_F(Techniques, CausticsAreOfWhatIsDiffuse) {
+  const std::string both = metal("floor", "0.3") + metal("wall", "0.01");
+  const Picture with = render(both, "--spp 4"), without = render(both, "--spp 4 --no-caustics");
+  EXPECT_LT(Picture::difference(with.floor, without.floor), 0.01);
+}
+
+// Behind facets of alpha .25 a mirror is one of alpha .25, and only there.
+TEST_F(Techniques, RoughnessIsThatOfThePath) {
+  const std::string floor = metal("floor", "0.25");
+  const Picture clamped = render(floor + metal("wall", "0.01"), "--spp 8 --clamp-roughness");
+  const Picture rough = render(floor + metal("wall", "0.25"), "--spp 8");
+  const Picture smooth = render(floor + metal("wall", "0.01"), "--spp 8 --max-depth 1");
+  EXPECT_LT(Picture::difference(clamped.floor, rough.floor), 0.01);
+  const Picture seen =
+      render(floor + metal("wall", "0.01"), "--spp 8 --max-depth 1 --clamp-roughness");
+  EXPECT_LT(Picture::difference(seen.wall, smooth.wall), 0.01);
+}
+
+// What a contribution brings is limited after the first event, and not before.
+TEST_F(Techniques, OnlyIndirectLightIsLimited) {
+  const std::string both = diffuse("floor", "0.9") + diffuse("wall", "0.9");
+  const Picture direct = render(both, "--spp 4 --max-depth 1");
+  EXPECT_EQ(render(both, "--spp 4 --max-depth 1 --clamp-indirect 1e-6").floor, direct.floor);
+  const Picture free = render(both, "--spp 4"),
+                limited = render(both, "--spp 4 --clamp-indirect 1e-6"),
+                wide = render(both, "--spp 4 --clamp-indirect 1e6");
+  EXPECT_EQ(wide.floor, free.floor);
+  EXPECT_GT(Picture::mean(free.floor), 1.1 * Picture::mean(direct.floor));
+  // Eight events bring 1e-6 each at most, two ways each.
+  EXPECT_NEAR(Picture::mean(limited.floor), Picture::mean(direct.floor), 2e-5);
+}
+
+TEST_F(Techniques, RouletteHasTheSameMean) {
+  const std::string both = diffuse("floor", "0.6") + metal("wall", "0.2");
+  EXPECT_LT(difference(both, "--roulette none", "--roulette event --roulette-depth 0"), 3.5);
+  EXPECT_LT(difference(both, "--roulette none", "--roulette throughput --roulette-depth 0"), 3.5);
+}
+
+// Light of either fork is found by its own density, smooth and rough.
+TEST_F(Techniques, ForksHaveTheSameMean) {
+  for (const char* alpha : {"0", "0.3"}) {
+    const std::string both = glass("floor", alpha) + glass("wall", alpha);
+    EXPECT_LT(difference(both, "--split 0", "--split 3"), 3.5) << alpha;
+  }
+}
+
+// What a path has met, and where its forks are, hangs on nothing but the path.
+TEST_F(Techniques, PicturesAreTheSameForAnyNumberOfThreads) {
+  const std::string both = metal("floor", "0.25") + glass("wall", "0.1");
+  const char* const options = "--spp 8 --clamp-roughness --no-caustics --split 2";
+  const Picture one = render(both, std::string(options) + " --threads 1");
+  const Picture three = render(both, std::string(options) + " --threads 3");
+  EXPECT_EQ(one.floor, three.floor);
+  EXPECT_EQ(one.wall, three.wall);
+}
+
+TEST_F(Techniques, ForksAndLobesOfPassesDoNotGoTogether) {
+  write("a.mtlx", R"(<materialx version="1.39"/>)");
+  EXPECT_NE(run("render " + file("a.mtlx") + " --out " + file("a.exr") +
+                " --split 1 --aov direct_diffuse"),
+            0);
+  EXPECT_TRUE(says("[split-with-passes]")) << errors_;
+}
+
+}  // namespace
+}  // namespace nacre
