@@ -18,6 +18,7 @@
 #include "jit/record/text_bodies.h"
 #include "jit/shading/find_image.h"
 #include "jit/shading/state_facts.h"
+#include "jit/shading/unfit_patterns.h"
 #include "pbs/exterior.h"
 #include "pbs/shader_channels.h"
 #include "runtime/node/live_anisotropy.h"
@@ -54,6 +55,8 @@ Compilation::Compilation(const SystemParts& parts, ShaderOptions options, Diagno
       diagnostics_(diagnostics),
       textures_(std::make_shared<RecordedTextures>(*parts.textures, recorder_, diagnostics,
                                                    options_.max_anisotropy)),
+      live_of_nothing_(options_.live),
+      varying_of_nothing_(options_.varying),
       errors_before_(diagnostics.error_count()) {}
 
 std::optional<Graph> Compilation::build(const Document& document, const GraphRequest& request) {
@@ -63,6 +66,8 @@ std::optional<Graph> Compilation::build(const Document& document, const GraphReq
     const std::size_t slash = fact.name.rfind('/');
     return slash != std::string::npos && find_element(document, fact.name.substr(0, slash));
   });
+  live_of_nothing_ = patterns_of_nothing(options_.live, document);
+  varying_of_nothing_ = patterns_of_nothing(options_.varying, document);
   return Stages(&stages_).run(
       "graph", [&] { return parts_.build(document, request, options_, diagnostics_); },
       [&](const std::optional<Graph>& graph, StageReport& report) {
@@ -159,6 +164,7 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   access.defers_tiles = options_.defer_tiles;
   textures_->give_access(std::move(access));
   const RecordOptions options = record_options(roots);
+  warn_of_unfit(graph, options);
   if (!options_.varying.empty()) {
     recorder_.vary_parameters([this](std::string_view slot) { return varies(slot); });
   }
@@ -178,6 +184,18 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
       [&](const auto&, StageReport& report) {
         report.instructions = instruction_count(recorder_.program());
       });
+}
+
+void Compilation::warn_of_unfit(const Graph& graph, const RecordOptions& options) {
+  for (const std::string& pattern : unfit_live(options_.live, live_of_nothing_, graph)) {
+    diagnostics_.warning("unfit-pattern", {}, "no parameter is live by this pattern",
+                         "one of a parameter's path, \"node/input\"", "'" + pattern + "'");
+  }
+  for (const std::string& pattern :
+       unfit_varying(options_.varying, varying_of_nothing_, graph, options)) {
+    diagnostics_.warning("unfit-pattern", {}, "no parameter comes with the points by this pattern",
+                         "one of a live parameter's path, \"node/input\"", "'" + pattern + "'");
+  }
 }
 
 bool Compilation::may_go_on() {

@@ -75,6 +75,8 @@ class Compilation {
   std::vector<Parameter> live_parameters(const Graph& graph) const;
   /// Whether a slot comes with each point.
   bool varies(std::string_view slot) const;
+  /// Says of patterns that they are of nothing.
+  void warn_of_unfit(const Graph& graph, const RecordOptions& options);
   /// Whether nothing was wrong since there were so many errors, but for images that are missing.
   bool is_complete(std::size_t errors_before) const;
   /// Whether there is time and room for more; false, with an error, once there is not.
@@ -93,7 +95,8 @@ class Compilation {
   std::vector<StageReport> stages_;
   std::vector<FactUse> facts_;       ///< Of all kernels.
   std::vector<Fact> unfound_facts_;  ///< Those of no node of the document.
-  std::size_t errors_before_;        ///< What was wrong before there was anything to compile.
+  std::vector<std::string> live_of_nothing_, varying_of_nothing_;  ///< Patterns of no element.
+  std::size_t errors_before_;  ///< What was wrong before there was anything to compile.
 };
 
 }  // namespace nacre

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "examples/tool/check/lobes.h"
@@ -16,12 +17,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// What a machine lacks is no problem of a document's.
+bool is_problem(const Diagnostic& said) { return said.code != "no-worker"; }
+
 /// What there is to say of a document, for programs.
 Json answer(const CommonOptions& options, const Diagnostics& diagnostics) {
   Json said = Json::array();
   for (const Diagnostic& each : diagnostics.all()) said.push_back(json_of(each));
   return {{"document", options.file},
-          {"ok", diagnostics.all().empty()},
+          {"ok", std::ranges::none_of(diagnostics.all(), is_problem)},
           {"errors", diagnostics.error_count()},
           {"warnings", diagnostics.warning_count()},
           {"diagnostics", std::move(said)}};
@@ -39,7 +43,8 @@ int run(const CommonOptions& options, const LobeCheck& lobes) {
     }
   }
   report(diagnostics);
-  const int status = diagnostics.all().empty() ? status_ok : status_problems;
+  const bool is_ok = std::ranges::none_of(diagnostics.all(), is_problem);
+  const int status = is_ok ? status_ok : status_problems;
   if (lobes.json) print_json(lobes.is_wanted() ? found : answer(options, diagnostics));
   if (!options.quiet && !lobes.json && status == status_ok) fmt::print("{}: ok\n", options.file);
   return status;

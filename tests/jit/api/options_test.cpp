@@ -259,6 +259,42 @@ TEST(ApiOptions, FactsOfNothingAreSaid) {
   EXPECT_EQ(codes_of("dot(N,wo)"), "");
 }
 
+// A typing error leaves a host without the parameter that it wants to set.
+TEST(ApiOptions, PatternsOfNothingAreSaid) {
+  System system;
+  const Document document = Document::parse(R"(<materialx version="1.39">
+    <sin name="c" type="float"><input name="in" type="float" value="1"/></sin>
+    <sin name="other" type="float"/><standard_surface name="S" type="surfaceshader"/>
+    <surfacematerial name="M" type="material">
+      <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+    </materialx>)");
+  const auto codes_of = [&](std::vector<std::string> live, std::vector<std::string> varying) {
+    std::vector<Diagnostic> said;
+    CompileOptions options;
+    options.live = std::move(live);
+    options.varying = std::move(varying);
+    options.live.empty() || options.live[0][0] != 'S'
+        ? system.compile_outputs(document, {"c"}, options, &said)
+        : system.compile_material(document, "M", options, &said);
+    std::string codes;
+    for (const Diagnostic& each : said) codes += each.code + ' ' + each.found + ';';
+    return codes;
+  };
+  EXPECT_EQ(codes_of({"S/coat_roughness"}, {}), "");
+  EXPECT_EQ(codes_of({"S/coat_rouhgness"}, {}), "unfit-pattern 'S/coat_rouhgness';");
+  EXPECT_EQ(codes_of({"c/in"}, {}), "");
+  EXPECT_EQ(codes_of({"c/*"}, {"c/i?"}), "");
+  EXPECT_EQ(codes_of({"*"}, {"*"}), "");
+  EXPECT_EQ(codes_of({"other/in"}, {}), "");   // Another output of the document has that.
+  EXPECT_EQ(codes_of({"other/inn"}, {}), "");  // Of which nothing is known here.
+  EXPECT_EQ(codes_of({"c/inn"}, {}), "unfit-pattern 'c/inn';");
+  EXPECT_EQ(codes_of({"d/in"}, {}), "unfit-pattern 'd/in';");
+  EXPECT_EQ(codes_of({"d*"}, {}), "unfit-pattern 'd*';");
+  EXPECT_EQ(codes_of({}, {"c/in"}), "unfit-pattern 'c/in';");  // It is not live.
+  EXPECT_EQ(codes_of({"*"}, {"d/in"}), "unfit-pattern 'd/in';");
+  EXPECT_EQ(codes_of({"*"}, {"time", "exterior_index"}), "");
+}
+
 TEST(ApiOptions, EntriesThatThereAreNotAreNotRun) {
   System system;
   const Document document = Document::parse(R"(<materialx version="1.39">
