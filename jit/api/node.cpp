@@ -53,17 +53,25 @@ HostBody host_body(const nacre_body& given) {
 
 }  // namespace nacre::api
 
-nacre_recorder* nacre_node_recorder(nacre_node* node) { return node->recording.handle(); }
+nacre_recorder* nacre_node_recorder(nacre_node* node) {
+  return node != nullptr ? node->recording.handle() : nullptr;
+}
 
-const char* nacre_node_nodedef(const nacre_node* node) { return node->call.nodedef().data(); }
+const char* nacre_node_nodedef(const nacre_node* node) {
+  return node != nullptr ? node->call.nodedef().data() : "";
+}
 
-int nacre_node_accuracy(const nacre_node* node) { return accuracy_number(node->call.accuracy()); }
+int nacre_node_accuracy(const nacre_node* node) {
+  return node != nullptr ? accuracy_number(node->call.accuracy()) : NACRE_STANDARD;
+}
 
 const char* nacre_node_input_type(const nacre_node* node, const char* name) {
+  if (node == nullptr) return "";
   return type_of(find(node->call.inputs(), name));
 }
 
 size_t nacre_node_input(nacre_node* node, const char* name, nacre_value* values, size_t room) {
+  if (node == nullptr) return 0;
   const NodeCall::Port* port = find(node->call.inputs(), name);
   if (port == nullptr) {
     node->recording.fail("the nodedef has no input '" + std::string(text_or_empty(name)) + "'");
@@ -77,15 +85,18 @@ size_t nacre_node_input(nacre_node* node, const char* name, nacre_value* values,
 }
 
 const char* nacre_node_text(nacre_node* node, const char* name) {
+  if (node == nullptr) return "";
   const NodeCall::Port* port = find(node->call.inputs(), name);
   return port != nullptr ? port->value.text.c_str() : "";
 }
 
 const char* nacre_node_output_type(const nacre_node* node, const char* name) {
+  if (node == nullptr) return "";
   return type_of(find_output(node, name));
 }
 
 void nacre_node_set(nacre_node* node, const char* output, const nacre_value* values, size_t count) {
+  if (node == nullptr) return;
   const NodeCall::Port* port = find_output(node, output);
   if (port == nullptr) {
     node->recording.fail("the nodedef has no output '" + std::string(text_or_empty(output)) + "'");
@@ -105,10 +116,12 @@ void nacre_node_set(nacre_node* node, const char* output, const nacre_value* val
 }
 
 void nacre_node_error(nacre_node* node, const char* message) {
+  if (node == nullptr) return;
   node->recording.fail(text_or_empty(message));
 }
 
 void nacre_node_set_lobe(nacre_node* node, const nacre_lobe* lobe) {
+  if (node == nullptr) return;
   if (lobe == nullptr || node->call.out_type() != Type::bsdf) {
     node->recording.fail("a lobe is set where there is no BSDF");
     return;

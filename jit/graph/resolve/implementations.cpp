@@ -24,8 +24,10 @@ bool Implementations::has_body(const NodeDef& def) const {
 bool Implementations::runs_text(const NodeDef& def) const {
   if (colors_.has_source(def)) return true;
   if (definitions_.text_of(def) == nullptr || !may_be_text(def)) return false;
-  // Those of MaterialX's generators are closures of theirs.
-  if (options_.prefer == Preference::source && !is_lobe(def)) return true;
+  // Those of MaterialX's generators are closures of theirs, and those that read images are given
+  // more than the nodedef says.
+  const bool is_of_generators = is_lobe(def) || (reads_image(def) && has_body(def));
+  if (options_.prefer == Preference::source && !is_of_generators) return true;
   return !has_body(def) && graph_of(def) == nullptr;
 }
 

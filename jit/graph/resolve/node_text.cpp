@@ -10,6 +10,11 @@ bool is_lobe(const NodeDef& def) {
   return def.outputs.size() == 1 && def.outputs.front().type == Type::bsdf;
 }
 
+bool reads_image(const NodeDef& def) {
+  return std::ranges::any_of(
+      def.inputs, [](const NodeDefInput& input) { return input.type == Type::filename; });
+}
+
 bool may_be_text(const NodeDef& def) {
   if (is_lobe(def)) return true;
   return std::all_of(def.outputs.begin(), def.outputs.end(),

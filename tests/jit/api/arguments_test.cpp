@@ -37,6 +37,20 @@ TEST(ApiArguments, NothingIsNoObject) {
   nacre_report_destroy(report);
 }
 
+TEST(ApiArguments, NothingIsNoNode) {
+  nacre_value value{};
+  EXPECT_EQ(nacre_node_recorder(nullptr), nullptr);
+  EXPECT_STREQ(nacre_node_nodedef(nullptr), "");
+  EXPECT_STREQ(nacre_node_input_type(nullptr, "in"), "");
+  EXPECT_EQ(nacre_node_input(nullptr, "in", &value, 1), 0u);
+  EXPECT_STREQ(nacre_node_text(nullptr, "in"), "");
+  EXPECT_STREQ(nacre_node_output_type(nullptr, nullptr), "");
+  nacre_node_set(nullptr, nullptr, &value, 1);
+  nacre_node_error(nullptr, "no");
+  nacre_node_set_lobe(nullptr, nullptr);
+  EXPECT_EQ(nacre_node_accuracy(nullptr), NACRE_STANDARD);
+}
+
 TEST(ApiArguments, StructuresAreAsLongAsTheHostsVersionOfThem) {
   nacre_report* report = nullptr;
   ASSERT_EQ(nacre_report_create(&report), NACRE_OK);

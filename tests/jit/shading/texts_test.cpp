@@ -167,6 +167,15 @@ TEST_F(Sources, TheLibrarysTextCanBePreferred) {
   }
 }
 
+// MaterialX's generators give the functions of its image nodes two parameters that no nodedef has.
+TEST_F(Sources, ImagesAreReadByTheirBodiesWhateverIsPreferred) {
+  open();
+  const auto made = document(R"(
+    <image name="i" type="color3"><input name="default" type="color3" value="0.25, 0.5, 1"/></image>
+    <output name="out" type="color3" nodename="i"/>)");
+  EXPECT_EQ(run_both(*made, "out", Preference::source), run_both(*made, "out"));
+}
+
 /// A node that takes a structure and gives one, whose members the text has as well.
 constexpr std::string_view structures = R"mtlx(
   <typedef name="coord"><member name="s" type="float" value="0.5"/>
