@@ -15,6 +15,7 @@
 #include "jit/passes/tangent_plan.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/slice.h"
+#include "runtime/program/stand_in.h"
 #include "runtime/program/transform.h"
 
 namespace nacre {
@@ -173,6 +174,8 @@ class Deriver {
       case Op::keep:
         return {.value = recorder_.emit(Op::keep, operand_values(id), instruction.imm),
                 .d = at(0).d};
+      case Op::stand_in:
+        return {.value = recorder_.emit(Op::stand_in, operand_values(id)), .d = at(1).d};
       case Op::ddx:
         if (!plan_->is_ready(*function_, id)) break;
         return {.value = derivative(instruction)};
@@ -269,9 +272,9 @@ class Deriver {
   std::vector<Dual> gives_;    ///< By result.
 };
 
-bool has_ddx(const Program& program) {
-  return std::ranges::any_of(program.functions, [](const Function& function) {
-    return std::ranges::any_of(function.code, [](const Instruction& i) { return i.op == Op::ddx; });
+bool has(const Program& program, Op op) {
+  return std::ranges::any_of(program.functions, [&](const Function& function) {
+    return std::ranges::find(function.code, op, &Instruction::op) != function.code.end();
   });
 }
 
@@ -280,9 +283,11 @@ bool has_ddx(const Program& program) {
 Program derive(const Program& program, std::span<const std::string_view> more, std::size_t most) {
   Program result = program;
   // Each round resolves the ddx operations that hold no other; the last one all.
-  for (int order = 1; has_ddx(result) && order <= max_derivative_order; ++order) {
+  for (int order = 1; has(result, Op::ddx) && order <= max_derivative_order; ++order) {
     result = Deriver(result, more, order == max_derivative_order, most).run();
   }
+  // No derivative is asked for any more.
+  if (has(result, Op::stand_in)) result = with_stand_ins(result, 0, most);
   keep_footprint_scale(program, result);
   return result;
 }

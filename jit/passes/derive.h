@@ -20,7 +20,8 @@ inline constexpr int max_derivative_order = 3;
 ///
 /// Tangents are computed beside the values they belong to, only where a ddx
 /// needs them: through merges, carried along loops, and by variants of outlined
-/// functions that take and return them. A ddx of what contains a ddx is the
+/// functions that take and return them. What stands in for another value has that one's, and
+/// is no more than itself afterwards: no stand_in is left. A ddx of what contains a ddx is the
 /// second derivative. Taken to be 0: the derivatives of texture words and of
 /// texture_call results, and of a ddx that a loop feeds back into itself.
 ///

@@ -129,6 +129,7 @@ TangentBits TangentPlanner::bits_of(const Function& function, ValueId id, const 
     case Op::keep:
     case Op::give: return of(0);
     case Op::result: return call_result_bits(function, id, found);
+    case Op::stand_in: return of(1);
     case Op::ddx: return !force_ && of(0) != 0 ? tangent_later : TangentBits{0};
     default: break;
   }
@@ -223,6 +224,7 @@ bool TangentPlanner::sweep_backward(TangentPlan& plan) {
       }
       case Op::carry:
       case Op::keep: need_operand(0, bits); break;
+      case Op::stand_in: need_operand(1, bits); break;
       case Op::call: changed = need_call(plan, id) || changed; break;
       default:
         for (const ValueId operand : tangent_operands(body, id)) {

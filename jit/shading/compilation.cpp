@@ -21,6 +21,7 @@
 #include "jit/shading/unfit_patterns.h"
 #include "pbs/exterior.h"
 #include "pbs/shader_channels.h"
+#include "runtime/node/drawn_texels.h"
 #include "runtime/node/live_anisotropy.h"
 #include "runtime/program/drop_footprints.h"
 #include "runtime/report_stop.h"
@@ -171,6 +172,9 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   // By its name and no pattern: who varies all parameters need not know what is outside.
   if (std::ranges::find(options_.varying, exterior_index_channel) != options_.varying.end()) {
     offer_exterior_index(recorder_);
+  }
+  if (std::ranges::find(options_.varying, drawn_texels_channel) != options_.varying.end()) {
+    offer_drawn_texels(recorder_);
   }
   // Recorded first, it is a slot that facets read; see pbs/facets.cpp.
   if (options_.kernels.min_alpha) recorder_.parameter("min_alpha", Scalar::f32, 0);

@@ -11,6 +11,7 @@
 #include "pbs/sides.h"
 #include "runtime/channel/channel_name.h"
 #include "runtime/program/fix_inputs.h"
+#include "runtime/program/stand_in.h"
 
 namespace nacre {
 
@@ -156,7 +157,10 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
     }
     add_entry(found->place, found->name, list, Keeps::pass);
     if (found->type == Type::displacementshader) {
-      kernels.recorded_displacement = std::make_shared<const Program>(recorded.programs.back());
+      // Points that are shared by triangles are displaced alike.
+      Program& displacement = recorded.programs.back();
+      displacement = with_stand_ins(displacement, 1);
+      kernels.recorded_displacement = std::make_shared<const Program>(displacement);
     }
   }
   // The state has no place in a call that asks everything at once.

@@ -103,4 +103,20 @@ Taps cubic_taps(Float u, const Extent& extent, AddressMode mode) {
   return taps;
 }
 
+Taps taps(Float u, const Extent& extent, TextureFilter filter, AddressMode mode) {
+  switch (filter) {
+    case TextureFilter::closest: return closest_tap(u, extent);
+    case TextureFilter::linear: return linear_taps(u, extent, mode);
+    case TextureFilter::cubic: return cubic_taps(u, extent, mode);
+  }
+  return {};
+}
+
+std::array<Float, 4> b_spline(Float t) {
+  const Float s = 1.0f - t;
+  const Float sixth(1.0f / 6.0f);
+  return {s * s * s * sixth, fma(t * t, fma(t, 0.5f, -1.0f), 2.0f / 3.0f),
+          fma(s * s, fma(s, 0.5f, -1.0f), 2.0f / 3.0f), t * t * t * sixth};
+}
+
 }  // namespace nacre

@@ -33,5 +33,10 @@ struct Taps {
 Taps closest_tap(Float u, const Extent& extent);
 Taps linear_taps(Float u, const Extent& extent, AddressMode mode);
 Taps cubic_taps(Float u, const Extent& extent, AddressMode mode);
+/// Those of a filter.
+Taps taps(Float u, const Extent& extent, TextureFilter filter, AddressMode mode);
+
+/// Uniform cubic B-spline: weights of taps -1, 0, 1, 2 at distance t from tap 0.
+std::array<Float, 4> b_spline(Float t);
 
 }  // namespace nacre

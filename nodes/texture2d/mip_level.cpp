@@ -32,27 +32,10 @@ Int y_part(Int y, const MipLevel& level, TexelFormat format) {
          (in_tile << Int(tile_log2 + texel_words_log2(format)));
 }
 
-Taps taps(Float u, const Extent& extent, TextureFilter filter, AddressMode mode) {
-  switch (filter) {
-    case TextureFilter::closest: return closest_tap(u, extent);
-    case TextureFilter::linear: return linear_taps(u, extent, mode);
-    case TextureFilter::cubic: return cubic_taps(u, extent, mode);
-  }
-  return {};
-}
-
 /// f of every component.
 template <class F, class... V>
 Float4 each(F&& f, V... v) {
   return {f(v.x...), f(v.y...), f(v.z...), f(v.w...)};
-}
-
-/// Uniform cubic B-spline: weights of taps -1, 0, 1, 2 at distance t from tap 0.
-std::array<Float, 4> b_spline(Float t) {
-  const Float s = 1.0f - t;
-  const Float sixth(1.0f / 6.0f);
-  return {s * s * s * sixth, fma(t * t, fma(t, 0.5f, -1.0f), 2.0f / 3.0f),
-          fma(s * s, fma(s, 0.5f, -1.0f), 2.0f / 3.0f), t * t * t * sixth};
 }
 
 /// The weighted sum of a component of four texels; a literal is the same in all of them.
@@ -68,6 +51,10 @@ Float4 mix_steps(const Float4& a, const Float4& b, Float t) {
     return x.is_constant() && y.is_constant() ? x : fma(t, y - x, x);
   };
   return each(mix, a, b);
+}
+
+Int texel_word(const TexelFetch& fetch, const MipLevel& level, Int column, Int row) {
+  return y_part(row, level, fetch.format) + x_part(column, fetch.format);
 }
 
 MipLevel finest_level(const TexelFetch& fetch) {

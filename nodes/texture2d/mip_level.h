@@ -18,6 +18,8 @@ MipLevel finest_level(const TexelFetch& fetch);
 /// Level `index`, 0..15, which may differ from lane to lane. After the
 /// last level comes the last again. Fetches of the header.
 MipLevel mip_level(const TexelFetch& fetch, Int index);
+/// The word at which a texel of a level starts.
+Int texel_word(const TexelFetch& fetch, const MipLevel& level, Int column, Int row);
 /// The image at (u, v), as address() gives them, filtered within one level; in the
 /// steps of the format.
 Float4 filter_level(const TexelFetch& fetch, const MipLevel& level, Float u, Float v,

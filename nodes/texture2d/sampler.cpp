@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "nodes/texture2d/draw.h"
 #include "nodes/texture2d/footprint.h"
+#include "runtime/node/drawn_texels.h"
 #include "runtime/node/live_anisotropy.h"
 #include "runtime/value/control.h"
 
@@ -97,6 +99,15 @@ Float4 filter_probes(const TexelFetch& fetch, Float2 uv, const Probes& probes, T
   return fetch.completed(all.mean);
 }
 
+/// The drawn texel's components, which stand in for those of the whole filter.
+Float4 drawn(const TexelFetch& fetch, const Float4& texel, const Float4& whole) {
+  const auto component = [&](int c, Float one, Float filtered) {
+    return fetch.differs(c) ? stand_in(one, filtered) : one;
+  };
+  return {component(0, texel.x, whole.x), component(1, texel.y, whole.y),
+          component(2, texel.z, whole.z), component(3, texel.w, whole.w)};
+}
+
 Float4 sample_resident(const TexelFetch& fetch, const TextureSource& source,
                        const ImageLookup& lookup) {
   const TextureModes modes = lookup.modes;
@@ -114,8 +125,11 @@ Float4 sample_resident(const TexelFetch& fetch, const TextureSource& source,
   // Usually all lanes take one side, and level 0 costs less than any other.
   const Bool near = is_magnified(probes);
   const Float4 found = if_any(near, Float4{}, magnified);
-  return fetch.completed(
+  const Float4 whole = fetch.completed(
       if_any(!near, found, [&] { return filter_probes(fetch, lookup.uv, probes, modes); }));
+  const auto u = drawn_texels(fetch.recorder);
+  if (!u) return whole;
+  return drawn(fetch, draw_texel(fetch, lookup.uv, probes, modes, *u), whole);
 }
 
 Float4 sample_by_call(Recorder& recorder, const TextureSource& source, const ImageLookup& lookup) {

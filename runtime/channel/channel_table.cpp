@@ -44,6 +44,8 @@ constexpr std::array groups = std::to_array<ChannelGroup>({
      "a geometric property by name; integers are i32, booleans b1"},
     {"exterior_index", point, 1, f32, "[0.02, 50]",
      "index of refraction outside the surface, vacuum 1; where `varying` names it"},
+    {"texture_u", point, 1, f32, "[0, 1)",
+     "random number by which images give one texel; where `varying` names it"},
     {"u", direction, 3, f32, "[0, 1)", "independent random numbers that choose a direction"},
     {"wi", direction, 3, f32, unit_vector, "from the point to the light, world space"},
     {"of_lobe", direction, 1, i32, "", "index of the lobe that is asked about: `lobe` of sample"},

@@ -121,7 +121,7 @@ std::optional<std::uint32_t> fold(Op op, std::span<const std::uint32_t> operands
   const auto at = [&](std::size_t i) { return i < operands.size() ? operands[i] : 0u; };
   if (op == Op::constant) return imm;
   if (op == Op::select) return at(0) != 0 ? at(1) : at(2);
-  if (op == Op::keep) return at(0);
+  if (op == Op::keep || op == Op::stand_in) return at(0);
   if (op == Op::ddx) return 0u;
   if (is_transcendental(op)) {
     return fold_transcendental(op, as_float(at(0)), as_float(at(1)));

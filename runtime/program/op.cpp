@@ -85,6 +85,7 @@ constexpr std::array<OpInfo, op_count> table{{
     {Op::give, "give", "x", none, false, false},
     {Op::keep, "keep", "x", none, true, false},
     {Op::ddx, "ddx", "f", f32, false, false},
+    {Op::stand_in, "stand_in", "ff", f32, false, false},
     {Op::store, "store", "x", none, false, false},
 }};
 

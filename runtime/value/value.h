@@ -143,6 +143,11 @@ inline Float footprint_derivative(Float x, int axis) {
   return Float(record(Op::ddx, {x.ref()}, static_cast<std::uint32_t>(axis)));
 }
 
+/// `x`, with the derivatives of `y`.
+inline Float stand_in(Float x, Float y) {
+  return Float(record(Op::stand_in, {x.ref(), y.ref()}));
+}
+
 // -- Int --------------------------------------------------------------------
 
 /// Modulo 2^32, on two's complement.

@@ -28,7 +28,7 @@ std::vector<Op> plain_operations() {
     const std::string_view operands = info(op).operands;
     if (operands.empty() || operands == "*" || is_structural(op) || is_transcendental(op) ||
         op == Op::table || op == Op::texel || op == Op::texture_call || op == Op::keep ||
-        op == Op::ddx) {
+        op == Op::ddx || op == Op::stand_in) {
       continue;
     }
     list.push_back(op);

@@ -81,7 +81,8 @@ bool RecordedLookup::reads(const std::string& channel) const {
 std::vector<std::array<float, 4>> RecordedLookup::run(const LookupPoints& points) const {
   const std::map<std::string, const std::vector<float>*> channels{
       {"uv0.x", &points.u},       {"uv0.y", &points.v},       {"duv0dx.x", &points.dudx},
-      {"duv0dx.y", &points.dvdx}, {"duv0dy.x", &points.dudy}, {"duv0dy.y", &points.dvdy}};
+      {"duv0dx.y", &points.dvdx}, {"duv0dy.x", &points.dudy}, {"duv0dy.y", &points.dvdy},
+      {"texture_u", &points.draw}};
   std::vector<const void*> in;
   for (const Channel& input : inputs()) in.push_back(channels.at(input.name)->data());
   std::array<std::vector<float>, 4> rgba;

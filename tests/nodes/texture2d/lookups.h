@@ -16,6 +16,7 @@ namespace nacre {
 /// Points to look up, one array a coordinate.
 struct LookupPoints {
   std::vector<float> u, v, dudx, dvdx, dudy, dvdy;
+  std::vector<float> draw;  ///< texture_u, of those who read it: as many, or none.
 
   void add(float at_u, float at_v, const std::array<float, 4>& footprint = {});
   std::size_t size() const { return u.size(); }
