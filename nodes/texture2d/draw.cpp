@@ -14,6 +14,8 @@ namespace {
 struct Draw {
   Float u;
 
+  static Float below_1(Float u) { return min(u, 0x1.fffffep-1f); }
+
   /// One of `choices`, as often as it weighs; the weights add up to 1.
   template <class Value, std::size_t N>
   Value one_of(const std::array<Value, N>& choices, const std::array<Float, N>& weights,
@@ -27,42 +29,80 @@ struct Draw {
       lower = select(is_beyond, below, lower);
       width = select(is_beyond, weights[k], width);
     }
-    u = min((u - lower) / width, 0x1.fffffep-1f);
+    u = below_1((u - lower) / width);
     return chosen;
   }
 };
 
-/// The place of a probe on the line, as often as it weighs: each of those that follow takes the
-/// place of what was chosen before with its share of the weight so far.
-struct ChosenProbe {
+/// The weights of the probes, one after the other: samples of exp(-2 (spread p)^2) at equal steps,
+/// so that each is the one before it times a ratio, which itself changes by a factor.
+struct Weights {
   Float weight;
-  Float place;
-  Float u;
+  Float ratio;
+
+  void go_on(Float factor) {
+    weight = weight * ratio;
+    ratio = ratio * factor;
+  }
 };
 
 template <class F>
-void visit(ChosenProbe& chosen, F&& f) {
-  f(chosen.weight), f(chosen.place), f(chosen.u);
+void visit(Weights& w, F&& f) {
+  f(w.weight), f(w.ratio);
 }
 
+struct Sum {
+  Weights at;
+  Float weights;
+};
+
+template <class F>
+void visit(Sum& sum, F&& f) {
+  visit(sum.at, f), f(sum.weights);
+}
+
+struct Found {
+  Weights at;
+  Float number;  ///< Of the probe.
+  Float below;   ///< What those before it weigh.
+};
+
+template <class F>
+void visit(Found& found, F&& f) {
+  visit(found.at, f), f(found.number), f(found.below);
+}
+
+/// The place of a probe on the line, as often as it weighs.
 Float draw_probe(Recorder& recorder, const Probes& probes, int most, Draw& draw) {
-  const ChosenProbe none{.weight = 0.0f, .place = 0.0f, .u = draw.u};
-  const auto draw_next = [&](Int i, ChosenProbe& chosen) {
-    const Float place = probe_position(probes, to_float(i));
-    const Float weight = probe_weight(probes, place);
-    chosen.weight = chosen.weight + weight;
-    const Float share = weight / chosen.weight;
-    const Bool is_taken = chosen.u < share;
-    chosen.place = select(is_taken, place, chosen.place);
-    const Float left = select(is_taken, chosen.u, chosen.u - share);
-    chosen.u = min(left / select(is_taken, share, 1.0f - share), 0x1.fffffep-1f);
-    return to_float(i) + 1.5f < probes.count;
-  };
   const Bool are_several = probes.count > 1.5f;
-  const ChosenProbe chosen = if_any(
-      are_several, none, [&] { return loop(recorder, are_several, most, none, draw_next); });
-  draw.u = chosen.u;
-  return chosen.place;
+  const auto drawn = [&]() -> Float2 {
+    const Float step = 2.0f / probes.count;
+    const Float first = probe_position(probes, 0.0f);
+    const Float square = -2.0f * probes.spread * probes.spread;
+    const Weights begin{probe_weight(probes, first),
+                        exp(square * step * fma(2.0f, first, step))};
+    const Float factor = exp(2.0f * square * step * step);
+    const auto add = [&](Int i, Sum& sum) {
+      sum.weights = sum.weights + sum.at.weight;
+      sum.at.go_on(factor);
+      return to_float(i) + 1.5f < probes.count;
+    };
+    const Float all = loop(recorder, are_several, most, Sum{begin, 0.0f}, add).weights;
+    const Float wanted = draw.u * all;
+    const auto pass = [&](Int, Found& found) {
+      found.below = found.below + found.at.weight;
+      found.number = found.number + 1.0f;
+      found.at.go_on(factor);
+      return (found.below + found.at.weight <= wanted) & (found.number + 1.5f < probes.count);
+    };
+    const Found found = loop(recorder, are_several & (begin.weight <= wanted), most,
+                             Found{begin, 0.0f, 0.0f}, pass);
+    return {probe_position(probes, found.number),
+            Draw::below_1((wanted - found.below) / found.at.weight)};
+  };
+  const Float2 chosen = if_any(are_several, Float2{0.0f, draw.u}, drawn);
+  draw.u = chosen.y;
+  return chosen.x;
 }
 
 std::array<Float, 4> weights_of(const Taps& taps, TextureFilter filter) {
