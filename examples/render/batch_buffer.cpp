@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <new>
 
@@ -56,6 +57,13 @@ BatchBuffer::BatchBuffer(std::uint32_t capacity, std::size_t state_bytes, std::s
   const std::size_t lanes = LaneMemory::lane_bytes(capacity) / sizeof(float);
   for (float* index : {b.exterior_index, vacuum}) std::fill_n(index, lanes, 1.f);
   b.min_alpha = memory_.floats(capacity);
+  // Of points that nothing is drawn for, as those that light is estimated by: spread evenly.
+  b.texture_u = memory_.floats(capacity);
+  constexpr double golden = 0.6180339887498949;  // (sqrt(5) - 1) / 2
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double place = (static_cast<double>(lane) + 0.5) * golden;
+    b.texture_u[lane] = static_cast<float>(place - std::floor(place)) * 0.999999f;
+  }
   sample.alpha = memory_.floats(capacity);
   below.medium.anisotropy = memory_.floats(capacity);
   within.medium.anisotropy = memory_.floats(capacity);

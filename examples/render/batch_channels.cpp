@@ -55,6 +55,7 @@ BatchSource standard_channel(std::string_view group, int i, std::uint32_t& attri
     return [lanes, i](const ShadingBatch& b) { return component(b.*lanes, i); };
   }
   if (group == "exterior_index") return [](const ShadingBatch& b) { return b.exterior_index; };
+  if (group == "texture_u") return [](const ShadingBatch& b) { return b.texture_u; };
   if (group == "min_alpha") return [](const ShadingBatch& b) { return b.min_alpha; };
   if (group == "lobes_wanted") return [](const ShadingBatch& b) { return b.lobes_wanted; };
   if (group == "time" || group == "frame") {  // Of each point: see varying_slots().

@@ -25,7 +25,10 @@ enum class Draw : std::uint32_t {
   time,
   flight,
   phase,
-  shadow
+  shadow,
+  texel,         ///< Of images, at what a path meets,
+  light_texel,   ///< on what light sampling chose,
+  shadow_texel,  ///< and on what stands between, by SampleKey::step.
 };
 
 struct Uniform2 {

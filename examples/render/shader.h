@@ -91,6 +91,7 @@ struct ShadingBatch {
   float *times = nullptr, *frames = nullptr;  ///< The same at the time of each point.
   float* exterior_index = nullptr;            ///< Of refraction, of what is around; 1 is vacuum.
   std::int32_t* lobes_wanted = nullptr;       ///< LobeBit bits: what sample and evaluate are of.
+  float* texture_u = nullptr;                 ///< Draws the texels of images, in [0, 1).
   float* min_alpha = nullptr;                 ///< What facets have at least, in [0, 1].
 };
 

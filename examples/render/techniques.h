@@ -22,6 +22,9 @@ struct Techniques {
   bool caustics = true;
   /// Behind a rough lobe facets are at least as rough (6.1).
   bool clamps_roughness = false;
+  /// Images give one of the texels that their filter weighs, drawn anew for each point: look-ups
+  /// take less time, and what filtering takes from an image is noise that more samples take.
+  bool draws_texels = false;
   Roulette roulette = Roulette::throughput;
   /// So many scattering events follow both what a surface reflects and what it lets through; later
   /// ones one of both, drawn by what they carry (6.2). At most max_split_events.

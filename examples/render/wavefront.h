@@ -174,7 +174,8 @@ class Wavefront {
   void trace_dimmed_shadows();
   SurfacePoint shadow_point(std::size_t i) const;
   void fill_shadows(std::span<const std::uint32_t> shadows, const Material& material);
-  void attenuate(const Material& material, std::span<const std::uint32_t> shadows);
+  void attenuate(const Material& material, std::span<const std::uint32_t> shadows,
+                 std::uint32_t met);
   void go_on(std::size_t shadow, std::size_t lane);
 
   // wavefront_shadow_media.cpp
@@ -226,6 +227,7 @@ class Wavefront {
   bool may_fork(const Material& material, const Path& path) const;
   void fork(const Material& material, std::span<const std::uint32_t> paths);
   void clamp_roughness(std::span<const std::uint32_t> paths);
+  void draw_texels(std::span<const std::uint32_t> paths, Draw what, std::uint32_t step = 0);
   void want_lobes(const Material& material, std::span<const std::uint32_t> paths,
                   std::int32_t of_forks);
   void note_lobe(Path& path, std::size_t lane) const;
@@ -267,6 +269,8 @@ class Wavefront {
   std::vector<Environment::Light> found_;         ///< and what they find.
   std::vector<SampleKey> keys_;                   ///< Of the numbers that are drawn,
   std::vector<Uniform2> numbers_, more_numbers_;  ///< which are these.
+  std::vector<std::uint32_t> texel_paths_;        ///< Paths that texels are drawn for,
+  std::vector<Uniform2> texel_numbers_;           ///< by these.
   std::vector<LightPoint> light_points_;
   std::vector<std::uint32_t> light_order_;
   std::vector<Group> light_groups_;

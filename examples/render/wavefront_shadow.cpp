@@ -83,7 +83,7 @@ void Wavefront::trace_dimmed_shadows() {
                     if (material.capabilities.is_volume) {
                       cross_border(material, shadows);
                     } else {
-                      attenuate(material, shadows);
+                      attenuate(material, shadows, static_cast<std::uint32_t>(pass));
                     }
                   });
     }
@@ -114,8 +114,13 @@ void Wavefront::fill_shadows(std::span<const std::uint32_t> shadows, const Mater
   context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);
 }
 
-void Wavefront::attenuate(const Material& material, std::span<const std::uint32_t> shadows) {
+/// `met`: how many surfaces the shadow rays have met before.
+void Wavefront::attenuate(const Material& material, std::span<const std::uint32_t> shadows,
+                          std::uint32_t met) {
   fill_shadows(shadows, material);
+  texel_paths_.clear();
+  for (const std::uint32_t i : shadows) texel_paths_.push_back(shadows_[i].path);
+  draw_texels(texel_paths_, Draw::shadow_texel, met);
   {
     const Stopwatch watch(statistics_.shading_seconds);
     material.shader->opacity(buffer_.batch, buffer_.rgb);

@@ -76,6 +76,21 @@ void Wavefront::clamp_roughness(std::span<const std::uint32_t> paths) {
   }
 }
 
+/// What images give at the points of a batch, which `paths` have met or ask about.
+void Wavefront::draw_texels(std::span<const std::uint32_t> paths, Draw what, std::uint32_t step) {
+  if (!context_.settings.techniques.draws_texels) return;
+  keys_.clear();
+  for (const std::uint32_t i : paths) {
+    keys_.push_back(paths_[i].key);
+    keys_.back().step += step;
+  }
+  texel_numbers_.resize(paths.size());
+  uniform2(context_.settings.sampler, keys_, what, texel_numbers_);
+  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+    buffer_.batch.texture_u[lane] = texel_numbers_[lane].x;
+  }
+}
+
 /// The lobes that are sampled and evaluated next; where paths fork, of these only `of_forks`.
 void Wavefront::want_lobes(const Material& material, std::span<const std::uint32_t> paths,
                            std::int32_t of_forks) {

@@ -156,11 +156,11 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
       continue;
     }
     add_entry(found->place, found->name, list, Keeps::pass);
+    // What triangles share is displaced alike, and free paths need media that stay as they are.
+    Program& made = recorded.programs.back();
+    made = with_stand_ins(made, 1);
     if (found->type == Type::displacementshader) {
-      // Points that are shared by triangles are displaced alike.
-      Program& displacement = recorded.programs.back();
-      displacement = with_stand_ins(displacement, 1);
-      kernels.recorded_displacement = std::make_shared<const Program>(displacement);
+      kernels.recorded_displacement = std::make_shared<const Program>(made);
     }
   }
   // The state has no place in a call that asks everything at once.

@@ -79,8 +79,7 @@ Float draw_probe(Recorder& recorder, const Probes& probes, int most, Draw& draw)
     const Float step = 2.0f / probes.count;
     const Float first = probe_position(probes, 0.0f);
     const Float square = -2.0f * probes.spread * probes.spread;
-    const Weights begin{probe_weight(probes, first),
-                        exp(square * step * fma(2.0f, first, step))};
+    const Weights begin{probe_weight(probes, first), exp(square * step * fma(2.0f, first, step))};
     const Float factor = exp(2.0f * square * step * step);
     const auto add = [&](Int i, Sum& sum) {
       sum.weights = sum.weights + sum.at.weight;

@@ -126,9 +126,9 @@ enum class Op : std::uint8_t {
   give,  ///< (value) Result imm of the outlined function this stands in.
 
   // Marks that passes remove.
-  keep,  ///< (x) -> x. Where a material's scatter state is cut: `begin` stores
-         ///< it, the other kernels load it. imm: 0.
-  ddx,   ///< (f32) Derivative along axis imm (0: x, 1: y) of the footprint.
+  keep,      ///< (x) -> x. Where a material's scatter state is cut: `begin` stores
+             ///< it, the other kernels load it. imm: 0.
+  ddx,       ///< (f32) Derivative along axis imm (0: x, 1: y) of the footprint.
   stand_in,  ///< (x, y) -> x, with the derivatives of y: of a value that was drawn, so that it
              ///< has none, for the one that it is drawn for.
 

@@ -144,9 +144,7 @@ inline Float footprint_derivative(Float x, int axis) {
 }
 
 /// `x`, with the derivatives of `y`.
-inline Float stand_in(Float x, Float y) {
-  return Float(record(Op::stand_in, {x.ref(), y.ref()}));
-}
+inline Float stand_in(Float x, Float y) { return Float(record(Op::stand_in, {x.ref(), y.ref()})); }
 
 // -- Int --------------------------------------------------------------------
 

@@ -17,6 +17,10 @@ void add_techniques(CLI::App& command, host::RenderSettings& settings) {
   command.add_flag("--clamp-roughness", techniques.clamps_roughness,
                    "Behind something rough show gloss at least as rough: less noise, and blurred "
                    "there");
+  command.add_flag("--draw-texels", techniques.draws_texels,
+                   "Images give one of the texels that their filter weighs, drawn for each point: "
+                   "quicker look-ups, and noise that more samples take (not of displacement, media "
+                   "and lights, nor of what normals are derived from)");
   const std::map<std::string, host::Roulette> kinds{{"none", host::Roulette::none},
                                                     {"throughput", host::Roulette::throughput},
                                                     {"event", host::Roulette::event}};
@@ -58,6 +62,7 @@ void ask_for_techniques(const host::Techniques& techniques, ShaderOptions& shade
   shader.kernels.lobes_wanted = techniques.chooses_lobes();
   shader.kernels.min_alpha = techniques.clamps_roughness;
   if (techniques.clamps_roughness) shader.varying.emplace_back("min_alpha");
+  if (techniques.draws_texels) shader.varying.emplace_back("texture_u");
 }
 
 }  // namespace nacre::tool

@@ -83,9 +83,9 @@ TEST_F(DrawnTexels, AreTheFilteredImageOnAverage) {
               reference_->sample(points.u[i], points.v[i], points.footprint(i),
                                  {filter, mode, mode, anisotropy}, {0.5, 0.25, 0.125, 1.0});
           for (std::size_t c = 0; c < 3; ++c) {
-            EXPECT_NEAR(mean[c], exact[c], 4e-3) << static_cast<int>(filter) << ' '
-                                                 << static_cast<int>(mode) << ' ' << anisotropy
-                                                 << ' ' << points.u[i] << ' ' << points.v[i];
+            EXPECT_NEAR(mean[c], exact[c], 4e-3)
+                << static_cast<int>(filter) << ' ' << static_cast<int>(mode) << ' ' << anisotropy
+                << ' ' << points.u[i] << ' ' << points.v[i];
           }
         }
       }
@@ -112,8 +112,7 @@ TEST_F(DrawnTexels, AreTexels) {
     points.draw.push_back(static_cast<float>(i) / 3000.0f);
   }
   for (const TextureFilter filter : {TextureFilter::linear, TextureFilter::cubic}) {
-    const RecordedLookup lookup =
-        record({filter, AddressMode::periodic, AddressMode::mirror, 8});
+    const RecordedLookup lookup = record({filter, AddressMode::periodic, AddressMode::mirror, 8});
     for (const auto& texel : lookup.run(points)) {
       ASSERT_TRUE(texels.contains({texel[0], texel[1], texel[2]}));
     }
@@ -145,12 +144,12 @@ TEST_F(DrawnTexels, LeaveDerivativesWhole) {
 TEST_F(DrawnTexels, CostOneTexel) {
   write("d.exr", "float", 1 << 20);
   const auto texels = [&](bool draws) {
-    const RecordedLookup lookup = record(
-        {TextureFilter::linear, AddressMode::periodic, AddressMode::periodic, 8}, draws);
+    const RecordedLookup lookup =
+        record({TextureFilter::linear, AddressMode::periodic, AddressMode::periodic, 8}, draws);
     std::size_t found = 0;
     for (const Function& function : lookup.program().functions) {
-      found += static_cast<std::size_t>(
-          std::ranges::count(function.code, Op::texel, &Instruction::op));
+      found +=
+          static_cast<std::size_t>(std::ranges::count(function.code, Op::texel, &Instruction::op));
     }
     return found;
   };
@@ -164,9 +163,9 @@ TEST_F(DrawnTexels, AnyNumberDrawsSomething) {
       record({TextureFilter::cubic, AddressMode::clamp, AddressMode::mirror, 8});
   LookupPoints points = random_points(600, width, height, 21);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    constexpr std::array hostile{-1.0f,     1.0f,
-                                 2.0f,      -0.0f,
-                                 1e30f,     std::numeric_limits<float>::infinity(),
+    constexpr std::array hostile{-1.0f,      1.0f,
+                                 2.0f,       -0.0f,
+                                 1e30f,      std::numeric_limits<float>::infinity(),
                                  -HUGE_VALF, std::numeric_limits<float>::quiet_NaN()};
     points.draw.push_back(hostile[i % hostile.size()]);
   }

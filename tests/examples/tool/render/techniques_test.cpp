@@ -1,5 +1,6 @@
 // Ways to less noise, through the tool: what each leaves out, and that the others change no mean.
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -76,10 +77,14 @@ v 1 0 1
 v -1 0 1
 v -1 2 -1
 v 1 2 -1
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
 o floor
-f 4 3 2 1
+f 4/4 3/3 2/2 1/1
 o wall
-f 1 2 6 5
+f 1/1 2/2 6/3 5/4
 )");
     EXPECT_EQ(
         run("render " + file("a.mtlx") + " --scene " + file("a.obj") + " --size " +
@@ -188,6 +193,35 @@ TEST_F(Techniques, ForksHaveTheSameMean) {
     const std::string both = glass("floor", alpha) + glass("wall", alpha);
     EXPECT_LT(difference(both, "--split 0", "--split 3"), 3.5) << alpha;
   }
+}
+
+// Of a texture that pixels cover many texels of, and of one that shines on it: were both drawn by
+// one number, the mean of their product would be another.
+TEST_F(Techniques, DrawnTexelsHaveTheSameMean) {
+  std::mt19937 random(3);
+  std::string pixels(18, '\0');  // Truevision TGA 2.0, image type 2: 64 x 64 of 24 bits.
+  pixels[2] = 2, pixels[12] = 64, pixels[14] = 64, pixels[16] = 24;
+  for (int i = 0; i < 64 * 64; ++i) pixels += std::string(3, random() % 2 == 0 ? '\x00' : '\xff');
+  write("dots.tga", pixels);
+  const std::string dots = R"(<image name="dots" type="color3">
+    <input name="file" type="filename" value="dots.tga"/></image>
+    <extract name="dot" type="float"><input name="in" type="color3" nodename="dots"/></extract>)";
+  const auto with_image = [](std::string text, const std::string& before, const std::string& more) {
+    return text.replace(text.find(before), 0, more);
+  };
+  const std::string floor = with_image(diffuse("floor", "0.6"), "<input name=\"color\"",
+                                       "<input name=\"weight\" type=\"float\" nodename=\"dot\"/>");
+  const std::string wall =
+      with_image(with_image(diffuse("wall", "0.6"), "<surface ",
+                            R"(<uniform_edf name="e" type="EDF"><input name="color" type="color3"
+                      nodename="dots"/></uniform_edf>)"),
+                 "<input name=\"bsdf\"", R"(<input name="edf" type="EDF" nodename="e"/>)");
+  const std::string both = dots + floor + wall;
+  EXPECT_LT(difference(both, "--max-depth 3", "--max-depth 3 --draw-texels"), 3.5);
+  const char* const options = "--spp 4 --draw-texels";
+  const Picture drawn = render(both, std::string(options) + " --threads 1");
+  EXPECT_EQ(drawn.floor, render(both, std::string(options) + " --threads 3").floor);
+  EXPECT_GT(Picture::difference(drawn.floor, render(both, "--spp 4").floor), 0.1);
 }
 
 // What a path has met, and where its forks are, hangs on nothing but the path.
