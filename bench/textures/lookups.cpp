@@ -7,6 +7,18 @@
 
 namespace nacre::bench {
 
+namespace {
+
+std::vector<float> random_numbers(std::size_t count) {
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<float> number(0.0f, 1.0f);
+  std::vector<float> numbers(count);
+  for (float& each : numbers) each = number(generator);
+  return numbers;
+}
+
+}  // namespace
+
 Lookups coherent_lookups(float footprint_texels) {
   constexpr std::size_t side = 64;
   constexpr float texel = 1.0f / image_size;
@@ -21,6 +33,7 @@ Lookups coherent_lookups(float footprint_texels) {
       points.v.push_back((bottom + static_cast<float>(i / side) + 0.7f) * texel);
     }
   }
+  points.draw = random_numbers(points.u.size());
   return points;
 }
 
@@ -33,6 +46,7 @@ Lookups random_lookups(float footprint_texels) {
     points.u.push_back(coordinate(generator));
     points.v.push_back(coordinate(generator));
   }
+  points.draw = random_numbers(points.u.size());
   return points;
 }
 

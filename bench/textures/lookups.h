@@ -13,6 +13,7 @@ inline constexpr std::size_t lookup_batches = 64;
 /// Where an image is looked up: `lookup_batches` batches, one after another.
 struct Lookups {
   std::vector<float> u, v;
+  std::vector<float> draw;  ///< A number in [0, 1) for each point.
   /// The axes of the footprint, in uv: (aspect * footprint, 0) and (0, footprint).
   float footprint = 0.0f;
   float aspect = 1.0f;

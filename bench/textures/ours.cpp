@@ -6,16 +6,18 @@
 #include "bench/common/system.h"
 #include "jit/record/textures.h"
 #include "nodes/texture2d/sampler.h"
+#include "runtime/node/drawn_texels.h"
 #include "runtime/node/geometry.h"
 
 namespace nacre::bench {
 
-std::unique_ptr<OurTexture> OurTexture::make(const std::string& path, Filter filter,
+std::unique_ptr<OurTexture> OurTexture::make(const std::string& path, Filter filter, bool draws,
                                              const CompileOptions& options, std::string& error) {
   static TextureStore store;
   Diagnostics diagnostics;
   Recorder recorder;
   auto textures = std::make_shared<RecordedTextures>(store, recorder, diagnostics);
+  if (draws) offer_drawn_texels(recorder);
   ImageLookup lookup;
   lookup.uv = texcoord(recorder, 0);
   if (filter == Filter::closest) lookup.modes.filter = TextureFilter::closest;
@@ -33,6 +35,7 @@ const float* OurTexture::channel(const std::string& name, const Lookups& points,
                                  std::size_t first) const {
   if (name == "uv0.x") return points.u.data() + first;
   if (name == "uv0.y") return points.v.data() + first;
+  if (name == drawn_texels_channel) return points.draw.data() + first;
   if (name == "duv0dx.x") return long_axis_.data();
   if (name == "duv0dy.y") return footprint_.data();
   return zero_.data();
@@ -45,7 +48,7 @@ void OurTexture::look_up(const Lookups& points, std::size_t first, std::size_t c
     long_axis_.assign(count, points.aspect * points.footprint);
     zero_.assign(count, 0.0f);
   }
-  std::array<const void*, 6> inputs{};
+  std::array<const void*, 7> inputs{};
   const auto& channels = kernel_.program().inputs;
   for (std::size_t k = 0; k < channels.size(); ++k) {
     inputs[k] = channel(channels[k].name, points, first);

@@ -14,8 +14,8 @@ namespace nacre::bench {
 /// `trilinear` are one kernel: the footprint decides.
 class OurTexture {
  public:
-  /// Null, with the reason, where it can't be compiled.
-  static std::unique_ptr<OurTexture> make(const std::string& path, Filter filter,
+  /// Null, with the reason, where it can't be compiled. `draws`: one of the filter's texels.
+  static std::unique_ptr<OurTexture> make(const std::string& path, Filter filter, bool draws,
                                           const CompileOptions& options, std::string& error);
 
   void look_up(const Lookups& points, std::size_t first, std::size_t count, Rgba& rgba) const;

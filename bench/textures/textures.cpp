@@ -1,6 +1,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -46,6 +47,7 @@ const std::string& image_path() {
 /// Points and how they are looked up; shared by those that compete.
 struct Workload {
   Filter filter;
+  bool draws;  ///< One texel a look-up.
   Lookups points;
   Rgba rgba;
   std::unique_ptr<OiioTexture> oiio = nullptr;
@@ -72,18 +74,44 @@ void measure(benchmark::State& state, const F& look_up) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * batch_points));
 }
 
+/// How drawn texels are off on average, beside what chance allows.
+class DrawnError {
+ public:
+  void add(const Rgba& drawn, const Rgba& expected) {
+    for (std::size_t i = 0; i < drawn[0].size(); ++i) {
+      const double error = double{drawn[0][i]} - double{expected[0][i]};
+      sum_ += error, squares_ += error * error, count_ += 1;
+    }
+  }
+  /// Empty, or what is wrong: five standard errors, and half a step of 8 bits, as levels round.
+  std::string fault() const {
+    const double mean = sum_ / count_;
+    const double allowed = 5 * std::sqrt(squares_) / count_ + 0.5 / 255;
+    if (std::abs(mean) <= allowed) return {};
+    return fmt::format("drawn texels are {} off on average, of {} allowed", mean, allowed);
+  }
+
+ private:
+  double sum_ = 0, squares_ = 0, count_ = 0;
+};
+
 /// Ours against theirs, at all points. Empty, or what differs.
 std::string check(Workload& work, const OurTexture& ours) {
   Rgba expected = work.rgba;
+  DrawnError drawn;
   for (std::size_t first = 0; first < work.points.u.size(); first += batch_points) {
     ours.look_up(work.points, first, batch_points, work.rgba);
     if (!work.other().look_up(work.points, first, batch_points, expected)) {
       return "OpenImageIO reports an error";
     }
+    if (work.draws) {
+      drawn.add(work.rgba, expected);
+      continue;
+    }
     const std::string fault = difference(columns(work.rgba), columns(expected), tolerance);
     if (!fault.empty()) return fault;
   }
-  return {};
+  return work.draws ? drawn.fault() : std::string();
 }
 
 void register_ours(const std::string& name, const std::shared_ptr<Workload>& work,
@@ -92,7 +120,8 @@ void register_ours(const std::string& name, const std::shared_ptr<Workload>& wor
   benchmark::RegisterBenchmark((name + "/" + variant.name()).c_str(), [=](benchmark::State& state) {
     std::string error;
     if (*ours == nullptr) {
-      auto made = OurTexture::make(image_path(), work->filter, variant.options(), error);
+      auto made =
+          OurTexture::make(image_path(), work->filter, work->draws, variant.options(), error);
       if (made != nullptr) error = check(*work, *made);
       if (error.empty()) *ours = std::move(made);
     }
@@ -106,11 +135,13 @@ void register_ours(const std::string& name, const std::shared_ptr<Workload>& wor
   });
 }
 
-void register_workload(const std::string& pattern, Filter filter, Lookups points) {
-  auto work = std::make_shared<Workload>(Workload{filter, std::move(points), {}});
+void register_workload(const std::string& pattern, Filter filter, bool draws, Lookups points) {
+  auto work = std::make_shared<Workload>(Workload{filter, draws, std::move(points), {}});
   for (auto& channel : work->rgba) channel.resize(batch_points);
-  const std::string name = fmt::format("textures/{}/{}", filter_name(filter), pattern);
+  const std::string name =
+      fmt::format("textures/{}{}/{}", filter_name(filter), draws ? "_drawn" : "", pattern);
   for (const Variant& variant : all_variants()) register_ours(name, work, variant);
+  if (draws) return;  // Nothing of OpenImageIO's does that.
   benchmark::RegisterBenchmark((name + "/oiio").c_str(), [=](benchmark::State& state) {
     const OiioTexture& other = work->other();
     for (std::size_t i = 0; i < work->points.u.size(); i += batch_points) {
@@ -138,8 +169,11 @@ void register_benchmarks() {
     Lookups random = random_lookups(footprint);
     // A floor seen at about 15 degrees: 7 probes.
     coherent.aspect = random.aspect = filter == Filter::anisotropic ? 4.0f : 1.0f;
-    register_workload("coherent", filter, std::move(coherent));
-    register_workload("random", filter, std::move(random));
+    for (const bool draws : {false, true}) {
+      if (draws && filter == Filter::closest) continue;
+      register_workload("coherent", filter, draws, coherent);
+      register_workload("random", filter, draws, random);
+    }
   }
 }
 

@@ -222,6 +222,32 @@ TEST(Derive, InsideAnOutlinedFunction) {
   }
 }
 
+// floor(3 u) stands in for u^2 v: its value, and the other's derivatives of any order, through
+// products and functions.
+TEST(Derive, WhatStandsInHasTheDerivativesOfTheOther) {
+  const auto drawn = [](Float u, Float v) { return stand_in(floor(3.0f * u), u * u * v); };
+  const Program value =
+      derive(record_body([&](Recorder&, Float u, Float v) { return drawn(u, v) * 2.0f; }));
+  EXPECT_EQ(count(value, Op::stand_in), 0u);
+  EXPECT_EQ(count(value, Op::floor), 1u);
+  EXPECT_LE(value.entry().code.size(), 8u);  // Nothing of the other.
+  const auto first = make_reference(derive(record_body([&](Recorder& recorder, Float u, Float v) {
+    return footprint_derivative(outline<Float>(recorder, "drawn", drawn, u, v) * v, 0);
+  })));
+  const auto second = make_reference(derive(record_body([&](Recorder&, Float u, Float v) {
+    return footprint_derivative(footprint_derivative(drawn(u, v), 0), 1);
+  })));
+  EXPECT_EQ(count(first->program(), Op::stand_in) + count(second->program(), Op::stand_in), 0u);
+  for (const FootprintPoint& p : generic_points()) {
+    const double u = static_cast<double>(p.u), v = static_cast<double>(p.v);
+    const double ux = static_cast<double>(p.dudx), uy = static_cast<double>(p.dudy);
+    const double vx = static_cast<double>(p.dvdx), vy = static_cast<double>(p.dvdy);
+    const double slope = 2 * u * v * ux + u * u * vx;
+    EXPECT_NEAR(evaluate(*first, p), slope * v + std::floor(3 * u) * vx, 1e-9);
+    EXPECT_NEAR(evaluate(*second, p), 2 * v * ux * uy + 2 * u * (ux * vy + uy * vx), 1e-9);
+  }
+}
+
 TEST(Derive, SecondDerivatives) {
   // d2/dxdy of u^2 v: 2 v ux uy + 2 u (ux vy + uy vx).
   const auto derived = make_reference(derive(record_body([](Recorder&, Float u, Float v) {
