@@ -69,6 +69,7 @@ class Ranges {
         list_(code_.size()),
         sources_(code_.size(), no_value) {
     if (is_known) ends_ = region_ends(function_);
+    look_at_tables();
   }
 
   /// Of the entry, of which more is known.
@@ -131,6 +132,17 @@ class Ranges {
     list_[id] = range;
     if (dots_) narrow(id, dots_->look_at(id));
     if (is_known_ && x.type == Scalar::f32) look_closer(id);
+  }
+
+  /// Tables are looked at once: some have tens of thousands of numbers.
+  void look_at_tables() {
+    std::vector<bool> is_known(program_.tables.size(), false);
+    tables_.resize(program_.tables.size());
+    for (const Instruction& x : code_) {
+      if (x.op != Op::table || is_known[x.imm]) continue;
+      tables_[x.imm] = of_table(program_.tables[x.imm]);
+      is_known[x.imm] = true;
+    }
   }
 
   /// Round by round: a lane that is active has been since the first.
@@ -237,7 +249,7 @@ class Ranges {
       case Op::keep: return in[0];
       case Op::sin:
       case Op::cos: return {-1, 1, !in[0].is_bounded()};
-      case Op::table: return of_table(program_.tables[x.imm]);
+      case Op::table: return tables_[x.imm];
       case Op::exp: return is_known_ ? exponential(in[0]) : Range{};
       case Op::i_to_f: return is_known_ ? of_signed(in[0]) : Range{};
       case Op::u_to_f: return is_known_ ? of_unsigned() : Range{};
@@ -429,6 +441,7 @@ class Ranges {
   std::vector<ValueId> sources_;
   /// By value: of which source, and over its parts.
   std::map<ValueId, std::pair<ValueId, Parts>> parts_;
+  std::vector<Range> tables_;                      ///< Those that are read, by table.
   std::map<ValueId, Range> carried_;               ///< Of loops, into the next round.
   std::map<ValueId, std::vector<Range>> results_;  ///< By call.
 };
