@@ -21,8 +21,8 @@ Float beckmann_root(Float z, Float alpha);
 
 /// A facet normal of density D G1 (wo.h) / wo.z, seen from wo above the surface. Heitz and d'Eon,
 /// "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals", EGSR
-/// 2014; the slope along the view by Newton's method, as in Jakob, "An Improved Visible Normal
-/// Sampling Routine for the Beckmann Distribution", 2014.
-Float3 sample_visible_beckmann(Recorder& recorder, Float3 wo, Float2 alpha, Float u, Float v);
+/// 2014; the slope along the view from Jakob's guess ("An Improved Visible Normal Sampling Routine
+/// for the Beckmann Distribution", 2014), by two steps of Halley's for his Newton's.
+Float3 sample_visible_beckmann(Float3 wo, Float2 alpha, Float u, Float v);
 
 }  // namespace nacre

@@ -151,7 +151,7 @@ Sum over_facets(Recorder& recorder, const LaneLattice& lattice, Float3 wo, const
     };
     const auto by_slopes = [&] {
       const Float across = fma(to_float(k), lattice.across, 0.5f * share);
-      return facets.sample_visible(recorder, wo, up, fract(across));
+      return facets.sample_visible(wo, up, fract(across));
     };
     const Float3 h = is_ggx ? on_cap() : by_slopes();
     const Float cosine = saturate(dot(wo, h));

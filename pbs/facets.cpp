@@ -97,16 +97,16 @@ Float Facets::bound(const FacetDirection& wo) const {
   return isotropic ? reflection_bound(wo.z, alpha.x) : reflection_bound(wo.v, alpha);
 }
 
-Float3 Facets::sample_visible(Recorder& recorder, Float3 wo, Float u, Float v) const {
+Float3 Facets::sample_visible(Float3 wo, Float u, Float v) const {
   return distribution == FacetDistribution::ggx
              ? sample_visible_normal(wo, alpha, root(wo), u, v)
-             : sample_visible_beckmann(recorder, wo, alpha, u, v);
+             : sample_visible_beckmann(wo, alpha, u, v);
 }
 
-Float3 Facets::sample_reflecting(Recorder& recorder, Float3 wo, Float u, Float v) const {
+Float3 Facets::sample_reflecting(Float3 wo, Float u, Float v) const {
   return distribution == FacetDistribution::ggx
              ? sample_reflecting_normal(wo, alpha, root(wo), bound(wo), u, v)
-             : sample_visible_beckmann(recorder, wo, alpha, u, v);
+             : sample_visible_beckmann(wo, alpha, u, v);
 }
 
 Facets prepare_facets(NodeCall& call) {

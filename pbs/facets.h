@@ -81,9 +81,9 @@ struct Facets {
   /// What keeps sampled normals from reflecting below the surface; 1: nothing does.
   Float bound(const FacetDirection& wo) const;
   /// Of density D G1 (wo.h) / wo.z; in the frame of the surface.
-  Float3 sample_visible(Recorder& recorder, Float3 wo, Float u, Float v) const;
+  Float3 sample_visible(Float3 wo, Float u, Float v) const;
   /// Less most of those that would reflect below the surface: by `bound`. Of any length.
-  Float3 sample_reflecting(Recorder& recorder, Float3 wo, Float u, Float v) const;
+  Float3 sample_reflecting(Float3 wo, Float u, Float v) const;
 };
 
 /// Whether directions are the same in the frames of both, and facets of one kind.

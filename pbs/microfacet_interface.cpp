@@ -220,7 +220,7 @@ LobeSample MicrofacetInterface::sample_separate(const View& view, const Terms& t
 LobeSample MicrofacetInterface::sample_joint(const View& view, const Facets& facets,
                                              Float3 u) const {
   const LocalView local = facets.look(view);
-  const Float3 h = facets.sample_visible(*view.recorder, local.wo, u.x, u.y);
+  const Float3 h = facets.sample_visible(local.wo, u.x, u.y);
   const Float cosine = saturate(dot(local.wo, h));
   const Float eta = relative_index(fresnel_->index(), local.below);
   const Refraction bent = refract(local.wo, h, cosine, eta);

@@ -143,7 +143,7 @@ LobeSample sample_reflection(const Facets& all, const View& view, Float3 u, Bool
   LobeSample sample = of_either(*view.recorder, all, [&](const Facets& facets) {
     const LocalView local = facets.look(view);
     const Float3 wo = local.wo;
-    const Float3 h = facets.sample_reflecting(*view.recorder, wo, u.x, u.y);
+    const Float3 h = facets.sample_reflecting(wo, u.x, u.y);
     const Float3 mirrored{-wo.x, -wo.y, wo.z};
     const Float3 wi = select(facets.delta, mirrored, reflect_about(wo, h));
     const Float3 sent{select(back, -wi.x, wi.x), select(back, -wi.y, wi.y), wi.z};

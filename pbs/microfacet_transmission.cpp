@@ -159,7 +159,7 @@ LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
   const auto through_wall = [&](const Facets& facets) {
     const LocalView local = facets.look(view);
     const Float3 wo = local.wo;
-    const Float3 h = facets.sample_visible(*view.recorder, wo, u.x, u.y);
+    const Float3 h = facets.sample_visible(wo, u.x, u.y);
     const Float3 wi = reflect(wo, h);
     const Float3 through = select(delta(view), -wo, Float3(wi.x, wi.y, -wi.z));
     return along(local, {through, through.z < 0.0f});
@@ -167,7 +167,7 @@ LobeSample MicrofacetTransmission::sample(const View& view, Float3 u) const {
   const auto bent_by = [&](const Facets& facets) {
     const LocalView local = facets.look(view);
     const Float3 wo = local.wo;
-    const Float3 rough = facets.sample_visible(*view.recorder, wo, u.x, u.y);
+    const Float3 rough = facets.sample_visible(wo, u.x, u.y);
     const Float3 h = select(facets.delta, Float3(0.0f, 0.0f, 1.0f), rough);
     const Float eta = relative_index(index_, local.below);
     const Float cosine = saturate(dot(wo, h));
