@@ -43,9 +43,9 @@ constexpr float most_slope = 3.3607f;
 /// exp(-x^2) (cosine - x sine), as far as facets face the view.
 ///
 /// Sought where the share of facets below it is u, from a guess that is off by .05 at most: Jakob,
-/// "An Improved Visible Normal Sampling Routine for the Beckmann Distribution", 2014, whose power of
-/// the angle is fitted by one of its sine here. A step of Halley's by the slope's error function,
-/// which tails need, leaves 8e-5, and one by the slope less than float can tell: no loop.
+/// "An Improved Visible Normal Sampling Routine for the Beckmann Distribution", 2014, whose power
+/// of the angle is fitted by one of its sine here. A step of Halley's by the slope's error
+/// function, which tails need, leaves 8e-5, and one by the slope less than float can tell: no loop.
 Float sample_slope(Float cosine, Float sine, Float u) {
   const Float steepest = min(cosine / max(sine, 1e-6f), 4.0f);
   const Float gauss = exp(-square(steepest));
@@ -70,9 +70,9 @@ Float sample_slope(Float cosine, Float sine, Float u) {
   const Float next_e = exp(-square(next));
   const Float next_seen = fma(-next, sine, cosine);
   const Float left = fma(flat, 1.0f + next_y, sine * next_e) - wanted;
-  const Float last = quotient(
-      2.0f * left * next_seen,
-      fma(4.0f * square(next_seen), next_e, left * fma(2.0f * next, next_seen, sine)));
+  const Float last =
+      quotient(2.0f * left * next_seen,
+               fma(4.0f * square(next_seen), next_e, left * fma(2.0f * next, next_seen, sine)));
   return clamp(next - last, -most_slope, min(steepest, most_slope));
 }
 

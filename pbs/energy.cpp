@@ -85,12 +85,14 @@ FacetReflection facet_reflection(Recorder& recorder, const FacetView& view) {
   // Nothing is added where both are equal: a surface is the same whether that is known or not.
   const FacetReflection none{1.0f, 1.0f, 1.0f};
   const FacetReflection equal = if_any(view.stretch < 1.0f, none, of_equal);
-  return if_any(view.stretch > 0.0f, equal, [&] {
+  // Cosines are said to be such behind the region, where a table of Fresnel's factors may be made.
+  const FacetReflection both = if_any(view.stretch > 0.0f, equal, [&] {
     const FacetReflection unequal = cosines(reflected_by_unequal(recorder, view));
     return FacetReflection{lerp(equal.albedo, unequal.albedo, view.stretch),
                            lerp(equal.low, unequal.low, view.stretch),
                            lerp(equal.high, unequal.high, view.stretch)};
   });
+  return {both.albedo, saturate(both.low), saturate(both.high)};
 }
 
 Float steepness(Float index, Float bare) {
@@ -100,15 +102,16 @@ Float steepness(Float index, Float bare) {
 
 FacetReflection for_dielectric(Recorder& recorder, const FacetView& view,
                                const FacetReflection& reflection, Float steepness) {
-  return if_any(steepness > 0.0f, reflection, [&] {
+  const FacetReflection found = if_any(steepness > 0.0f, reflection, [&] {
     const std::vector<Float> steep =
         look_up(recorder, facet_tables(view.distribution).steep,
                 table_axes::angle(view.masked, view.alpha), table_axes::roughness(view.alpha));
     FacetReflection better = reflection;
-    better.low = saturate(lerp(reflection.low, saturate(steep[0] + view.cosine), steepness));
-    better.high = saturate(lerp(reflection.high, saturate(steep[1] + view.cosine), steepness));
+    better.low = lerp(reflection.low, saturate(steep[0] + view.cosine), steepness);
+    better.high = lerp(reflection.high, saturate(steep[1] + view.cosine), steepness);
     return better;
   });
+  return {found.albedo, saturate(found.low), saturate(found.high)};
 }
 
 FacetInterface facet_leaving(Recorder& recorder, const FacetView& view, Float eta, Float perfect) {

@@ -98,9 +98,8 @@ Float Facets::bound(const FacetDirection& wo) const {
 }
 
 Float3 Facets::sample_visible(Float3 wo, Float u, Float v) const {
-  return distribution == FacetDistribution::ggx
-             ? sample_visible_normal(wo, alpha, root(wo), u, v)
-             : sample_visible_beckmann(wo, alpha, u, v);
+  return distribution == FacetDistribution::ggx ? sample_visible_normal(wo, alpha, root(wo), u, v)
+                                                : sample_visible_beckmann(wo, alpha, u, v);
 }
 
 Float3 Facets::sample_reflecting(Float3 wo, Float u, Float v) const {
