@@ -143,8 +143,19 @@ Stop stop() { return Stop(state().source.get_token()); }
 void promise_files(const std::vector<std::string>& files) {
   State& all = state();
   const std::scoped_lock lock(all.mutex);
-  all.promised.insert(all.promised.end(), files.begin(), files.end());
-  all.missing.insert(all.missing.end(), files.begin(), files.end());
+  for (const std::string& file : files) {
+    // What nobody asked for has no name; what is promised twice is one file.
+    if (file.empty() || std::ranges::find(all.promised, file) != all.promised.end()) continue;
+    all.promised.push_back(file);
+    all.missing.push_back(file);
+  }
+}
+
+void withdraw_promise(const std::string& file) {
+  State& all = state();
+  const std::scoped_lock lock(all.mutex);
+  std::erase(all.promised, file);
+  std::erase(all.missing, file);
 }
 
 void keep_promise(const std::string& file) {

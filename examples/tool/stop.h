@@ -22,9 +22,11 @@ class StopOnSignal {
 Stop stop();
 
 /// Says which files the work at hand is to write, and that one is written: what is missing
-/// is named if the work is stopped.
+/// is named if the work is stopped. Names that are empty are of no file.
 void promise_files(const std::vector<std::string>& files);
 void keep_promise(const std::string& file);
+/// That it is not to be written after all.
+void withdraw_promise(const std::string& file);
 /// That one is written but is not all that was asked for, and what it is instead.
 void keep_promise_partly(const std::string& file, const std::string& what);
 

@@ -103,7 +103,7 @@ bool list(Run& run, Diagnostics& diagnostics) {
   auto pictures =
       list_pictures(options.series, run.frames, *cameras, run.world, options.out, diagnostics);
   if (!pictures) return false;
-  keep_promise(options.out);
+  withdraw_promise(options.out);  // It may be a pattern, of as many files as there are pictures.
   std::vector<std::string> files;
   // A document of the scene's own materials is written, and no file that was there.
   const std::vector<std::string> read =
