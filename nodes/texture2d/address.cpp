@@ -62,6 +62,10 @@ Bool outside(Float u, AddressMode mode) {
   return !((u >= 0.0f) & (u <= 1.0f));
 }
 
+AddressMode within(AddressMode mode) {
+  return mode == AddressMode::constant ? AddressMode::clamp : mode;
+}
+
 Taps closest_tap(Float u, const Extent& extent) {
   Taps taps;
   taps.count = 1;

@@ -14,6 +14,9 @@ Float address(Float u, AddressMode mode);
 /// Where the node's default stands in: u is not in [0, 1] and the mode is `constant`.
 Bool outside(Float u, AddressMode mode);
 
+/// Of a probe, which beyond the edge has the texels of the edge: outside() is for the point itself.
+AddressMode within(AddressMode mode);
+
 /// One axis of a mip level.
 struct Extent {
   Int size;       ///< Texels, at least 1.

@@ -109,11 +109,6 @@ std::array<Float, 4> weights_of(const Taps& taps, TextureFilter filter) {
   return {1.0f - taps.t, taps.t};
 }
 
-/// A probe beyond the edge has the texels of the edge.
-AddressMode within(AddressMode mode) {
-  return mode == AddressMode::constant ? AddressMode::clamp : mode;
-}
-
 }  // namespace
 
 Float4 draw_texel(const TexelFetch& fetch, Float2 uv, const Probes& probes, TextureModes modes,

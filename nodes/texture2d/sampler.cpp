@@ -74,11 +74,6 @@ void visit(RunningMean& sum, F&& f) {
   });
 }
 
-/// A probe beyond the edge has the texels of the edge; outside() is for the point itself.
-AddressMode within(AddressMode mode) {
-  return mode == AddressMode::constant ? AddressMode::clamp : mode;
-}
-
 Float4 filter_probes(const TexelFetch& fetch, Float2 uv, const Probes& probes, TextureModes modes) {
   const auto probe = [&](Float p) {
     const Float u = fma(p, probes.reach.x, uv.x);
