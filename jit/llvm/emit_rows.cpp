@@ -1,6 +1,6 @@
 // What FunctionEmitter does for an entry with rows.
 
-#include <numeric>
+#include <map>
 
 #include "jit/llvm/function_emitter.h"
 #include "jit/llvm/lookup.h"
@@ -27,24 +27,46 @@ void FunctionEmitter::fill(const Rows& rows, Value* points) {
   has_rows_ = b.CreateICmpUGE(points, b.getInt64(rows.least_points), "has.rows");
   b.CreateCondBr(has_rows_, filling, filled);
   b.SetInsertPoint(filling);
-  const std::vector<Value*> outside = values_;
-  const auto lanes = static_cast<std::uint32_t>(lanes_);
-  for (const Row& row : rows.rows) {
-    Value* array = scratch(b.getFloatTy(), row_room(row.count), "row");
-    for (std::uint32_t first = 0; first < row.count; first += lanes) {
-      std::vector<std::uint32_t> indices(lanes);
-      std::iota(indices.begin(), indices.end(), first);
-      values_[row.index] = llvm::ConstantDataVector::get(module_.context(), indices);
-      compute(row.steps);
-      const llvm::Align align(sizeof(float) * lanes);
-      b.CreateAlignedStore(values_[row.value], byte_offset(array, sizeof(float) * first), align);
-    }
-    row_arrays_.push_back(array);
-    values_ = outside;
+  std::map<std::uint32_t, std::vector<std::size_t>> by_count;
+  for (std::size_t k = 0; k < rows.rows.size(); ++k) {
+    const std::uint32_t count = rows.rows[k].count;
+    row_arrays_.push_back(scratch(b.getFloatTy(), row_room(count), "row"));
+    by_count[count].push_back(k);
   }
+  for (const auto& [count, alike] : by_count) fill_alike(rows, alike, count);
   b.CreateBr(filled);
   b.SetInsertPoint(filled);
   rows_ = &rows;
+}
+
+/// Number by number: what fills rows are loads, which nobody does side by side, and code of all
+/// lanes for each of a row's pieces took most of the time to compile an entry.
+void FunctionEmitter::fill_alike(const Rows& rows, const std::vector<std::size_t>& alike,
+                                 std::uint32_t count) {
+  Builder& b = builder_;
+  BasicBlock* before = b.GetInsertBlock();
+  BasicBlock* number = BasicBlock::Create(module_.context(), "number", into_);
+  BasicBlock* after = BasicBlock::Create(module_.context(), "numbers", into_);
+  b.CreateBr(number);
+  b.SetInsertPoint(number);
+  llvm::PHINode* index = b.CreatePHI(b.getInt32Ty(), 2, "index");
+  index->addIncoming(i32(0), before);
+  const std::vector<Value*> outside = values_;
+  const int lanes = lanes_;
+  lanes_ = 1;
+  for (const std::size_t k : alike) {
+    const Row& row = rows.rows[k];
+    values_[row.index] = index;
+    compute(row.steps);
+    Value* place = b.CreateInBoundsGEP(b.getFloatTy(), row_arrays_[k], index);
+    b.CreateAlignedStore(values_[row.value], place, llvm::Align(sizeof(float)));
+  }
+  lanes_ = lanes;
+  values_ = outside;
+  Value* next = b.CreateAdd(index, i32(1));
+  index->addIncoming(next, b.GetInsertBlock());
+  b.CreateCondBr(b.CreateICmpULT(next, i32(count)), number, after);
+  b.SetInsertPoint(after);
 }
 
 void FunctionEmitter::emit_group(const RowGroup& group) {

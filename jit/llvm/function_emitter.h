@@ -113,6 +113,8 @@ class FunctionEmitter {
   llvm::Align align_of(ValueId id) const;
 
   void emit_group(const RowGroup& group);
+  /// Rows of so many numbers each.
+  void fill_alike(const Rows& rows, const std::vector<std::size_t>& alike, std::uint32_t count);
   /// Emits steps of rows, anew, of the index as it is defined now. Who calls sees to it that what
   /// was defined before is so again.
   void compute(const std::vector<ValueId>& steps);
