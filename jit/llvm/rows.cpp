@@ -326,9 +326,9 @@ class Finder {
 
   void weigh() {
     std::uint64_t filling = 0, saved = 0;
-    for (const Row& row : result_.rows) {
-      filling += row.steps.size() * ((row.count + lanes_ - 1) / lanes_);
-    }
+    // Number by number; of loads, of which so many take as long as one of all lanes.
+    for (const Row& row : result_.rows) filling += row.steps.size() * row.count;
+    filling = (filling + lanes_ - 1) / lanes_;
     for (const auto& [first, group] : result_.groups) {
       saved += std::max(group.steps.size(), group.reads.size() + 1) - group.reads.size();
     }

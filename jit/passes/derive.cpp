@@ -272,9 +272,9 @@ class Deriver {
   std::vector<Dual> gives_;    ///< By result.
 };
 
-bool has(const Program& program, Op op) {
-  return std::ranges::any_of(program.functions, [&](const Function& function) {
-    return std::ranges::find(function.code, op, &Instruction::op) != function.code.end();
+bool has_ddx(const Program& program) {
+  return std::ranges::any_of(program.functions, [](const Function& function) {
+    return std::ranges::find(function.code, Op::ddx, &Instruction::op) != function.code.end();
   });
 }
 
@@ -283,11 +283,11 @@ bool has(const Program& program, Op op) {
 Program derive(const Program& program, std::span<const std::string_view> more, std::size_t most) {
   Program result = program;
   // Each round resolves the ddx operations that hold no other; the last one all.
-  for (int order = 1; has(result, Op::ddx) && order <= max_derivative_order; ++order) {
+  for (int order = 1; has_ddx(result) && order <= max_derivative_order; ++order) {
     result = Deriver(result, more, order == max_derivative_order, most).run();
   }
   // No derivative is asked for any more.
-  if (has(result, Op::stand_in)) result = with_stand_ins(result, 0, most);
+  result = with_stand_ins(result, 0, most);
   keep_footprint_scale(program, result);
   return result;
 }

@@ -56,8 +56,6 @@ Compilation::Compilation(const SystemParts& parts, ShaderOptions options, Diagno
       diagnostics_(diagnostics),
       textures_(std::make_shared<RecordedTextures>(*parts.textures, recorder_, diagnostics,
                                                    options_.max_anisotropy)),
-      live_of_nothing_(options_.live),
-      varying_of_nothing_(options_.varying),
       errors_before_(diagnostics.error_count()) {}
 
 std::optional<Graph> Compilation::build(const Document& document, const GraphRequest& request) {
@@ -67,8 +65,7 @@ std::optional<Graph> Compilation::build(const Document& document, const GraphReq
     const std::size_t slash = fact.name.rfind('/');
     return slash != std::string::npos && find_element(document, fact.name.substr(0, slash));
   });
-  live_of_nothing_ = patterns_of_nothing(options_.live, document);
-  varying_of_nothing_ = patterns_of_nothing(options_.varying, document);
+  document_ = &document;
   return Stages(&stages_).run(
       "graph", [&] { return parts_.build(document, request, options_, diagnostics_); },
       [&](const std::optional<Graph>& graph, StageReport& report) {
@@ -191,12 +188,11 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
 }
 
 void Compilation::warn_of_unfit(const Graph& graph, const RecordOptions& options) {
-  for (const std::string& pattern : unfit_live(options_.live, live_of_nothing_, graph)) {
+  for (const std::string& pattern : unfit_live(options_.live, graph, document_)) {
     diagnostics_.warning("unfit-pattern", {}, "no parameter is live by this pattern",
                          "one of a parameter's path, \"node/input\"", "'" + pattern + "'");
   }
-  for (const std::string& pattern :
-       unfit_varying(options_.varying, varying_of_nothing_, graph, options)) {
+  for (const std::string& pattern : unfit_varying(options_.varying, graph, options, document_)) {
     diagnostics_.warning("unfit-pattern", {}, "no parameter comes with the points by this pattern",
                          "one of a live parameter's path, \"node/input\"", "'" + pattern + "'");
   }

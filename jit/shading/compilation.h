@@ -27,6 +27,8 @@ class Compilation {
  public:
   Compilation(const SystemParts& parts, ShaderOptions options, Diagnostics& diagnostics);
 
+  /// The document of graphs that others have built.
+  void is_of(const Document& document) { document_ = &document; }
   /// Stage "graph": nodedefs resolved, node graphs inlined.
   std::optional<Graph> build(const Document& document, const GraphRequest& request);
 
@@ -93,10 +95,10 @@ class Compilation {
   std::shared_ptr<RecordedTextures> textures_;
   SourceLocation where_;  ///< Of what is compiled.
   std::vector<StageReport> stages_;
-  std::vector<FactUse> facts_;       ///< Of all kernels.
-  std::vector<Fact> unfound_facts_;  ///< Those of no node of the document.
-  std::vector<std::string> live_of_nothing_, varying_of_nothing_;  ///< Patterns of no element.
-  std::size_t errors_before_;  ///< What was wrong before there was anything to compile.
+  std::vector<FactUse> facts_;          ///< Of all kernels.
+  std::vector<Fact> unfound_facts_;     ///< Those of no node of the document.
+  const Document* document_ = nullptr;  ///< What the graph is of; null: nobody knows.
+  std::size_t errors_before_;           ///< What was wrong before there was anything to compile.
 };
 
 }  // namespace nacre

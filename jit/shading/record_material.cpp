@@ -124,6 +124,13 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
                              const std::vector<SliceOutput>& outputs, Keeps keeps) {
     if (!outputs.empty()) add(place, slice(recorder_.program(), name, outputs, keeps));
   };
+  // What triangles share is displaced alike, and paths need media that are the same where they come
+  // in and go out: these see no drawn texels.
+  const auto add_whole = [&](std::optional<BoundKernel> MaterialKernels::* place, const char* name,
+                             const std::vector<SliceOutput>& outputs) {
+    if (outputs.empty()) return;
+    add(place, with_stand_ins(slice(recorder_.program(), name, outputs, Keeps::pass), 1));
+  };
   if (wants(entry_sample)) {
     add_entry(&MaterialKernels::sample, "sample", surface_kernels.sample, Keeps::load);
   }
@@ -143,8 +150,8 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
   add_entry(&MaterialKernels::albedo, "albedo", surface_kernels.albedo, Keeps::pass);
   add_entry(&MaterialKernels::emission, "emission", surface_kernels.emission, Keeps::pass);
   add_entry(&MaterialKernels::opacity, "opacity", surface_kernels.opacity, Keeps::pass);
-  add_entry(&MaterialKernels::interior, "interior", surface_kernels.interior, Keeps::pass);
-  add_entry(&MaterialKernels::subsurface, "subsurface", surface_kernels.subsurface, Keeps::pass);
+  add_whole(&MaterialKernels::interior, "interior", surface_kernels.interior);
+  add_whole(&MaterialKernels::subsurface, "subsurface", surface_kernels.subsurface);
   add_entry(&MaterialKernels::shadow, "shadow", surface_kernels.shadow, Keeps::pass);
   add_entry(&MaterialKernels::emit, "emit", surface_kernels.emit, Keeps::pass);
   for (const Recorded& value : *values) {
@@ -155,10 +162,8 @@ std::optional<Compilation::RecordedMaterial> Compilation::record_material(
       kernels.manifest.push_back(std::string(found->name) + ": always nothing");
       continue;
     }
-    add_entry(found->place, found->name, list, Keeps::pass);
-    // What triangles share is displaced alike, and free paths need media that stay as they are.
-    Program& made = recorded.programs.back();
-    made = with_stand_ins(made, 1);
+    add_whole(found->place, found->name, list);
+    const Program& made = recorded.programs.back();
     if (found->type == Type::displacementshader) {
       kernels.recorded_displacement = std::make_shared<const Program>(made);
     }

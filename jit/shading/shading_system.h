@@ -73,8 +73,8 @@ struct ShaderOptions {
   /// every point brings along: input channels of the same name, in place of slots. The name
   /// "exterior_index", and no pattern, makes dielectrics read that channel (pbs/exterior.h), and
   /// "texture_u" has look-ups of images draw one texel by it (runtime/node/drawn_texels.h): but for
-  /// displacement, volumes and lights, for derivatives of what is looked up, and of images in tiles
-  /// that are not resident.
+  /// displacement, media and light shaders, for derivatives of what is looked up, and of images in
+  /// tiles that are not resident. Limits count the whole filter as well.
   std::vector<std::string> varying;
   KernelRequest kernels;  ///< Of a material: which, and of what lobes.
   /// `is_native` and `stop` (that of `compile`) are filled in, and `colors` where it is null.

@@ -14,14 +14,15 @@ bool fits(const std::string& name, const std::string& pattern) {
   return fits_any(name, {&pattern, 1});
 }
 
-/// Whether an element is what the pattern may be of, or one that is in it.
-bool has_fitting(const Element& element, const std::string& path, const std::string& pattern) {
+/// Whether an element is what the pattern may be of, or one that is in it. `owner`: its node's
+/// pattern, for what nobody wrote has no element of its own.
+bool has_fitting(const Element& element, const std::string& path, const std::string& pattern,
+                 const std::string& owner) {
   for (const Element& child : element.children()) {
     const std::string own =
         path.empty() ? std::string(child.name()) : path + '/' + std::string(child.name());
-    // What nobody wrote has no element: its node has.
-    if (fits(own, pattern) || fits(own, pattern.substr(0, pattern.rfind('/')))) return true;
-    if (has_fitting(child, own, pattern)) return true;
+    if (fits(own, pattern) || fits(own, owner)) return true;
+    if (has_fitting(child, own, pattern, owner)) return true;
   }
   return false;
 }
@@ -49,46 +50,39 @@ bool fits_parameter(const Parameter& parameter, const std::string& pattern) {
   return false;
 }
 
-}  // namespace
-
-std::vector<std::string> patterns_of_nothing(const std::vector<std::string>& patterns,
-                                             const Document& document) {
-  std::vector<std::string> of_nothing;
-  for (const std::string& pattern : patterns) {
-    if (!has_fitting(document.root(), {}, pattern)) of_nothing.push_back(pattern);
-  }
-  return of_nothing;
+/// Whether a pattern that fits no parameter of the graph may be of another material or output.
+bool may_be_elsewhere(const std::string& pattern, const Graph& graph, const Document* document) {
+  if (names_input_of(graph, pattern)) return false;
+  return document != nullptr &&
+         has_fitting(document->root(), {}, pattern, pattern.substr(0, pattern.rfind('/')));
 }
 
-std::vector<std::string> unfit_live(const std::vector<std::string>& live,
-                                    const std::vector<std::string>& of_nothing,
-                                    const Graph& graph) {
+}  // namespace
+
+std::vector<std::string> unfit_live(const std::vector<std::string>& live, const Graph& graph,
+                                    const Document* document) {
   std::vector<std::string> unfit;
   for (const std::string& pattern : live) {
-    const bool is_of_nothing = std::ranges::find(of_nothing, pattern) != of_nothing.end();
-    if (!is_of_nothing && !names_input_of(graph, pattern)) continue;
     const bool is_fit = std::ranges::any_of(graph.parameters, [&](const Parameter& parameter) {
-      return fits(parameter.path, pattern);
+      return !is_text(parameter.type) && fits(parameter.path, pattern);
     });
-    if (!is_fit) unfit.push_back(pattern);
+    if (!is_fit && !may_be_elsewhere(pattern, graph, document)) unfit.push_back(pattern);
   }
   return unfit;
 }
 
-std::vector<std::string> unfit_varying(const std::vector<std::string>& varying,
-                                       const std::vector<std::string>& of_nothing,
-                                       const Graph& graph, const RecordOptions& options) {
+std::vector<std::string> unfit_varying(const std::vector<std::string>& varying, const Graph& graph,
+                                       const RecordOptions& options, const Document* document) {
   std::vector<std::string> unfit;
   for (const std::string& pattern : varying) {
+    if (pattern.find('/') == std::string::npos) continue;
     bool fits_frozen = false, fits_live = false;
     for (const Parameter& parameter : graph.parameters) {
       if (!fits_parameter(parameter, pattern)) continue;
       (is_live(parameter, options) ? fits_live : fits_frozen) = true;
     }
-    const bool may_be_elsewhere = pattern.find('/') == std::string::npos ||
-                                  (std::ranges::find(of_nothing, pattern) == of_nothing.end() &&
-                                   !names_input_of(graph, pattern));
-    if (!fits_live && (fits_frozen || !may_be_elsewhere)) unfit.push_back(pattern);
+    if (fits_live) continue;
+    if (fits_frozen || !may_be_elsewhere(pattern, graph, document)) unfit.push_back(pattern);
   }
   return unfit;
 }

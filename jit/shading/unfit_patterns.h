@@ -9,20 +9,16 @@
 
 namespace nacre {
 
-/// Those of the patterns that fit no element of the document, and none below one: of a document's
-/// parameters another of its materials may have those that this one has not.
-std::vector<std::string> patterns_of_nothing(const std::vector<std::string>& patterns,
-                                             const Document& document);
-
-/// Patterns of ShaderOptions::live that fit no parameter of the graph: those of nothing, and those
-/// of an input of one of its nodes that has none (it is linked, or there is no such input).
-std::vector<std::string> unfit_live(const std::vector<std::string>& live,
-                                    const std::vector<std::string>& of_nothing, const Graph& graph);
+/// Patterns of ShaderOptions::live that fit no parameter of the graph, and nothing else of its
+/// document (null: it has none), of whose parameters another material may have those that this one
+/// has not. But an input of a node of the graph is one of its parameters, or linked, or a typing
+/// error.
+std::vector<std::string> unfit_live(const std::vector<std::string>& live, const Graph& graph,
+                                    const Document* document);
 
 /// The same of ShaderOptions::varying; those, too, of parameters that are not live. Others than
 /// parameters have no slash in their names, and need not be there.
-std::vector<std::string> unfit_varying(const std::vector<std::string>& varying,
-                                       const std::vector<std::string>& of_nothing,
-                                       const Graph& graph, const RecordOptions& options);
+std::vector<std::string> unfit_varying(const std::vector<std::string>& varying, const Graph& graph,
+                                       const RecordOptions& options, const Document* document);
 
 }  // namespace nacre

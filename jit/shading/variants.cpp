@@ -80,6 +80,7 @@ std::vector<std::unique_ptr<MaterialKernels>> make_variants(const Document& docu
   bool is_recorded = diagnostics.error_count() == errors;
   for (const ShaderOptions& options : variants) {
     Variant& variant = *made.emplace_back(std::make_unique<Variant>(parts, options));
+    variant.compilation.is_of(document);
     variant.recorded = variant.compilation.record_material(*graph, where);
     is_recorded = is_recorded && variant.recorded;
     if (!variant.recorded) break;

@@ -53,6 +53,8 @@ class ImageInput(unittest.TestCase):
         (self.moved / "libexec" / "nacre" / "nacre-compile-worker").unlink()
         printed = self.run_program("oiiotool", "--info", "-v", NAME)
         self.assertIn("[no-worker]", printed)
+        # Which is no problem of a document.
+        self.run_program(self.moved / "bin" / "nacre", "check", MARBLE)
 
     def test_the_module_is_of_the_same_build(self):
         module = self.plug_ins.parent / "nacre_graphs.so"

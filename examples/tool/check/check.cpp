@@ -81,7 +81,7 @@ void add_check(CLI::App& app, int& status) {
   command.add_flag("--json", lobes->json,
                    "For programs to read: an object with what is wrong; with --lobes or --lobe a "
                    "list of what was found of each");
-  command.footer("A warning is a problem too.");
+  command.footer("A warning is a problem too, but for what this machine lacks.");
   command.callback([=, &status] {
     for (const CLI::Option* detail : details) {
       if (detail->count() == 0 || lobes->is_wanted()) continue;

@@ -20,7 +20,7 @@ void add_techniques(CLI::App& command, host::RenderSettings& settings) {
   command.add_flag("--draw-texels", techniques.draws_texels,
                    "Images give one of the texels that their filter weighs, drawn for each point: "
                    "quicker look-ups, and noise that more samples take (not of displacement, media "
-                   "and lights, nor of what normals are derived from)");
+                   "and light shaders, nor of what normals are derived from)");
   const std::map<std::string, host::Roulette> kinds{{"none", host::Roulette::none},
                                                     {"throughput", host::Roulette::throughput},
                                                     {"event", host::Roulette::event}};

@@ -137,6 +137,31 @@ TEST_F(ApiDrawnTexels, AreNotWhatNormalsAreOf) {
   EXPECT_EQ(run(drawn, "normal_out", plain), run(compile("normal_out", {}), "normal_out", plain));
 }
 
+// Media, too; and of an image at one place, which has no slope that asks for the filter.
+TEST_F(ApiDrawnTexels, LeaveMediaAlone) {
+  CompileOptions options = drawing();
+  options.entries |= 1u << NACRE_INTERIOR;
+  const Shader shader = system.compile_material(Document::parse(R"(<materialx version="1.39">
+    <image name="i" type="color3"><input name="file" type="filename" value="painted"/>
+      <input name="texcoord" type="vector2" value="0.3, 0.4"/></image>
+    <extract name="height" type="float"><input name="in" type="color3" nodename="i"/></extract>
+    <open_pbr_surface name="s" type="surfaceshader">
+      <input name="transmission_weight" type="float" value="1"/>
+      <input name="transmission_depth" type="float" value="1"/>
+      <input name="transmission_color" type="color3" nodename="i"/></open_pbr_surface>
+    <displacement name="d" type="displacementshader">
+      <input name="displacement" type="float" nodename="height"/></displacement>
+    <surfacematerial name="M" type="material">
+      <input name="surfaceshader" type="surfaceshader" nodename="s"/>
+      <input name="displacementshader" type="displacementshader" nodename="d"/></surfacematerial>
+    </materialx>)"),
+                                                "M", options);
+  ASSERT_TRUE(shader.has(NACRE_DISPLACEMENT));
+  EXPECT_FALSE(reads(shader, NACRE_DISPLACEMENT));
+  ASSERT_TRUE(shader.has(NACRE_INTERIOR));
+  EXPECT_FALSE(reads(shader, NACRE_INTERIOR));
+}
+
 TEST_F(ApiDrawnTexels, SayWhatTheyReadAndLeaveDisplacementAlone) {
   CompileOptions options = drawing();
   const Shader shader = system.compile_material(Document::parse(document), "M", options);

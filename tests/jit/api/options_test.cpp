@@ -293,6 +293,7 @@ TEST(ApiOptions, PatternsOfNothingAreSaid) {
   EXPECT_EQ(codes_of({}, {"c/in"}), "unfit-pattern 'c/in';");  // It is not live.
   EXPECT_EQ(codes_of({"*"}, {"d/in"}), "unfit-pattern 'd/in';");
   EXPECT_EQ(codes_of({"*"}, {"time", "exterior_index"}), "");
+  EXPECT_EQ(codes_of({}, {"*"}), "");  // All that is no parameter: time, and so on.
 }
 
 TEST(ApiOptions, EntriesThatThereAreNotAreNotRun) {

@@ -91,7 +91,7 @@ struct CompileOptions {
   int accuracy = NACRE_STANDARD;
   int lanes = 0;
   std::vector<std::string> live;  ///< Patterns of what may change: "SR_gold/*".
-  /// Patterns of those that come with each point; and "exterior_index", by its name.
+  /// Patterns of those that come with each point; "exterior_index" and "texture_u", by their names.
   std::vector<std::string> varying;
   int lobes = 0;
   bool reverse_pdf = false;

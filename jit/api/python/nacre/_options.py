@@ -48,9 +48,9 @@ class CompileOptions(TypedDict, total=False):
     # "SR_gold/coat*", "*"). All others are folded in.
     live: Iterable[str]
     # Which of those, and of frame, time, object_to_world and world_to_object, come with each
-    # point, as channels of the parameter's name. "exterior_index", by its name and no pattern, is a
-    # channel of the index of refraction outside the surface, for dielectrics within others: their
-    # index is divided by it. Without it there is vacuum, 1, outside.
+    # point, as channels of the parameter's name. By their names and no pattern: "exterior_index",
+    # the index of refraction outside, which dielectrics' is divided by (without it vacuum's, 1), and
+    # "texture_u", a number in [0, 1) by which images give one of the texels that they filter.
     varying: Iterable[str]
     lobes: LobeKind  # Those that are modelled.
     reverse_pdf: bool  # SAMPLE and EVALUATE also store pdf_reverse.
