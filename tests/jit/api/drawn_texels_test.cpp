@@ -140,7 +140,7 @@ TEST_F(ApiDrawnTexels, AreNotWhatNormalsAreOf) {
 // Media, too; and of an image at one place, which has no slope that asks for the filter.
 TEST_F(ApiDrawnTexels, LeaveMediaAlone) {
   CompileOptions options = drawing();
-  options.entries |= 1u << NACRE_INTERIOR;
+  options.entries = 1u << NACRE_INTERIOR | 1u << NACRE_DISPLACEMENT;
   const Shader shader = system.compile_material(Document::parse(R"(<materialx version="1.39">
     <image name="i" type="color3"><input name="file" type="filename" value="painted"/>
       <input name="texcoord" type="vector2" value="0.3, 0.4"/></image>
