@@ -166,7 +166,7 @@ void Wavefront::fill(std::span<const std::uint32_t> paths, const Material& mater
   for (const std::uint32_t i : paths) points_.push_back(surface_point(i));
   context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);
   clamp_roughness(paths);
-  draw_texels(paths, Draw::texel);
+  draw_texels(paths, std::identity(), Draw::texel);
   if (context_.any_nested) fill_exterior(paths);
 }
 

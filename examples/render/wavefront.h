@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -227,7 +228,9 @@ class Wavefront {
   bool may_fork(const Material& material, const Path& path) const;
   void fork(const Material& material, std::span<const std::uint32_t> paths);
   void clamp_roughness(std::span<const std::uint32_t> paths);
-  void draw_texels(std::span<const std::uint32_t> paths, Draw what, std::uint32_t step = 0);
+  void draw_texels(std::span<const std::uint32_t> points,
+                   const std::function<std::uint32_t(std::uint32_t)>& path_of, Draw what,
+                   std::uint32_t step = 0);
   void want_lobes(const Material& material, std::span<const std::uint32_t> paths,
                   std::int32_t of_forks);
   void note_lobe(Path& path, std::size_t lane) const;
@@ -269,8 +272,7 @@ class Wavefront {
   std::vector<Environment::Light> found_;         ///< and what they find.
   std::vector<SampleKey> keys_;                   ///< Of the numbers that are drawn,
   std::vector<Uniform2> numbers_, more_numbers_;  ///< which are these.
-  std::vector<std::uint32_t> texel_paths_;        ///< Paths that texels are drawn for,
-  std::vector<Uniform2> texel_numbers_;           ///< by these.
+  std::vector<Uniform2> texel_numbers_;           ///< What draws texels of images.
   std::vector<LightPoint> light_points_;
   std::vector<std::uint32_t> light_order_;
   std::vector<Group> light_groups_;

@@ -138,13 +138,9 @@ void Wavefront::ask_environment() {
 void Wavefront::light_emission(const Material& material, std::span<const std::uint32_t> points) {
   if (!material.capabilities.emits) return;  // The dark side of a light.
   points_.clear();
-  texel_paths_.clear();
-  for (const std::uint32_t k : points) {
-    points_.push_back(light_points_[k].point);
-    texel_paths_.push_back(light_points_[k].path);
-  }
+  for (const std::uint32_t k : points) points_.push_back(light_points_[k].point);
   context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);
-  draw_texels(texel_paths_, Draw::light_texel);
+  draw_texels(points, [&](std::uint32_t k) { return light_points_[k].path; }, Draw::light_texel);
   const Stopwatch watch(statistics_.shading_seconds);
   material.shader->emission(buffer_.batch, buffer_.rgb);
   for (std::size_t lane = 0; lane < points.size(); ++lane) {

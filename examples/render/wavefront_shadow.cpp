@@ -118,9 +118,7 @@ void Wavefront::fill_shadows(std::span<const std::uint32_t> shadows, const Mater
 void Wavefront::attenuate(const Material& material, std::span<const std::uint32_t> shadows,
                           std::uint32_t met) {
   fill_shadows(shadows, material);
-  texel_paths_.clear();
-  for (const std::uint32_t i : shadows) texel_paths_.push_back(shadows_[i].path);
-  draw_texels(texel_paths_, Draw::shadow_texel, met);
+  draw_texels(shadows, [&](std::uint32_t i) { return shadows_[i].path; }, Draw::shadow_texel, met);
   {
     const Stopwatch watch(statistics_.shading_seconds);
     material.shader->opacity(buffer_.batch, buffer_.rgb);

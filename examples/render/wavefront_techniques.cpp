@@ -76,17 +76,19 @@ void Wavefront::clamp_roughness(std::span<const std::uint32_t> paths) {
   }
 }
 
-/// What images give at the points of a batch, which `paths` have met or ask about.
-void Wavefront::draw_texels(std::span<const std::uint32_t> paths, Draw what, std::uint32_t step) {
+/// What images give at the points of a batch, each of which a path has met or asks about.
+void Wavefront::draw_texels(std::span<const std::uint32_t> points,
+                            const std::function<std::uint32_t(std::uint32_t)>& path_of, Draw what,
+                            std::uint32_t step) {
   if (!context_.settings.techniques.draws_texels) return;
   keys_.clear();
-  for (const std::uint32_t i : paths) {
-    keys_.push_back(paths_[i].key);
+  for (const std::uint32_t i : points) {
+    keys_.push_back(paths_[path_of(i)].key);
     keys_.back().step += step;
   }
-  texel_numbers_.resize(paths.size());
+  texel_numbers_.resize(points.size());
   uniform2(context_.settings.sampler, keys_, what, texel_numbers_);
-  for (std::size_t lane = 0; lane < paths.size(); ++lane) {
+  for (std::size_t lane = 0; lane < points.size(); ++lane) {
     buffer_.batch.texture_u[lane] = texel_numbers_[lane].x;
   }
 }

@@ -166,13 +166,12 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
   if (!options_.varying.empty()) {
     recorder_.vary_parameters([this](std::string_view slot) { return varies(slot); });
   }
-  // By its name and no pattern: who varies all parameters need not know what is outside.
-  if (std::ranges::find(options_.varying, exterior_index_channel) != options_.varying.end()) {
-    offer_exterior_index(recorder_);
-  }
-  if (std::ranges::find(options_.varying, drawn_texels_channel) != options_.varying.end()) {
-    offer_drawn_texels(recorder_);
-  }
+  // By their names and no pattern: who varies all parameters need not know what is outside.
+  const auto is_named = [&](std::string_view channel) {
+    return std::ranges::find(options_.varying, channel) != options_.varying.end();
+  };
+  if (is_named(exterior_index_channel)) offer_exterior_index(recorder_);
+  if (is_named(drawn_texels_channel)) offer_drawn_texels(recorder_);
   // Recorded first, it is a slot that facets read; see pbs/facets.cpp.
   if (options_.kernels.min_alpha) recorder_.parameter("min_alpha", Scalar::f32, 0);
   if (options_.footprints && options_.live_footprints) {

@@ -21,11 +21,11 @@ using Json = nlohmann::ordered_json;
 bool is_problem(const Diagnostic& said) { return said.code != "no-worker"; }
 
 /// What there is to say of a document, for programs.
-Json answer(const CommonOptions& options, const Diagnostics& diagnostics) {
+Json answer(const CommonOptions& options, const Diagnostics& diagnostics, bool is_ok) {
   Json said = Json::array();
   for (const Diagnostic& each : diagnostics.all()) said.push_back(json_of(each));
   return {{"document", options.file},
-          {"ok", std::ranges::none_of(diagnostics.all(), is_problem)},
+          {"ok", is_ok},
           {"errors", diagnostics.error_count()},
           {"warnings", diagnostics.warning_count()},
           {"diagnostics", std::move(said)}};
@@ -45,7 +45,7 @@ int run(const CommonOptions& options, const LobeCheck& lobes) {
   report(diagnostics);
   const bool is_ok = std::ranges::none_of(diagnostics.all(), is_problem);
   const int status = is_ok ? status_ok : status_problems;
-  if (lobes.json) print_json(lobes.is_wanted() ? found : answer(options, diagnostics));
+  if (lobes.json) print_json(lobes.is_wanted() ? found : answer(options, diagnostics, is_ok));
   if (!options.quiet && !lobes.json && status == status_ok) fmt::print("{}: ok\n", options.file);
   return status;
 }

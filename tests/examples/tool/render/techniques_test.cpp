@@ -114,16 +114,16 @@ f 1/1 2/2 6/3 5/4
     return picture;
   }
 
-  /// Standard deviations between what options give of the floor and wall together, of so many
-  /// seeds each.
-  double difference(const std::string& materials, const std::string& one,
-                    const std::string& other) {
+  /// Standard deviations between what options give of the floor and wall together, or of the floor
+  /// alone, of so many seeds each.
+  double difference(const std::string& materials, const std::string& one, const std::string& other,
+                    bool of_floor = false) {
     constexpr int seeds = 8;
     double sum[2] = {}, squares[2] = {};
     for (int k = 0; k < 2 * seeds; ++k) {
       const Picture p = render(
           materials, (k % 2 == 0 ? one : other) + " --spp 16 --seed " + std::to_string(100 + k));
-      const double mean = Picture::mean(p.floor) + Picture::mean(p.wall);
+      const double mean = Picture::mean(p.floor) + (of_floor ? 0 : Picture::mean(p.wall));
       sum[k % 2] += mean;
       squares[k % 2] += mean * mean;
     }
@@ -194,15 +194,16 @@ TEST_F(Techniques, ForksHaveTheSameMean) {
   }
 }
 
-// Of a texture and of the same one that shines on it, each of two texels between which all points
-// lie: were both drawn by one number, they would be white together, and their product brighter.
+// Of a texture and of the same one that shines on it, half way between a black texel and a white
+// one: were both drawn by one number, they would be white together, and what is lit twice as
+// bright.
 TEST_F(Techniques, DrawnTexelsHaveTheSameMean) {
   std::string pixels(18, '\0');  // Truevision TGA 2.0, image type 2: 2 x 1 of 24 bits.
   pixels[2] = 2, pixels[12] = 2, pixels[14] = 1, pixels[16] = 24;
   write("dots.tga", pixels + std::string(3, '\x00') + std::string(3, '\xff'));
   const std::string dots = R"(<image name="dots" type="color3">
     <input name="file" type="filename" value="dots.tga"/>
-    <input name="uaddressmode" type="string" value="clamp"/></image>
+    <input name="texcoord" type="vector2" value="0.5, 0.5"/></image>
     <extract name="dot" type="float"><input name="in" type="color3" nodename="dots"/></extract>)";
   const auto with_image = [](std::string text, const std::string& before, const std::string& more) {
     return text.replace(text.find(before), 0, more);
@@ -211,11 +212,14 @@ TEST_F(Techniques, DrawnTexelsHaveTheSameMean) {
                                        "<input name=\"weight\" type=\"float\" nodename=\"dot\"/>");
   const std::string wall =
       with_image(with_image(diffuse("wall", "0.6"), "<surface ",
-                            R"(<uniform_edf name="e" type="EDF"><input name="color" type="color3"
-                      nodename="dots"/></uniform_edf>)"),
+                            R"(<multiply name="bright" type="color3">
+                      <input name="in1" type="color3" nodename="dots"/>
+                      <input name="in2" type="float" value="50"/></multiply>
+                    <uniform_edf name="e" type="EDF"><input name="color" type="color3"
+                      nodename="bright"/></uniform_edf>)"),
                  "<input name=\"bsdf\"", R"(<input name="edf" type="EDF" nodename="e"/>)");
   const std::string both = dots + floor + wall;
-  EXPECT_LT(difference(both, "--max-depth 3", "--max-depth 3 --draw-texels"), 3.5);
+  EXPECT_LT(difference(both, "--max-depth 1", "--max-depth 1 --draw-texels", true), 3.5);
   const char* const options = "--spp 4 --draw-texels";
   const Picture drawn = render(both, std::string(options) + " --threads 1");
   const Picture again = render(both, std::string(options) + " --threads 3");
