@@ -46,9 +46,12 @@ using TextureCallback = void (*)(void* user, const TextureCall* call);
 /// int32; booleans as int32 0 or 1). Arrays need only their natural alignment.
 /// Inputs and outputs must not overlap.
 struct KernelArguments {
-  const void* const* inputs = nullptr;         ///< One array a Program::inputs entry.
-  void* const* outputs = nullptr;              ///< One array a Program::outputs entry.
-  const std::uint32_t* parameters = nullptr;   ///< One slot a Program::parameters entry.
+  const void* const* inputs = nullptr;        ///< One array a Program::inputs entry.
+  void* const* outputs = nullptr;             ///< One array a Program::outputs entry.
+  const std::uint32_t* parameters = nullptr;  ///< One slot a Program::parameters entry.
+  /// 16 numbers a row of Program::fitted_rows, on a boundary of 64 bytes. Null: nothing was fitted,
+  /// and all is computed.
+  const float* fitted = nullptr;
   const TextureBinding* textures = nullptr;    ///< One a Program::textures entry.
   TextureCallback texture_callback = nullptr;  ///< Null: such look-ups give 0.
   void* texture_user = nullptr;                ///< Handed to it as it is.

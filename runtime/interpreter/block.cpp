@@ -41,6 +41,15 @@ void Block::load_table(Register& to, const Instruction& table, const Register& i
   lane_ops().look_up(to.data(), index.data(), words.data(), last);
 }
 
+void Block::load_fitted(Register& to, const Instruction& fitted, const Register& index) const {
+  const float* const row =
+      arguments.fitted != nullptr ? arguments.fitted + Fit::cells * fitted.imm : nullptr;
+  for (int k = 0; k < block_lanes; ++k) {
+    const float number = row != nullptr ? row[index[k] % Fit::cells] : 0.0f;
+    to[k] = flush_denormal(std::bit_cast<std::uint32_t>(number));
+  }
+}
+
 void Block::load_texel(Register& to, const Register& slot, const Register& word) const {
   for (int k = 0; k < block_lanes; ++k) {
     const std::uint32_t number = slot[k] < program.textures.size() ? slot[k] : 0u;

@@ -26,6 +26,7 @@ struct Block {
   /// Beyond the batch the last point is repeated: no lane takes a way of its own.
   void load_input(Register& to, const Instruction& input) const;
   void load_table(Register& to, const Instruction& table, const Register& index) const;
+  void load_fitted(Register& to, const Instruction& fitted, const Register& index) const;
   void load_texel(Register& to, const Register& slot, const Register& word) const;
   /// `from`: slot, u, v, dudx, dvdx, dudy, dvdy; `to`: r, g, b, a.
   void call_texture(std::span<Register, 4> to, const Instruction& call,

@@ -202,6 +202,9 @@ class Run {
       case Op::table:
         block_.load_table(reg(frame, id), instruction, reg(frame, instruction.operands[0]));
         break;
+      case Op::fitted:
+        block_.load_fitted(reg(frame, id), instruction, reg(frame, instruction.operands[0]));
+        break;
       case Op::texel:
         block_.load_texel(reg(frame, id), reg(frame, instruction.operands[0]),
                           reg(frame, instruction.operands[1]));

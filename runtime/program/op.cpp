@@ -70,6 +70,7 @@ constexpr std::array<OpInfo, op_count> table{{
     {Op::log2, "log2", "f", f32, false, false},
     {Op::pow, "pow", "ff", f32, false, false},
     {Op::table, "table", "i", f32, false, false},
+    {Op::fitted, "fitted", "i", f32, false, false},
     {Op::texel, "texel", "ii", i32, false, false},
     {Op::texture_call, "texture_call", "iffffff?i", none, false, false},
     {Op::result, "result", "*", none, true, false},

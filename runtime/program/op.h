@@ -102,6 +102,8 @@ enum class Op : std::uint8_t {
 
   // Memory
   table,         ///< (i32 index) Entry of constant table imm; index clamped to it.
+  fitted,        ///< (i32 index) Number index & 15 of row imm of the numbers that parameters were
+                 ///< fitted with (Fit).
   texel,         ///< (i32 slot, i32 word) One word of a resident texture.
   texture_call,  ///< (slot, u, v, dudx, dvdx, dudy, dvdy[, i32 anisotropy]) A look-up that the
                  ///< host answers; imm: filter and address modes, with the anisotropy of who

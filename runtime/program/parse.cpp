@@ -151,6 +151,8 @@ class Parser {
       table.name = words.take();
       expect(words, "=");
       while (!words.empty()) table.values.push_back(std::bit_cast<float>(float_bits(words.take())));
+    } else if (kind == "fitted") {
+      program_.fitted_rows = number<std::uint32_t>(words.take(), "how many rows there are");
     } else if (kind == "function") {
       function(words.take_rest());
     } else if (kind == "entry") {
@@ -158,7 +160,8 @@ class Parser {
       in_entry_ = true;
       code().name = kind;
     } else {
-      throw Fault{"program, texture, parameter, table, function or entry", std::string(kind)};
+      throw Fault{"program, texture, parameter, fitted, table, function or entry",
+                  std::string(kind)};
     }
     if (!words.empty()) throw Fault{"the end of the line", std::string(words.peek())};
   }
@@ -257,6 +260,7 @@ class Parser {
       case Op::result:
       case Op::keep:
       case Op::ddx:
+      case Op::fitted:
       case Op::texture_call: to.imm = number<std::uint32_t>(words.take(), "a number"); break;
       default: break;
     }

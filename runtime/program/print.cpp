@@ -61,6 +61,7 @@ void put_imm(Buffer& text, const Program& program, const Instruction& instructio
     case Op::result:
     case Op::keep:
     case Op::ddx:
+    case Op::fitted:
     case Op::texture_call: put(text, " {}", instruction.imm); break;
     default: break;
   }
@@ -111,6 +112,7 @@ void put_lists(Buffer& text, const Program& program) {
     put_bits(text, slot.type, slot.value);
     text.push_back('\n');
   }
+  if (program.fitted_rows != 0) put(text, "fitted {}\n", program.fitted_rows);
   for (const Table& table : program.tables) {
     put(text, "table {} =", table.name);
     for (const float value : table.values) {

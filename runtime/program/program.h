@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -86,6 +87,28 @@ struct TextureSlot {
   bool operator==(const TextureSlot&) const = default;
 };
 
+struct Program;
+
+/// Functions of one number and of parameters, as polynomials in cells of that number's range: equal
+/// ones of the root of what it is above `low`.
+/// Their coefficients are worked out when the parameters are known, before the kernel runs, and
+/// Op::fitted reads them: rows of 16 numbers, one a cell. The first rows have a number for each fit
+/// of a Program: 1 where all its functions are as close as they should be, else 0.
+struct Fit {
+  static constexpr std::uint32_t cells = 16;
+  static constexpr std::uint32_t coefficients = 4;
+  static constexpr std::uint32_t first_rows = 4;
+  static constexpr std::uint32_t most = first_rows * cells;  ///< Fits of a Program.
+
+  /// Has one input, the number, and an output each function.
+  std::shared_ptr<const Program> maker;
+  std::vector<std::uint32_t> slots{};  ///< Of each parameter of it, that of the Program.
+  /// The first of its rows: four a function, the coefficients of degree 0 to 3 in each cell.
+  std::uint32_t row = 0;
+  float low = 0, high = 1;  ///< The range of the number.
+  float error = 0;          ///< What of a function is close; see fit_cells().
+};
+
 /// How exact the transcendental functions and the closure approximations are.
 enum class Accuracy : std::uint8_t { precise, standard, fast };
 /// "precise", "standard" or "fast".
@@ -100,6 +123,8 @@ struct Program {
   std::vector<ParameterSlot> parameters;  ///< Their order is that of the block.
   std::vector<Table> tables;              ///< Part of the kernel; nothing to bind.
   std::vector<TextureSlot> textures;      ///< Their order is that of KernelArguments::textures.
+  std::vector<Fit> fits;                  ///< What Op::fitted reads, and
+  std::uint32_t fitted_rows = 0;          ///< how many rows KernelArguments::fitted has.
   /// Nodes by path and lobes by name, for people who ask what costs what; 0: nobody's.
   std::vector<std::string> origins{""};
 

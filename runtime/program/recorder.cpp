@@ -58,6 +58,8 @@ void Recorder::adopt_interface(const Program& program) {
   program_.parameters = program.parameters;
   program_.tables = program.tables;
   program_.textures = program.textures;
+  program_.fits = program.fits;
+  program_.fitted_rows = program.fitted_rows;
   program_.origins = program.origins;
 }
 

@@ -57,6 +57,44 @@ bool take_named(BytesIn& in, std::vector<T>& list) {
 
 }  // namespace
 
+std::string fits_to_bytes(const Program& program) {
+  if (program.fitted_rows == 0) return {};
+  BytesOut out;
+  out.add(program.fitted_rows);
+  out.add(static_cast<std::uint64_t>(program.fits.size()));
+  for (const Fit& fit : program.fits) {
+    out.add_text(to_bytes(*fit.maker));
+    out.add_list(fit.slots);
+    out.add(fit.row);
+    out.add(fit.low);
+    out.add(fit.high);
+    out.add(fit.error);
+  }
+  return out.take();
+}
+
+bool take_fits(std::string_view bytes, Program& program) {
+  if (bytes.empty()) return true;
+  BytesIn in(bytes);
+  program.fitted_rows = in.take<std::uint32_t>();
+  program.fits.resize(in.take_count(2 * sizeof(std::uint64_t) + 4 * sizeof(std::uint32_t)));
+  for (Fit& fit : program.fits) {
+    auto maker = program_from_bytes(in.take_text());
+    if (!maker) return false;
+    fit.slots = in.take_list<std::uint32_t>();
+    fit.row = in.take<std::uint32_t>();
+    fit.low = in.take<float>();
+    fit.high = in.take<float>();
+    fit.error = in.take<float>();
+    const std::uint64_t rows = Fit::coefficients * std::uint64_t{maker->outputs.size()};
+    const bool fits = fit.row + rows <= program.fitted_rows && maker->inputs.size() == 1 &&
+                      fit.slots.size() == maker->parameters.size();
+    if (!fits) return false;
+    fit.maker = std::make_shared<const Program>(std::move(*maker));
+  }
+  return in.is_whole();
+}
+
 std::string to_bytes(const Program& program) {
   BytesOut out;
   out.add_text(program.name);
@@ -73,6 +111,7 @@ std::string to_bytes(const Program& program) {
   }
   out.add(static_cast<std::uint64_t>(program.textures.size()));
   for (const TextureSlot& slot : program.textures) out.add_text(slot.key);
+  out.add_text(fits_to_bytes(program));
   out.add(static_cast<std::uint64_t>(program.origins.size()));
   for (const std::string& origin : program.origins) out.add_text(origin);
   return out.take();
@@ -96,6 +135,7 @@ std::optional<Program> program_from_bytes(std::string_view bytes) {
   }
   program.textures.resize(in.take_count(sizeof(std::uint64_t)));
   for (TextureSlot& slot : program.textures) slot.key = in.take_text();
+  if (!take_fits(in.take_text(), program)) return std::nullopt;
   program.origins.resize(in.take_count(sizeof(std::uint64_t)));
   for (std::string& origin : program.origins) origin = in.take_text();
   if (!in.is_whole()) return std::nullopt;

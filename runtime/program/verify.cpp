@@ -149,6 +149,7 @@ class Verifier {
       case Op::table:
         if (std::string fault = index_fault(imm, program_.tables); !fault.empty()) return fault;
         return program_.tables[imm].values.empty() ? "empty table" : "";
+      case Op::fitted: return imm < program_.fitted_rows ? "" : "index out of range";
       case Op::loop: return loop_bound(imm) != 0 ? "" : "may run no round";
       case Op::ddx: return imm < 2 ? "" : "no axis of the footprint";
       case Op::call: return check_call(instruction);

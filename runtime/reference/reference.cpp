@@ -231,6 +231,9 @@ class Run {
       case Op::table:
         each([&](std::uint32_t p) { to[p].f = table(instruction.imm, a[p].i); });
         break;
+      case Op::fitted:
+        each([&](std::uint32_t p) { to[p].f = fitted(instruction.imm, a[p].i); });
+        break;
       case Op::texel: each([&](std::uint32_t p) { to[p].i = texel(a[p].i, b[p].i); }); break;
       case Op::texture_call:
         results_ = Columns(4);
@@ -287,6 +290,11 @@ class Run {
     const auto last = static_cast<std::int32_t>(values.size()) - 1;
     const auto clamped = std::clamp(static_cast<std::int32_t>(index), 0, last);
     return static_cast<double>(values[static_cast<std::size_t>(clamped)]);
+  }
+
+  double fitted(std::uint32_t row, std::uint32_t index) const {
+    if (args_.fitted == nullptr) return 0.0;
+    return static_cast<double>(args_.fitted[Fit::cells * row + index % Fit::cells]);
   }
 
   std::uint32_t texel(std::uint32_t slot, std::uint32_t word) const {

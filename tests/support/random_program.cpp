@@ -27,8 +27,8 @@ std::vector<Op> plain_operations() {
     const Op op = static_cast<Op>(number);
     const std::string_view operands = info(op).operands;
     if (operands.empty() || operands == "*" || is_structural(op) || is_transcendental(op) ||
-        op == Op::table || op == Op::texel || op == Op::texture_call || op == Op::keep ||
-        op == Op::ddx || op == Op::stand_in) {
+        op == Op::table || op == Op::fitted || op == Op::texel || op == Op::texture_call ||
+        op == Op::keep || op == Op::ddx || op == Op::stand_in) {
       continue;
     }
     list.push_back(op);
