@@ -33,7 +33,8 @@ Computation::Computation(const Program& program, const Groups& groups,
   for (const ValueId value : values_) {
     const Instruction& instruction = function.code[value];
     is_number_.push_back(instruction.type == Scalar::f32);
-    costs_.push_back(operation_cost(instruction.op, error));
+    is_of_parameters_.push_back(groups.is_of_parameters(value));
+    costs_.push_back(is_of_parameters_.back() ? 0 : operation_cost(instruction.op, error));
     std::vector<std::size_t>& operands = operands_.emplace_back();
     bool has_key = false;
     for (const ValueId operand : function.operands(instruction)) {
@@ -59,10 +60,14 @@ std::vector<std::size_t> Computation::of_alone(std::size_t i) const {
   is_of[i] = true;
   std::vector<std::size_t> found;
   for (std::size_t k = i + 1; k < size(); ++k) {
-    const auto is_other = [&](std::size_t operand) { return !is_of[operand]; };
+    const auto is_other = [&](std::size_t operand) {
+      return !is_of[operand] && !is_of_parameters_[operand];
+    };
     // Operands that are no part of the computation are constants, or the group's key.
-    if (operands_[k].empty() || has_key_[k] || std::ranges::any_of(operands_[k], is_other))
+    if (operands_[k].empty() || has_key_[k] || is_of_parameters_[k] ||
+        std::ranges::any_of(operands_[k], is_other)) {
       continue;
+    }
     is_of[k] = true;
     found.push_back(k);
   }

@@ -27,6 +27,8 @@ class Computation {
   std::size_t at(ValueId value) const;
   bool has(ValueId value) const;
   bool is_number(std::size_t i) const { return is_number_[i]; }
+  /// Computed once for all points.
+  bool is_of_parameters(std::size_t i) const { return is_of_parameters_[i]; }
   const std::vector<std::size_t>& operands(std::size_t i) const { return operands_[i]; }
   double cost(std::size_t i) const { return costs_[i]; }
   double cost() const;
@@ -40,6 +42,7 @@ class Computation {
  private:
   std::vector<ValueId> values_;
   std::vector<bool> is_number_;
+  std::vector<bool> is_of_parameters_;
   std::vector<std::vector<std::size_t>> operands_;
   std::vector<double> costs_;
   std::vector<bool> has_key_;

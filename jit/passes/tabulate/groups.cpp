@@ -1,6 +1,7 @@
 #include "jit/passes/tabulate/groups.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace nacre {
 
@@ -15,6 +16,7 @@ bool is_pure(Op op) {
     case Op::parameter:
     case Op::input:
     case Op::argument:
+    case Op::fitted:
     case Op::texel:
     case Op::texture_call:
     case Op::result:
@@ -27,8 +29,11 @@ bool is_pure(Op op) {
 
 }  // namespace
 
-Groups::Groups(const Program& program)
-    : function_(program.entry()), code_(function_.code), ranges_(ranges_of(program)) {
+Groups::Groups(const Program& program, std::vector<bool> constants)
+    : constants_(std::move(constants)),
+      function_(program.entry()),
+      code_(function_.code),
+      ranges_(ranges_of(program)) {
   for (ValueId i = 0; i < code_.size(); ++i) keys_.push_back(key_of(i));
   for (ValueId i = 0; i < code_.size(); ++i) note_uses(i);
 }
@@ -38,10 +43,18 @@ void Groups::add_cone(ValueId value, Cone& cone) const {
   while (!left.empty()) {
     const ValueId next = left.back();
     left.pop_back();
-    const ValueId key = keys_[next];
-    if (key == next || key == no_value || !cone.insert(next).second) continue;
+    const bool ends = keys_[next] == next || code_[next].op == Op::constant;
+    if (ends || !cone.insert(next).second) continue;
     for (const ValueId operand : function_.operands(code_[next])) left.push_back(operand);
   }
+}
+
+Cone Groups::cone_of(const std::vector<ValueId>& values, ValueId key) const {
+  Cone cone;
+  for (const ValueId value : values) add_cone(value, cone);
+  // What the key itself is computed from.
+  std::erase_if(cone, [&](ValueId value) { return value <= key && !is_of_parameters(value); });
+  return cone;
 }
 
 bool Groups::is_bounded(ValueId value) const {
@@ -52,6 +65,15 @@ bool Groups::is_bounded(ValueId value) const {
 
 ValueId Groups::key_of(ValueId value) const {
   if (code_[value].op == Op::constant) return no_value;
+  if (has_parameters() && !code_[value].varying) {
+    const Instruction& instruction = code_[value];
+    const bool is_constant =
+        instruction.op == Op::parameter ? constants_[instruction.imm] : is_pure(instruction.op);
+    const auto counts = [&](ValueId operand) { return keys_[operand] == no_value; };
+    if (is_constant && std::ranges::all_of(function_.operands(instruction), counts)) {
+      return no_value;
+    }
+  }
   if (!is_pure(code_[value].op)) return value;
   ValueId key = no_value;
   for (const ValueId operand : function_.operands(code_[value])) {
@@ -79,19 +101,23 @@ Refs record_again(Recorder& recorder, const Function& function, const Cone& cone
                   const std::function<std::optional<Ref>(ValueId, const Refs&)>& instead) {
   Refs again{{key, number}};
   std::vector<Ref> operands;
-  for (const ValueId i : cone) {
-    if (i == key) continue;
-    if (const auto other = instead ? instead(i, again) : std::nullopt) {
-      again[i] = *other;
-      continue;
-    }
+  const auto record = [&](ValueId i) {
+    if (const auto other = instead ? instead(i, again) : std::nullopt) return *other;
     operands.clear();
     for (const ValueId operand : function.operands(function.code[i])) {
       const Instruction& found = function.code[operand];
       operands.push_back(found.op == Op::constant ? Ref{nullptr, found.imm, found.type}
                                                   : again.at(operand));
     }
-    again[i] = recorder.emit(function.code[i].op, operands, function.code[i].imm);
+    if (function.code[i].op == Op::parameter) return recorder.adopted(function.code[i]);
+    return recorder.emit(function.code[i].op, operands, function.code[i].imm);
+  };
+  // What is there once for all points first: what is computed of it has one form then, whoever else
+  // has needed it before.
+  for (const bool is_varying : {false, true}) {
+    for (const ValueId i : cone) {
+      if (i != key && function.code[i].varying == is_varying) again[i] = record(i);
+    }
   }
   return again;
 }

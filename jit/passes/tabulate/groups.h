@@ -20,7 +20,14 @@ using Cone = std::set<ValueId>;
 /// key. The Program is marked, and outlives this.
 class Groups {
  public:
-  explicit Groups(const Program& program);
+  /// `constants`: of each slot whether it is as good as a constant; none is where that is empty.
+  explicit Groups(const Program& program, std::vector<bool> constants = {});
+
+  /// Whether a value is of such slots alone.
+  bool is_of_parameters(ValueId value) const {
+    return keys_[value] == no_value && code_[value].op != Op::constant;
+  }
+  bool has_parameters() const { return !constants_.empty(); }
 
   /// Keys that are bounded and differ from point to point, and what of their groups is used
   /// elsewhere: in order.
@@ -31,6 +38,8 @@ class Groups {
 
   /// Adds what a value is computed from, but for its key; itself included.
   void add_cone(ValueId value, Cone& cone) const;
+  /// What values are computed from that depend on `key` alone: a group's, or a value of a group.
+  Cone cone_of(const std::vector<ValueId>& values, ValueId key) const;
 
  private:
   /// The last value that everything of this one goes through, from which a bounded one may begin
@@ -38,6 +47,7 @@ class Groups {
   ValueId key_of(ValueId value) const;
   void note_uses(ValueId user);
 
+  std::vector<bool> constants_;
   const Function& function_;
   const std::vector<Instruction>& code_;
   std::vector<Range> ranges_;

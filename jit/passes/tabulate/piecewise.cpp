@@ -15,8 +15,7 @@ namespace {
 constexpr int parts = Axis::parts;
 constexpr std::size_t degrees = 3;
 
-/// A polynomial in [0, 1], by its values in equal parts of that.
-using Polynomial = std::array<double, degrees + 1>;
+/// A function in a cell, by its values in equal parts of that.
 using Values = std::span<const double, parts + 1>;
 
 /// Through as many of the values as it has coefficients, those at both ends among them: neighbours
@@ -29,19 +28,9 @@ Polynomial interpolate(Values values, std::size_t degree) {
       const double middle = values[parts / 2];
       return {f0, 4 * middle - 3 * f0 - f1, 2 * f0 - 4 * middle + 2 * f1, 0};
     }
-    default: {
-      // At 0, 1/4, 3/4 and 1, nearly Chebyshev's; Newton's divided differences.
-      const double a = values[parts / 4], b = values[3 * parts / 4];
-      const double d1 = 4 * (a - f0), d2 = 2 * (b - a), d3 = 4 * (f1 - b);
-      const double e1 = (d2 - d1) / 0.75, e2 = (d3 - d2) / 0.75;
-      const double g = e2 - e1;
-      // f0 + x (d1 + (x - 1/4) (e1 + (x - 3/4) g))
-      return {f0, d1 - 0.25 * e1 + 0.1875 * g, e1 - g, g};
-    }
+    default: return cubic_through(f0, values[parts / 4], values[3 * parts / 4], f1);
   }
 }
-
-double at(const Polynomial& p, double x) { return p[0] + x * (p[1] + x * (p[2] + x * p[3])); }
 
 /// Of the lowest degree that is close enough in all cells; empty if none is.
 std::vector<std::vector<float>> fit(std::span<const double> values, std::size_t cells,
@@ -60,7 +49,7 @@ std::vector<std::vector<float>> fit(std::span<const double> values, std::size_t 
         p[k] = coefficients[k][cell];
       }
       for (std::size_t k = 0; k <= parts; ++k) {
-        const double off = std::abs(at(p, static_cast<double>(k) / parts) - here[k]);
+        const double off = std::abs(value_at(p, static_cast<double>(k) / parts) - here[k]);
         is_close = is_close && off <= error * std::max(std::abs(here[k]), floor);
       }
     }
@@ -106,6 +95,17 @@ bool is_hopeless(const Axis& axis, double error, const Sampled& sampled) {
 }
 
 }  // namespace
+
+Polynomial cubic_through(double f0, double a, double b, double f1) {
+  // Newton's divided differences.
+  const double d1 = 4 * (a - f0), d2 = 2 * (b - a), d3 = 4 * (f1 - b);
+  const double e1 = (d2 - d1) / 0.75, e2 = (d3 - d2) / 0.75;
+  const double g = e2 - e1;
+  // f0 + x (d1 + (x - 1/4) (e1 + (x - 3/4) g))
+  return {f0, d1 - 0.25 * e1 + 0.1875 * g, e1 - g, g};
+}
+
+double value_at(const Polynomial& p, double x) { return p[0] + x * (p[1] + x * (p[2] + x * p[3])); }
 
 double Piecewise::cost_of(std::size_t function) const {
   const double look_up = axis.cells > 16 ? 2 : 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -11,6 +12,12 @@ namespace nacre {
 
 /// Errors are relative to a value, or to that share of the function's largest where it is more.
 inline constexpr double floor_of_peak = 0.01;
+
+/// In [0, 1], by the coefficients of degree 0 to 3.
+using Polynomial = std::array<double, 4>;
+/// Through values at 0, 1/4, 3/4 and 1, nearly Chebyshev's.
+Polynomial cubic_through(double f0, double a, double b, double f1);
+double value_at(const Polynomial& p, double x);
 
 /// Functions of one number, each as polynomials in the cells of one axis: as tables that CPUs keep
 /// in registers.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "jit/passes/tabulate/cover.h"
+#include "jit/passes/tabulate/fit_trials.h"
 #include "jit/passes/tabulate/sampler.h"
 
 namespace nacre {
@@ -43,7 +44,8 @@ class Planner {
     find_tables();
     while (!tables_.empty()) {
       const std::vector<Looked> plan = cheapest();
-      if (plan.empty()) return plan;
+      // Fits are looked at when their parameters are known.
+      if (plan.empty() || groups_.has_parameters()) return plan;
       const std::vector<std::size_t> far = outputs_too_far(plan);
       if (far.empty()) return plan;
       for (const std::size_t output : far) compute(output);
@@ -68,6 +70,7 @@ class Planner {
     const std::vector<bool> nothing(computation_.size());
     for (std::size_t i = 0; i < computation_.size(); ++i) {
       if (computed_[i] || !computation_.is_number(i)) continue;
+      if (computation_.is_of_parameters(i)) continue;
       const bool is_output = std::ranges::find(outputs_, i) != outputs_.end();
       if (!is_output && computation_.size() > most_values) continue;
       if (computation_.cost_of(computation_.below(i, nothing)) < least_cost_of_a_table) continue;
@@ -101,17 +104,14 @@ class Planner {
                   const std::vector<ValueId>& places) {
     if (all.empty()) return;
     const std::vector<ValueId> values = values_of(all);
-    Cone cone;
-    for (const ValueId value : values) groups_.add_cone(value, cone);
-    std::erase_if(cone, [&](ValueId value) { return value <= key; });
+    const Cone cone = groups_.cone_of(values, key);
+    if (groups_.has_parameters())
+      return add_fits(key, all, program_of(program_, cone, key, values));
     const Sampler sampler(program_, cone, key, values);
     const auto add = [&](const Axis& axis, ValueId place) {
       for (Piecewise& fitted :
            fit_piecewise(axis, error_, [&](auto numbers) { return sampler.run(numbers); })) {
-        Tables tables{std::move(fitted), key, place,
-                      std::vector<std::size_t>(computation_.size(), Tables::none)};
-        for (std::size_t k = 0; k < all.size(); ++k) tables.function[all[k]] = k;
-        tables_.push_back(std::move(tables));
+        add_table(std::move(fitted), key, place, all);
       }
     };
     const Range& range = groups_.range(key);
@@ -126,6 +126,31 @@ class Planner {
     add(axis_of(range.low, range.high, most_cells, Axis::Along::root), no_value);
   }
 
+  void add_table(Piecewise fitted, ValueId key, ValueId place,
+                 const std::vector<std::size_t>& all) {
+    Tables tables{std::move(fitted), key, place,
+                  std::vector<std::size_t>(computation_.size(), Tables::none)};
+    for (std::size_t k = 0; k < all.size(); ++k) tables.function[all[k]] = k;
+    tables_.push_back(std::move(tables));
+  }
+
+  /// What fits, in as many cells and by as many coefficients whatever the parameters.
+  void add_fits(ValueId key, const std::vector<std::size_t>& all, const Program& maker) {
+    const Range& range = groups_.range(key);
+    const Axis axis = axis_of(range.low, range.high, Fit::cells, Axis::Along::root);
+    const Fit fit{.maker = nullptr,
+                  .low = static_cast<float>(range.low),
+                  .high = static_cast<float>(range.high),
+                  .error = static_cast<float>(error_of_floats * error_)};
+    const std::vector<bool> are_close = close_on_trials(fit, maker);
+    Piecewise found{axis, {}};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      found.functions.emplace_back(are_close[k] ? Fit::coefficients : 0,
+                                   std::vector<float>(Fit::cells));
+    }
+    add_table(std::move(found), key, no_value, all);
+  }
+
   /// Numbers with a corner or a step in the middle of a cell, of which something is smooth: those
   /// that most depends on.
   std::vector<std::size_t> inner_keys() const {
@@ -134,9 +159,11 @@ class Planner {
     for (std::size_t i = 0; i < computation_.size(); ++i) {
       const Op op = at(computation_.value(i)).op;
       if (op != Op::min && op != Op::max && op != Op::select) continue;
-      if (computed_[i] || !groups_.is_bounded(computation_.value(i))) continue;
+      if (computed_[i] || computation_.is_of_parameters(i)) continue;
+      if (!groups_.is_bounded(computation_.value(i))) continue;
       const double cost = computation_.cost_of(computation_.of_alone(i));
-      if (cost >= least_cost_of_a_table + least_saving) by_cost[cost].push_back(i);
+      if (cost < least_cost_of_a_table + least_saving_of(groups_)) continue;
+      by_cost[cost].push_back(i);
     }
     std::vector<std::size_t> found;
     for (const auto& [cost, alike] : by_cost) {
@@ -149,6 +176,7 @@ class Planner {
   /// Values whose whole part is looked at, as an index of another table is made: there functions
   /// of it have their corners. Those of the most cells first, and then the cheapest.
   std::vector<ValueId> places() const {
+    if (groups_.has_parameters()) return {};  // They would differ from parameters to parameters.
     std::map<std::pair<double, double>, std::vector<ValueId>> ranked;
     for (const ValueId i : computation_.values()) {
       if (at(i).op != Op::floor) continue;
@@ -201,7 +229,7 @@ class Planner {
                .cost = computation_.cost()};
     for (bool has_better = true; has_better;) {
       has_better = false;
-      const double most = best.cost - least_saving;
+      const double most = best.cost - least_saving_of(groups_);
       const std::vector<std::size_t> before = chosen;
       for (std::size_t k = 0; k < tables_.size(); ++k) {
         if (std::ranges::find(before, k) != before.end()) continue;

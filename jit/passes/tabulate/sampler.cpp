@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "jit/passes/tabulate/plan.h"
 #include "runtime/program/slice.h"
@@ -13,14 +14,32 @@ namespace {
 
 Ref number_of(Recorder& recorder) { return recorder.input("tabulated number", Scalar::f32); }
 
+Program values_of(Recorder& recorder, const Refs& again, const std::vector<ValueId>& values) {
+  std::vector<SliceOutput> wanted;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    wanted.push_back({std::to_string(k), again.at(values[k])});
+  }
+  Program program = slice(recorder.program(), "tabulated", wanted);
+  // Which it reads none of.
+  program.fits.clear();
+  program.fitted_rows = 0;
+  return program;
+}
+
 }  // namespace
+
+Program program_of(const Program& program, const Cone& cone, ValueId key,
+                   const std::vector<ValueId>& values) {
+  Recorder recorder;
+  recorder.adopt_interface(program);
+  return values_of(recorder,
+                   record_again(recorder, program.entry(), cone, key, number_of(recorder)), values);
+}
 
 Sampler::Sampler(const Program& program, const Cone& cone, ValueId key,
                  const std::vector<ValueId>& values)
     : count_(values.size()) {
-  Recorder recorder;
-  recorder.adopt_interface(program);
-  make(recorder, record_again(recorder, program.entry(), cone, key, number_of(recorder)), values);
+  make(program_of(program, cone, key, values));
 }
 
 Sampler::Sampler(const Program& program, const Groups& groups, const Cone& cone, ValueId key,
@@ -37,17 +56,12 @@ Sampler::Sampler(const Program& program, const Groups& groups, const Cone& cone,
     }
     return std::nullopt;
   };
-  make(recorder, record_again(recorder, program.entry(), cone, key, number_of(recorder), looked_up),
-       values);
+  const Refs again =
+      record_again(recorder, program.entry(), cone, key, number_of(recorder), looked_up);
+  make(values_of(recorder, again, values));
 }
 
-void Sampler::make(Recorder& recorder, const Refs& again, const std::vector<ValueId>& values) {
-  std::vector<SliceOutput> wanted;
-  for (std::size_t k = 0; k < count_; ++k) {
-    wanted.push_back({std::to_string(k), again.at(values[k])});
-  }
-  kernel_ = make_reference(slice(recorder.program(), "tabulated", wanted));
-}
+void Sampler::make(Program program) { kernel_ = make_reference(std::move(program)); }
 
 std::vector<std::vector<double>> Sampler::run(std::span<const float> numbers) const {
   std::vector<std::vector<double>> found(count_, std::vector<double>(numbers.size()));

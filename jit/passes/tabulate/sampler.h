@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,6 +11,11 @@
 namespace nacre {
 
 struct Looked;
+
+/// A Program of one input, the number, and of the parameters that `program` has and values need;
+/// its outputs are the values.
+Program program_of(const Program& program, const Cone& cone, ValueId key,
+                   const std::vector<ValueId>& values);
 
 /// Values of a group for other numbers than it has, in double precision.
 class Sampler {
@@ -25,7 +31,7 @@ class Sampler {
   std::vector<std::vector<double>> run(std::span<const float> numbers) const;
 
  private:
-  void make(Recorder& recorder, const Refs& again, const std::vector<ValueId>& values);
+  void make(Program program);
 
   std::size_t count_;
   std::unique_ptr<ReferenceKernel> kernel_;

@@ -1,13 +1,10 @@
 #include "jit/passes/tabulate/tabulate.h"
 
-#include <functional>
-#include <map>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "jit/passes/tabulate/cover.h"
 #include "jit/passes/tabulate/groups.h"
 #include "jit/passes/tabulate/plan.h"
 #include "runtime/program/recorder.h"
@@ -15,44 +12,11 @@
 
 namespace nacre {
 
-namespace {
-
-/// What may be done to find tables for a Program, in operations of the reference engine, well below
-/// a second: for a group at all, and for each operation of it.
-constexpr double most_work = 5e7, work_of_a_group = 2e4, work_of_an_operation = 1200;
-
-/// Keys of the groups that may save something, those that may save the most first, as many as can
-/// be looked at in time: all that may save as much or none of them, whichever was recorded first.
-std::vector<ValueId> worthwhile(const Program& program, const Groups& groups, double error) {
-  std::map<double, std::vector<std::pair<ValueId, double>>, std::greater<>> by_cost;
-  for (const auto& [key, outputs] : groups.outputs()) {
-    Cone cone;
-    for (const ValueId output : outputs) groups.add_cone(output, cone);
-    double cost = 0;
-    for (const ValueId value : cone) cost += operation_cost(program.entry().code[value].op, error);
-    if (cost < least_cost_of_a_table + least_saving) continue;  // Most groups.
-    by_cost[cost].emplace_back(key, work_of_a_group + work_of_an_operation * double(cone.size()));
-  }
-  std::vector<ValueId> keys;
-  double work = 0;
-  for (const auto& [cost, alike] : by_cost) {
-    for (const auto& [key, own] : alike) work += own;
-    if (work > most_work) break;
-    for (const auto& [key, own] : alike) keys.push_back(key);
-  }
-  return keys;
-}
-
-}  // namespace
-
 Program tabulate(const Program& program, double error) {
   Program marked = program;
   mark_varying(marked);
   const Groups groups(marked);
-  std::vector<Looked> all;
-  for (const ValueId key : worthwhile(marked, groups, error)) {
-    for (Looked& looked : plan_group(marked, groups, key, error)) all.push_back(std::move(looked));
-  }
+  const std::vector<Looked> all = plan_all(marked, groups, error);
   if (all.empty()) return program;
   const Function& entry = marked.entry();
   std::unordered_map<ValueId, std::pair<const Looked*, std::size_t>> looked;
