@@ -49,6 +49,9 @@ std::string key_of(const Program& program, const CompileOptions& options,
   std::string way =
       fmt::format("lowered, at most {} instructions, tables within {}{}", options.max_instructions,
                   table_error_of(options), options.all_varying ? ", all varying" : "");
+  const std::vector<bool> fitted = fitted_slots(program, options);
+  if (!fitted.empty()) way += ", fitted ";
+  for (const bool is_fitted : fitted) way += is_fitted ? '1' : '0';
   for (const Fact& fact : facts_of(options.facts, program)) {
     way += (fact.is_implied ? "; implied " : "; ") + to_string(fact);
   }

@@ -168,6 +168,12 @@ CompiledKernel* FactKernel::compiled() const {
   return dynamic_cast<CompiledKernel*>(const_cast<Kernel*>(narrow_.get()));
 }
 
+// The general kernel has the same: facts leave out what comes behind them.
+Fits FactKernel::fits() const {
+  if (compiled() != nullptr) return compiled()->fits();
+  return {narrow_->program().fits, narrow_->program().fitted_rows};
+}
+
 CompiledKernel::State FactKernel::state() const {
   return compiled() != nullptr ? compiled()->state() : State::ready;
 }

@@ -25,6 +25,7 @@ class FactKernel final : public CompiledKernel {
   int lanes() const override { return narrow_->lanes(); }
   const char* engine() const override { return narrow_->engine(); }
 
+  Fits fits() const override;
   State state() const override;
   /// That of the general kernel, which is waited for: what calls code directly gets no checks.
   std::optional<Code> code(bool single) const override;

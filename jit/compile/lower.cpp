@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "jit/passes/flatten.h"
 #include "jit/passes/scale_footprints.h"
 #include "jit/passes/sink.h"
+#include "jit/passes/tabulate/fit_parameters.h"
 #include "jit/passes/tabulate/tabulate.h"
 #include "runtime/float_environment.h"
 
@@ -120,6 +122,15 @@ double table_error_of(const CompileOptions& options) {
   return options.table_error.value_or(by_accuracy[static_cast<std::size_t>(options.accuracy)]);
 }
 
+std::vector<bool> fitted_slots(const Program& program, const CompileOptions& options) {
+  if (!options.fits_slot || table_error_of(options) <= 0) return {};
+  std::vector<bool> fitted;
+  for (const ParameterSlot& slot : program.parameters)
+    fitted.push_back(options.fits_slot(slot.name));
+  if (std::ranges::find(fitted, true) == fitted.end()) fitted.clear();
+  return fitted;
+}
+
 bool has_check(const Program& program, const CompileOptions& options) {
   return options.backend != Backend::reference && !facts_of(options.facts, program).empty();
 }
@@ -161,12 +172,21 @@ Program lower_to_engine(Program program, const CompileOptions& options,
   // What depends on one number alone comes of tables, if they may be off.
   if (const double error = table_error_of(options); error > 0) {
     passes.run("tabulate", [&](const Program& p) { return tabulate(p, error); });
+    if (auto slots = fitted_slots(passes.program(), options); !slots.empty()) {
+      passes.run("fit_parameters",
+                 [&](const Program& p) { return fit_parameters(p, error, std::move(slots)); });
+    }
   }
 
   // Transcendental functions become polynomials of the accuracy asked for.
   passes.run("expand_math", [&](const Program& p) {
     return expand_math(p, options.accuracy, options.max_instructions);
   });
+
+  for (Fit& fit : passes.program().fits) {
+    fit.maker = std::make_shared<const Program>(
+        expand_math(*fit.maker, options.accuracy, options.max_instructions));
+  }
 
   // What is known of what is read changes no bit, so it comes after what rounds.
   std::vector<FactUse> uses;

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "jit/compile/facts.h"
@@ -27,6 +29,10 @@ struct CompileOptions {
   /// to it or to a hundredth of its largest (see tabulate()); 0: there are none. Not of the
   /// reference engine. Nothing: what the accuracy is worth, table_error_of().
   std::optional<double> table_error = std::nullopt;
+  /// Of which slots somebody gives the kernels what is fitted to their values (ParameterFits,
+  /// KernelArguments::fitted): what depends on them and one bounded number is read there, four
+  /// times as far off as tables are. Null: of none. Not of the reference engine.
+  std::function<bool(std::string_view slot)> fits_slot = {};
   /// What is known of what kernels read: they leave out what cannot happen then, and have the same
   /// bits. Points of which it is not true are computed as if nothing had been said. Not of the
   /// reference engine.
@@ -59,6 +65,9 @@ struct CompileOptions {
   bool dump_ir = false;        ///< A stage "llvm" with the LLVM IR as text. JIT only.
   bool dump_assembly = false;  ///< A stage "assembly" with the machine code as text. JIT only.
 };
+
+/// Of each slot whether what depends on it is fitted; empty where nothing is.
+std::vector<bool> fitted_slots(const Program& program, const CompileOptions& options);
 
 /// CompileOptions::table_error, by accuracy where nothing is said.
 double table_error_of(const CompileOptions& options);

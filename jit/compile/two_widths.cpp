@@ -18,6 +18,7 @@ class TwoWidths final : public CompiledKernel {
   int lanes() const override { return wide_->lanes(); }
   const char* engine() const override { return wide_->engine(); }
 
+  Fits fits() const override { return wide_->fits(); }
   State state() const override {
     const State state = wide_->state();
     return state == State::ready ? single_->state() : state;

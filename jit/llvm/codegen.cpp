@@ -15,6 +15,8 @@
 #include <cassert>
 #include <cctype>
 #include <chrono>
+#include <cstdint>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <utility>
@@ -24,6 +26,7 @@
 #include "jit/llvm/target.h"
 #include "runtime/float_environment.h"
 #include "runtime/program/digest.h"
+#include "runtime/program/serialize.h"
 
 namespace nacre {
 
@@ -111,6 +114,7 @@ class Job {
     const codegen::Features features = codegen::features_of(*work_->machine);
     symbol_ = entry_symbol(program_, options_);
     codegen::ModuleEmitter(program_, options_, features, *work_->module).emit(symbol_);
+    add_fits();
     stats_.emit = clock.lap();
     assert(is_valid());
     return true;
@@ -174,6 +178,21 @@ class Job {
     return true;
   }
 
+  /// For who finds the code in a cache, and not the Program that it was made of.
+  void add_fits() {
+    const std::string bytes = fits_to_bytes(program_);
+    if (bytes.empty()) return;
+    const std::uint64_t length = bytes.size();
+    std::string all(sizeof length, '\0');
+    std::memcpy(all.data(), &length, sizeof length);
+    all += bytes;
+    auto* data = llvm::ConstantDataArray::getString(work_->context, all, /*AddNull=*/false);
+    auto* symbol =
+        new llvm::GlobalVariable(*work_->module, data->getType(), /*isConstant=*/true,
+                                 llvm::GlobalValue::ExternalLinkage, data, fits_symbol(symbol_));
+    symbol->setAlignment(llvm::Align(sizeof length));
+  }
+
   bool is_valid() {
     llvm::raw_string_ostream stream(work_->error);
     return !llvm::verifyModule(*work_->module, &stream);
@@ -189,6 +208,8 @@ class Job {
 };
 
 }  // namespace
+
+std::string fits_symbol(const std::string& entry) { return entry + "_fits"; }
 
 std::string entry_symbol(const Program& program, const CodegenOptions& options) {
   const std::string digits = to_hex(code_digest(program)).substr(0, 32);

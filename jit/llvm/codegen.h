@@ -34,6 +34,10 @@ struct ObjectCode {
   std::vector<char> bytes;
 };
 
+/// Of the name of an entry, that of the length of its Program's fits_to_bytes() and of what
+/// follows: where there are any.
+std::string fits_symbol(const std::string& entry);
+
 /// The entry's name: "nacre_<start of the Program's code_digest()>_<name>_w16".
 std::string entry_symbol(const Program& program, const CodegenOptions& options);
 

@@ -1,5 +1,6 @@
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -91,7 +92,22 @@ Value* table(FunctionEmitter& e, ValueId id) {
   return gather(e, Scalar::f32, e.module().table_data(instruction.imm), index, lanes);
 }
 
-constexpr std::array<std::pair<Op, EmitOp>, 1> group{{{Op::table, table}}};
+/// A row of the fitted numbers is as many as one register holds, or two.
+Value* fitted(FunctionEmitter& e, ValueId id) {
+  const Instruction& instruction = e.at(id);
+  const int lanes = e.lanes_of(id);
+  Builder& b = e.builder();
+  Value* rows = e.load_invariant(
+      b.getPtrTy(), e.byte_offset(e.kernel_arguments, offsetof(KernelArguments, fitted)), "fitted");
+  Value* row = e.byte_offset(rows, std::size_t{instruction.imm} * Fit::cells * sizeof(float));
+  Value* index = e.operand(instruction, 0, lanes);
+  if (!ignores_high_bits(e.module().features(), Fit::cells, lanes)) {
+    index = b.CreateAnd(index, e.i32(Fit::cells - 1, lanes));
+  }
+  return look_up_in_row(e, row, Fit::cells, index, lanes);
+}
+
+constexpr std::array<std::pair<Op, EmitOp>, 2> group{{{Op::table, table}, {Op::fitted, fitted}}};
 
 }  // namespace
 

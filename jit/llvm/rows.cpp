@@ -224,8 +224,15 @@ class Finder {
     return {found.begin(), found.end()};
   }
 
-  /// What is computed, by offsets from the least one: equal of equal rows.
-  std::string text_of(ValueId id, std::uint32_t base) const {
+  /// A number for what is computed, by offsets from the least one: equal of equal rows.
+  std::uint32_t form_of(ValueId id, std::uint32_t base) {
+    if (const auto known = forms_.find({id, base}); known != forms_.end()) return known->second;
+    const auto next = static_cast<std::uint32_t>(form_of_text_.size());
+    const std::uint32_t form = form_of_text_.try_emplace(text_of(id, base), next).first->second;
+    return forms_[{id, base}] = form;
+  }
+  /// By the forms of its operands: of what is used twice a text would be twice as long.
+  std::string text_of(ValueId id, std::uint32_t base) {
     if (is_fixed(id)) return fmt::format("%{}", id);
     const Instruction& instruction = at(id);
     std::string text = fmt::format("({} {}", info(instruction.op).name, instruction.imm);
@@ -235,16 +242,16 @@ class Finder {
       for (const ValueId term : place.terms) text += fmt::format("+%{}", term);
     } else {
       for (const ValueId operand : entry_.operands(instruction)) {
-        text += ' ' + text_of(operand, base);
+        text += fmt::format(" #{}", form_of(operand, base));
       }
     }
     return text + ')';
   }
 
   void make_rows() {
-    std::map<std::string, std::vector<Read>> alike;
-    for (const Read& read : reads_) alike[text_of(read.value, read.base)].push_back(read);
-    for (auto& [text, reads] : alike) {
+    std::map<std::uint32_t, std::vector<Read>> alike;
+    for (const Read& read : reads_) alike[form_of(read.value, read.base)].push_back(read);
+    for (auto& [form, reads] : alike) {
       std::ranges::sort(reads, {}, &Read::base);
       std::vector<std::pair<std::uint32_t, std::uint32_t>> made;  // By base: rows.
       for (const Read& read : reads) {
@@ -345,6 +352,8 @@ class Finder {
   std::vector<ValueId> index_;
   std::vector<Sign> signs_;
   std::vector<Read> reads_;
+  std::map<std::pair<ValueId, std::uint32_t>, std::uint32_t> forms_;
+  std::map<std::string, std::uint32_t> form_of_text_;
   std::map<ValueId, std::pair<std::uint32_t, std::uint32_t>> row_of_;  ///< And the shift.
   Rows result_;
 };

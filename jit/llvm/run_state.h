@@ -10,7 +10,7 @@ namespace nacre {
 /// What compiled code gets: the host's arguments, and what ends a run early. Code that can
 /// take too many steps writes to `steps_left`, all functions of a Program to the same.
 struct RunState {
-  KernelArguments arguments;  ///< `stop` is not null.
+  KernelArguments arguments;  ///< `stop` and `fitted` are not null.
   std::int64_t max_steps = 0;
   /// Of the pass; below zero, until the run ends, once there were too many.
   std::int64_t steps_left = 0;

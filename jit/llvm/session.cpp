@@ -64,6 +64,12 @@ struct Linker {
   orc::ObjectLinkingLayer layer;
 };
 
+/// Of what an object has.
+struct Addresses {
+  orc::ExecutorAddr entry;
+  orc::ExecutorAddr fits;  ///< 0: it has none.
+};
+
 /// The ORC session; handles share it, so it goes when the last of all goes.
 class Core {
  public:
@@ -94,7 +100,7 @@ class Core {
     }
   }
 
-  orc::JITDylib* load(const ObjectCode& object, orc::ExecutorAddr& entry, std::string& error,
+  orc::JITDylib* load(const ObjectCode& object, Addresses& at, std::string& error,
                       bool& no_memory) {
     if (!process_.is_this()) {
       error = "it is for the session of another process";
@@ -108,7 +114,7 @@ class Core {
     }
     // LLVM's frames are left without a clean-up (see compile_object), its locks held.
     is_broken_ = true;
-    orc::JITDylib* library = load_locked(object, entry, error, no_memory);
+    orc::JITDylib* library = load_locked(object, at, error, no_memory);
     is_broken_ = false;
     return library;
   }
@@ -127,7 +133,7 @@ class Core {
         [this](llvm::Error error) { reported_ += "; " + llvm::toString(std::move(error)); });
   }
 
-  orc::JITDylib* load_locked(const ObjectCode& object, orc::ExecutorAddr& entry, std::string& error,
+  orc::JITDylib* load_locked(const ObjectCode& object, Addresses& at, std::string& error,
                              bool& no_memory) {
     orc::ExecutionSession& session = linker_->session;
     reported_.clear();
@@ -137,9 +143,14 @@ class Core {
         llvm::StringRef(object.bytes.data(), object.bytes.size()), object.symbol);
     llvm::Error failed = linker_->layer.add(library, std::move(buffer));
     if (!failed) {
-      auto found = session.lookup({&library}, object.symbol);
+      const auto entry = session.intern(object.symbol);
+      const auto fits = session.intern(fits_symbol(object.symbol));
+      orc::SymbolLookupSet wanted(entry);
+      wanted.add(fits, orc::SymbolLookupFlags::WeaklyReferencedSymbol);
+      auto found = session.lookup(orc::makeJITDylibSearchOrder(&library), std::move(wanted));
       if (found) {
-        entry = found->getAddress();
+        at.entry = found->lookup(entry).getAddress();
+        if (found->contains(fits)) at.fits = found->lookup(fits).getAddress();
         return &library;
       }
       failed = found.takeError();
@@ -182,15 +193,22 @@ class Core {
 
 class Loaded final : public LoadedCode {
  public:
-  Loaded(std::shared_ptr<Core> core, orc::JITDylib& library, Entry address)
-      : core_(std::move(core)), library_(library), entry_(address) {}
+  Loaded(std::shared_ptr<Core> core, orc::JITDylib& library, const Addresses& at)
+      : core_(std::move(core)), library_(library), entry_(at.entry.toPtr<Entry>()) {
+    if (at.fits.isNull()) return;
+    std::uint64_t length = 0;
+    std::memcpy(&length, at.fits.toPtr<const char*>(), sizeof length);
+    fits_ = {at.fits.toPtr<const char*>() + sizeof length, static_cast<std::size_t>(length)};
+  }
   ~Loaded() override { core_->remove(library_); }
   Entry entry() const override { return entry_; }
+  std::string_view fits() const override { return fits_; }
 
  private:
   std::shared_ptr<Core> core_;
   orc::JITDylib& library_;
   Entry entry_;
+  std::string_view fits_;
 };
 
 class Session final : public JitSession {
@@ -199,10 +217,10 @@ class Session final : public JitSession {
 
   std::shared_ptr<const LoadedCode> load(const ObjectCode& object,
                                          Diagnostics& diagnostics) override {
-    orc::ExecutorAddr entry;
+    Addresses at;
     std::string error;
     bool no_memory = false;
-    orc::JITDylib* library = core_->load(object, entry, error, no_memory);
+    orc::JITDylib* library = core_->load(object, at, error, no_memory);
     if (library == nullptr && no_memory) {
       diagnostics.warning("code-memory", {}, "a kernel is interpreted: " + error, {},
                           object.symbol);
@@ -212,7 +230,7 @@ class Session final : public JitSession {
       diagnostics.error("link", {}, "can't load a kernel: " + error, {}, object.symbol);
       return nullptr;
     }
-    return std::make_shared<Loaded>(core_, *library, entry.toPtr<LoadedCode::Entry>());
+    return std::make_shared<Loaded>(core_, *library, at);
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "jit/llvm/codegen.h"
 #include "runtime/diagnostic.h"
@@ -30,6 +31,8 @@ class LoadedCode {
   /// For whole batches, in the caller's floating-point environment: run it by
   /// run_code() or make a kernel of it.
   virtual Entry entry() const = 0;
+  /// fits_to_bytes() of the Program.
+  virtual std::string_view fits() const = 0;
 };
 
 /// Holds the code that this process compiled or read from a cache. Pages are

@@ -17,6 +17,12 @@
 
 namespace nacre {
 
+/// As in a Program.
+struct Fits {
+  std::vector<Fit> list;
+  std::uint32_t rows = 0;
+};
+
 /// A kernel that the service makes. Until its code is ready, and if it never
 /// will be, run() answers through the interpreter, with the same bits.
 class CompiledKernel : public Kernel {
@@ -29,6 +35,10 @@ class CompiledKernel : public Kernel {
     int lanes;
     std::uint64_t max_steps;  ///< Of a pass.
   };
+
+  /// What KernelArguments::fitted has, with Program::fitted_rows: of code that was there already
+  /// program() may not say it.
+  virtual Fits fits() const { return {program().fits, program().fitted_rows}; }
 
   virtual State state() const = 0;
   /// Nothing unless ready. `single`: of one lane, where CompileOptions::single_points asked for it.

@@ -173,6 +173,12 @@ CompileJob::State CompileJob::state() const {
   return state_;
 }
 
+std::string_view CompileJob::fits() const {
+  if (entry() == nullptr) return {};
+  const std::scoped_lock lock(mutex_);
+  return code_->fits();
+}
+
 CompileStats CompileJob::stats() const {
   if (!process_.is_this()) return {};
   const std::scoped_lock lock(mutex_);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "jit/cache/kernel_cache.h"
@@ -49,6 +50,8 @@ class CompileJob {
   State state() const;
   /// The code to run, or null. Once not null it stays the same.
   LoadedCode::Entry entry() const { return entry_.load(std::memory_order_acquire); }
+  /// LoadedCode::fits() of it; empty where there is none.
+  std::string_view fits() const;
   CompileStats stats() const;
   Diagnostics diagnostics() const;
 

@@ -4,6 +4,7 @@
 
 #include "jit/llvm/run_code.h"
 #include "runtime/interpreter/interpreter.h"
+#include "runtime/program/serialize.h"
 
 namespace nacre {
 
@@ -64,6 +65,13 @@ std::optional<CompiledKernel::Code> ServiceKernel::code(bool single) const {
   const LoadedCode::Entry entry = job_->entry();
   if (entry == nullptr || (single && lanes_ != 1)) return std::nullopt;
   return Code{entry, lanes_, limit_.max_steps()};
+}
+
+Fits ServiceKernel::fits() const {
+  if (program_->fitted_rows != 0 || job_->entry() == nullptr) return CompiledKernel::fits();
+  Program from_code;
+  if (!take_fits(job_->fits(), from_code)) return {};
+  return {std::move(from_code.fits), from_code.fitted_rows};
 }
 
 CompiledKernel::State ServiceKernel::state() const {

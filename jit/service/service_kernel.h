@@ -26,6 +26,7 @@ class ServiceKernel final : public CompiledKernel {
   int lanes() const override;
   const char* engine() const override;
 
+  Fits fits() const override;
   State state() const override;
   std::optional<Code> code(bool single) const override;
   bool wait() const override { return left_ ? job_->entry() != nullptr : job_->wait(); }

@@ -17,6 +17,7 @@ double weight_of(Op op) {
     case Op::sqrt: return 12;
     case Op::imul:
     case Op::umulhi: return 3;
+    case Op::fitted: return 2;
     case Op::table:
     case Op::texel: return 10;
     case Op::texture_call: return 500;

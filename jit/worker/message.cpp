@@ -12,7 +12,7 @@ namespace nacre {
 namespace {
 
 /// To be raised when frames change, or what is in them.
-constexpr int protocol_version = 1;
+constexpr int protocol_version = 2;
 
 }  // namespace
 
