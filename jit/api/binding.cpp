@@ -21,6 +21,8 @@ struct nacre_binding {
   std::array<std::optional<Binding>, NACRE_ENTRY_COUNT> entries;
   /// Each kernel's slots with the values of the document, for calls without an instance.
   std::array<std::vector<std::uint32_t>, NACRE_ENTRY_COUNT> slots;
+  /// What goes with them, filled in by calls.
+  mutable std::array<LastFitted, NACRE_ENTRY_COUNT> fitted;
   /// Of NACRE_EVALUATE_AT: where ShaderData::point_channels() are, as inputs.
   std::optional<Binding> of_point;
   std::vector<std::uint32_t> point_slots;  ///< Of the kernel, one each of its inputs.
@@ -186,7 +188,7 @@ nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
                           const_cast<const std::uint32_t*>(asked.stop))};
     const Binding& bound = *binding->entries[entry];
     if (instance == nullptr && entry != NACRE_EVALUATE_AT) {
-      return status_of(kernel->run(bound, batch, binding->slots[entry]));
+      return status_of(kernel->run(bound, batch, binding->slots[entry], &binding->fitted[entry]));
     }
     Slots slots(binding->slots[entry].size());
     take_slots(*binding, entry, instance != nullptr ? instance->block : binding->data->block(),
@@ -194,6 +196,7 @@ nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
     if (entry == NACRE_EVALUATE_AT && !take_point(*binding, batch, asked.point, slots.data())) {
       return nacre_status{NACRE_WRONG_ARGUMENTS};
     }
-    return status_of(kernel->run(bound, batch, slots.get()));
+    LastFitted* const last = instance != nullptr ? &instance->fitted[entry] : nullptr;
+    return status_of(kernel->run(bound, batch, slots.get(), last));
   });
 }

@@ -202,6 +202,7 @@ ShaderOptions shader_options(const nacre_compile_options* given, const Document&
   options.footprints = asked.no_footprints == 0;
   options.live_footprints = asked.live_footprints != 0;
   options.fade_noise = asked.fade_noise != 0;
+  options.fit_parameters = asked.fit_parameters != 0;
   options.files_anywhere = asked.files_anywhere != 0;
   if (asked.missing_images_pass != 0) options.missing_images = MissingImages::use_default;
   options.graph = graph_options(asked, document);

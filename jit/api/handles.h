@@ -2,6 +2,7 @@
 
 #include <nacre/nacre.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -15,6 +16,7 @@
 #include "jit/api/look_list.h"
 #include "jit/api/nodedef_list.h"
 #include "jit/api/shader_data.h"
+#include "jit/compile/fitted_numbers.h"
 #include "jit/document/document.h"
 #include "jit/shading/shading_system.h"
 #include "runtime/batch/binder.h"
@@ -64,6 +66,8 @@ struct nacre_shader {
 struct nacre_instance {
   std::shared_ptr<const nacre::api::ShaderData> data;
   std::vector<std::uint32_t> block;  ///< As ShaderData::block.
+  /// What goes with them, by entry: calls fill it in.
+  mutable std::array<nacre::LastFitted, NACRE_ENTRY_COUNT> fitted = {};
 };
 
 struct nacre_binder {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "jit/compile/fitted_numbers.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
 #include "runtime/kernel.h"
@@ -19,6 +20,7 @@ struct BoundCode {
 
   CompiledKernel::Code code;
   std::vector<std::uint32_t> parameters;
+  std::shared_ptr<const FittedNumbers> fitted;  ///< Null: nothing is.
   RecordedTextures::Snapshot images;
   KernelArguments arguments;  ///< Of them.
   std::shared_ptr<const Kernel> kernel;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "jit/compile/fact_kernel.h"
+#include "jit/compile/parameter_fits.h"
 #include "jit/passes/reached_tiles.h"
 #include "jit/record/textures.h"
 #include "jit/service/compile_service.h"
@@ -20,6 +21,7 @@ BoundKernel::BoundKernel(std::shared_ptr<const Kernel> kernel,
     files_ = textures_->files();
   }
   for (const ParameterSlot& slot : program().parameters) parameters_.push_back(slot.value);
+  fits_ = ParameterFits::make(*kernel_);
 }
 
 CompiledKernel* BoundKernel::made() const {
@@ -59,7 +61,9 @@ std::unique_ptr<const BoundCode> BoundKernel::code(std::vector<std::uint32_t> pa
   bound->code = *code;
   bound->parameters = std::move(parameters);
   if (textures_ != nullptr) bound->images = textures_->snapshot();
+  if (fits_ != nullptr) bound->fitted = fits_->of(bound->parameters);
   bound->arguments = {.parameters = bound->parameters.data(),
+                      .fitted = bound->fitted != nullptr ? bound->fitted->data() : nullptr,
                       .textures = bound->images.bindings.data(),
                       .texture_callback = &RecordedTextures::look_up,
                       .texture_user = const_cast<RecordedTextures*>(textures_.get())};
@@ -93,8 +97,12 @@ BoundKernel BoundKernel::within(std::span<const Range> inputs, Diagnostics& diag
 
 template <class Run>
 RunStatus BoundKernel::with_arguments(std::span<const std::uint32_t> parameters,
-                                      const std::atomic<std::uint32_t>* stop, Run&& run) const {
-  KernelArguments all{.parameters = parameters.empty() ? parameters_.data() : parameters.data(),
+                                      const std::atomic<std::uint32_t>* stop, LastFitted* last,
+                                      Run&& run) const {
+  if (parameters.empty()) parameters = parameters_;
+  const auto fitted = fits_ != nullptr ? fits_->of(parameters, last) : nullptr;
+  KernelArguments all{.parameters = parameters.data(),
+                      .fitted = fitted != nullptr ? fitted->data() : nullptr,
                       .textures = bindings_.data(),
                       .texture_callback = &RecordedTextures::look_up,
                       .texture_user = const_cast<RecordedTextures*>(textures_.get()),
@@ -112,7 +120,7 @@ RunStatus BoundKernel::run(std::span<const void* const> inputs, std::span<void* 
                     outputs.size() == program().outputs.size() &&
                     (parameters.empty() || parameters.size() == parameters_.size());
   if (!fits) return RunStatus::wrong_arguments;
-  return with_arguments(parameters, stop, [&](KernelArguments& all) {
+  return with_arguments(parameters, stop, nullptr, [&](KernelArguments& all) {
     all.inputs = inputs.data();
     all.outputs = outputs.data();
     all.count = count;
@@ -121,12 +129,12 @@ RunStatus BoundKernel::run(std::span<const void* const> inputs, std::span<void* 
 }
 
 RunStatus BoundKernel::run(const Binding& binding, const Batch& batch,
-                           std::span<const std::uint32_t> parameters) const {
+                           std::span<const std::uint32_t> parameters, LastFitted* last) const {
   const bool fits = binding.inputs.size() == program().inputs.size() &&
                     binding.outputs.size() == program().outputs.size() &&
                     (parameters.empty() || parameters.size() == parameters_.size());
   if (!fits) return RunStatus::wrong_arguments;
-  return with_arguments(parameters, batch.stop, [&](KernelArguments& all) {
+  return with_arguments(parameters, batch.stop, last, [&](KernelArguments& all) {
     return run_bound(
         binding, batch,
         [this, &all](const void* const* inputs, void* const* outputs, std::uint64_t count) {

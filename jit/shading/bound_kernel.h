@@ -24,6 +24,8 @@ namespace nacre {
 
 struct BoundCode;
 class CompiledKernel;
+class LastFitted;
+class ParameterFits;
 class RecordedTextures;
 
 /// A kernel with its textures and the parameter values of its document. Shared
@@ -85,9 +87,10 @@ class BoundKernel {
                               const std::atomic<std::uint32_t>* stop = nullptr) const;
 
   /// The same for arrays as a host has them: see runtime/batch. `binding` was made for this
-  /// kernel's Program.
+  /// kernel's Program. `last`: what goes with the parameters where somebody keeps them.
   [[nodiscard]] RunStatus run(const Binding& binding, const Batch& batch,
-                              std::span<const std::uint32_t> parameters = {}) const;
+                              std::span<const std::uint32_t> parameters = {},
+                              LastFitted* last = nullptr) const;
 
   /// The code itself with values of its parameters, as many as the Program has, and the images that
   /// are bound now; null where there is none. `single`: for one point at a time, see
@@ -100,7 +103,8 @@ class BoundKernel {
   /// All but the arrays; `run` runs the kernel with them.
   template <class Run>
   RunStatus with_arguments(std::span<const std::uint32_t> parameters,
-                           const std::atomic<std::uint32_t>* stop, Run&& run) const;
+                           const std::atomic<std::uint32_t>* stop, LastFitted* last,
+                           Run&& run) const;
 
   std::shared_ptr<const Kernel> kernel_;
   std::shared_ptr<const RecordedTextures> textures_;
@@ -109,6 +113,7 @@ class BoundKernel {
   std::map<std::string, FileIdentity> files_;
   bool may_change_ = false;  ///< Then `bindings_` are those of the time when it was made.
   std::vector<std::uint32_t> parameters_;
+  std::shared_ptr<const ParameterFits> fits_;  ///< Null: nothing is fitted.
 };
 
 }  // namespace nacre

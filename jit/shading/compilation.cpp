@@ -214,6 +214,14 @@ void Compilation::add_located(const Diagnostics& said) {
   }
 }
 
+namespace {
+
+/// A slot of an element of the document, which has a path. Those that hosts set beside are others
+/// from call to call: of evaluate_at the one point is some.
+bool is_of_document(std::string_view slot) { return slot.find('/') != std::string_view::npos; }
+
+}  // namespace
+
 std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program> programs) {
   std::vector<std::string> names;
   for (Program& program : programs) {
@@ -227,6 +235,7 @@ std::vector<std::optional<BoundKernel>> Compilation::compile(std::vector<Program
   std::vector<std::vector<StageReport>> reports;
   Diagnostics said;
   CompileOptions options = options_.compile;
+  if (options_.fit_parameters) options.fits_slot = is_of_document;
   if (!options.facts.empty() && options.backend == Backend::reference) {
     said.warning("unread-fact", {}, "the reference engine computes as if no facts were known");
   } else {

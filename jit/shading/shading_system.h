@@ -96,6 +96,10 @@ struct ShaderOptions {
   /// which nothing is left are not computed: what is too small to be seen neither costs nor
   /// flickers. Without footprints nothing fades.
   bool fade_noise = false;
+  /// What depends on live parameters of the document and one bounded number is read from
+  /// polynomials that are fitted to their values (jit/passes/tabulate/fit_parameters.h). Bits are
+  /// others then than of parameters that come with each point.
+  bool fit_parameters = false;
   Side side = Side::front;  ///< Of a material; see MaterialKernels::has_back.
   /// Folders, beside the document's own, in which image files are looked for.
   std::vector<std::filesystem::path> search_paths;

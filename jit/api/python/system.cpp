@@ -113,6 +113,7 @@ void bind_system(nb::module_& module) {
       .def_rw("no_footprints", &CompileOptions::no_footprints)
       .def_rw("live_footprints", &CompileOptions::live_footprints)
       .def_rw("fade_noise", &CompileOptions::fade_noise)
+      .def_rw("fit_parameters", &CompileOptions::fit_parameters)
       .def_rw("compensation", &CompileOptions::compensation)
       .def_rw("profile", &CompileOptions::profile)
       .def_rw("max_error", &CompileOptions::max_error)

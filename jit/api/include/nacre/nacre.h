@@ -258,9 +258,7 @@ typedef struct nacre_compile_options {
                             it exceeds the light that arrives: some models send back more. */
   int lobes_wanted; /* 1: NACRE_SAMPLE, NACRE_EVALUATE and NACRE_SHADE read a channel lobes_wanted:
                        bits of what shall scatter at that point. All else gives 0, and densities are
-                       of what is wanted. They also store `kinds`: of what f is, or what was
-                       sampled.
-                     */
+                       of what is wanted. They also store `kinds`: of what f or the sample is. */
   int transport; /* 1: they read a channel transport. Radiance is multiplied by (eta_o / eta_i)^2 at
                     refraction, importance by |wo.N wi.Ng| / |wo.Ng wi.N| (Veach 1997, 5.2, 5.3).
                     0: by neither. */
@@ -284,12 +282,14 @@ typedef struct nacre_compile_options {
   uint32_t error_points;    /* At how many points, 1,000 to 1,000,000. 0: 2048. */
   const char* error_record; /* What `nacre render --record-points` wrote, the text: of materials, to
                                measure where a scene shades them. NULL: at points of every kind. */
-  int measure_error;        /* 1: nacre_shader_error is wanted of what is compiled as it is asked
-                               for. */
+  int measure_error;        /* 1: nacre_shader_error is wanted of what is asked for. */
   const nacre_fact* facts;  /* Not of NACRE_REFERENCE. */
   size_t fact_count;
-  int fade_noise; /* 1: noise2d, noise3d and fractals fade where the footprint of a point covers
-                     their cells; octaves of which nothing is left cost nothing. */
+  int fade_noise;     /* 1: noise2d, noise3d and fractals fade where the footprint of a point covers
+                         their cells; octaves of which nothing is left cost nothing. */
+  int reserved_too;   /* As `reserved`. */
+  int fit_parameters; /* 1: what depends on live parameters and one number is read from polynomials
+                         fitted to their values, within 4e-5 (fast: 4e-3), else computed. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;
@@ -412,7 +412,7 @@ NACRE_API nacre_status nacre_shader_parameter(const nacre_shader* shader, size_t
 /* The index of the one of that name, or SIZE_MAX. */
 NACRE_API size_t nacre_shader_find_parameter(const nacre_shader* shader, const char* name);
 
-/* The values of a shader's parameters: some hundred bytes, made in a microsecond. */
+/* The values of a shader's parameters: about a kilobyte, made in a microsecond. */
 typedef struct nacre_instance nacre_instance;
 
 /* With the document's values. */

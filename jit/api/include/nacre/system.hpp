@@ -128,6 +128,7 @@ struct CompileOptions {
   bool transport = false;        ///< A channel transport, of sample and evaluate.
   bool live_footprints = false;  ///< Slots footprint_scale and max_anisotropy.
   bool fade_noise = false;       ///< Where footprints cover its cells.
+  bool fit_parameters = false;   ///< What depends on live ones and one number; see nacre.h.
   int compensation = NACRE_COMPENSATE_ALL;
   std::string profile;     ///< The text that `nacre tune` wrote; empty: none.
   double max_error = 0;    ///< Greater than 0: the cheapest that is no further off.
@@ -355,6 +356,7 @@ class System {
     asked.transport = options.transport;
     asked.live_footprints = options.live_footprints;
     asked.fade_noise = options.fade_noise;
+    asked.fit_parameters = options.fit_parameters;
     asked.compensation = options.compensation;
     asked.profile = detail::text_or_null(options.profile);
     asked.max_error = options.max_error;

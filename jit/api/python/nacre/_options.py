@@ -79,6 +79,10 @@ class CompileOptions(TypedDict, total=False):
     # noise2d, noise3d and fractals fade where the footprint of a point covers their cells; octaves
     # of which nothing is left are not computed.
     fade_noise: bool
+    # What depends on live parameters and one number, as Fresnel's factors of a metal do, is read from
+    # polynomials: fitted when a call meets new values, in some ten microseconds, and at most 4e-5
+    # off ("fast": 4e-3), or computed.
+    fit_parameters: bool
     # Of facets, for what several scatterings between them bring back: "all", of "reflection" alone
     # (rough glass is darker), or "nothing" (rough metals too). What is left out costs nothing.
     compensation: Literal["all", "reflection", "nothing"]
