@@ -6,13 +6,16 @@ usage: PYTHONPATH=build/python mitsuba_closures.py OUT.md [--install FOLDER] [--
 Mitsuba's fused `eval_pdf_sample` in its LLVM variant, time of the kernel without tracing, against
 begin + evaluate + sample, or the one kernel `shade`, each in the batch that suits it best; one
 thread, the two by turns. Ours compensates for what facets lose to several scatterings and Mitsuba's
-does not: "without" leaves that out. Mitsuba's parameters stay open: "live" has all of ours open.
+does not: "without" leaves that out. Mitsuba's parameters stay open: "named" has those open that the
+document gives, "live" all of ours, which are those of lobes that Mitsuba leaves out as well;
+"fitted" is either with fit_parameters.
 Where the models are the same the densities are compared before anything is timed.
 """
 
 import argparse
 import importlib
 import pathlib
+import re
 import statistics
 import subprocess
 import sys
@@ -246,13 +249,18 @@ WAYS = {
     "standard": {},
     "fast": {"accuracy": "fast"},
     "without": {"compensation": "nothing"},
+    "named": {},
+    "named, fitted": {"fit_parameters": True},
     "live": {"live": ["*"]},
+    "live, fitted": {"live": ["*"], "fit_parameters": True},
 }
 
 
 def measure(mitsuba, description, document, rounds):
     """Nanoseconds of a point: Mitsuba's, and for each way the least of ours."""
-    ways = [(way, Ours(document, count, entries, **options))
+    numbers = re.findall(r'<input name="(\w+)" type="(?:float|vector2|color3)"', document)
+    named = {"live": [f"b/{name}" for name in numbers]}
+    ways = [(way, Ours(document, count, entries, **options, **(named if "named" in way else {})))
             for way, options in WAYS.items() for entries in (LOBES, [Entry.SHADE])
             for count in COUNTS_OF_OURS]
     theirs = [Theirs(mitsuba, description, count) for count in COUNTS_OF_THEIRS]
@@ -265,15 +273,40 @@ def measure(mitsuba, description, document, rounds):
     return least
 
 
+def price_of_new_values(document):
+    """Microseconds that a call of `shade` takes more where it meets a value for the first time, with
+    fit_parameters."""
+    ours = Ours(document, 64, [Entry.SHADE], live=["*"], fit_parameters=True)
+    entry, binding = ours.bindings[0]
+    instance = ours.shader.instance()
+    name = next(name for name in ours.shader.parameters if name.endswith("specular_roughness"))
+
+    def seconds(change):
+        values = []
+        for k in range(500):
+            if change:
+                instance[name] = 0.2 + 0.001 * k
+            start = time.perf_counter()
+            binding.run(entry, 64, instance=instance)
+            values.append(time.perf_counter() - start)
+        return statistics.median(values)
+
+    seconds(True)
+    return 1e6 * (seconds(True) - seconds(False))
+
+
 def table(measured):
     lines = [
         "# Whole shading calls, beside Mitsuba",
         "",
         f"Mitsuba 3.9.1 (LLVM), its fused `eval_pdf_sample`, against begin + evaluate + sample, or "
         f"`shade` (marked *) where that is less; one thread, ns a point without what Python takes to "
-        f"call either, and Mitsuba's time over ours. Ours brings back what facets lose to several scatterings, but in the column "
-        f"\"without\", which leaves that out as Mitsuba does; \"live\" has every parameter open, as "
-        f"Mitsuba has. `bench/peers/mitsuba_closures.py` measures it.",
+        f"call either, and Mitsuba's time over ours. Ours brings back what facets lose to several "
+        f"scatterings, but in the column \"without\", which leaves that out as Mitsuba does. Mitsuba's "
+        f"parameters are open: \"named\" has open what our document gives, \"live\" all that the model has, "
+        f"those of lobes that Mitsuba's kernel leaves out as well, and \"fitted\" is either with "
+        f"`fit_parameters`. `bench/peers/mitsuba_closures.py` "
+        f"measures it.",
         "",
         "| closure | Mitsuba | " + " | ".join(f"{way} | ratio" for way in WAYS) + " |",
         "| --- | ---: | " + " | ".join("---: | ---:" for _ in WAYS) + " |"]
@@ -312,7 +345,10 @@ def main():
                 sys.exit(f"{name}: the two are {error:.2g} apart")
         measured.append((name, measure(mitsuba, description, document, arguments.rounds)))
         print(table(measured[-1:]).splitlines()[-3], flush=True)
-    arguments.out.write_text(table(measured))
+    rich = next(row[2] for row in rows() if "five lobes" in row[0])
+    price = (f"A call of the live `standard_surface`'s `shade` that meets new values takes "
+             f"{price_of_new_values(rich):.0f} microseconds more where they are fitted.")
+    arguments.out.write_text(f"{table(measured)}\n{price}\n")
     return 0
 
 
