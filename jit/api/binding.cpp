@@ -22,7 +22,7 @@ struct nacre_binding {
   /// Each kernel's slots with the values of the document, for calls without an instance.
   std::array<std::vector<std::uint32_t>, NACRE_ENTRY_COUNT> slots;
   /// What goes with them, filled in by calls.
-  mutable std::array<LastFitted, NACRE_ENTRY_COUNT> fitted;
+  FittedByEntry fitted;
   /// Of NACRE_EVALUATE_AT: where ShaderData::point_channels() are, as inputs.
   std::optional<Binding> of_point;
   std::vector<std::uint32_t> point_slots;  ///< Of the kernel, one each of its inputs.
@@ -144,6 +144,7 @@ nacre_status nacre_binding_create(const nacre_binder* binder, const nacre_shader
     Said said(report);
     auto made = std::make_unique<nacre_binding>();
     made->data = shader->data;
+    made->fitted = fitted_of(*shader->data);
     bool is_complete = true;
     for (int i = 0; i < NACRE_ENTRY_COUNT; ++i) {
       const auto entry = static_cast<nacre_entry>(i);
@@ -188,7 +189,8 @@ nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
                           const_cast<const std::uint32_t*>(asked.stop))};
     const Binding& bound = *binding->entries[entry];
     if (instance == nullptr && entry != NACRE_EVALUATE_AT) {
-      return status_of(kernel->run(bound, batch, binding->slots[entry], &binding->fitted[entry]));
+      return status_of(
+          kernel->run(bound, batch, binding->slots[entry], last_of(binding->fitted, entry)));
     }
     Slots slots(binding->slots[entry].size());
     take_slots(*binding, entry, instance != nullptr ? instance->block : binding->data->block(),
@@ -196,7 +198,8 @@ nacre_status nacre_run(const nacre_binding* binding, nacre_entry entry,
     if (entry == NACRE_EVALUATE_AT && !take_point(*binding, batch, asked.point, slots.data())) {
       return nacre_status{NACRE_WRONG_ARGUMENTS};
     }
-    LastFitted* const last = instance != nullptr ? &instance->fitted[entry] : nullptr;
+    LastFitted* const last =
+        last_of(instance != nullptr ? instance->fitted : binding->fitted, entry);
     return status_of(kernel->run(bound, batch, slots.get(), last));
   });
 }

@@ -44,6 +44,18 @@ class LazyList {
 
 }  // namespace nacre::api
 
+namespace nacre::api {
+
+/// What goes with the values of parameters, by entry: calls fill it in. Null where no kernel of the
+/// shader reads such.
+using FittedByEntry = std::unique_ptr<std::array<LastFitted, NACRE_ENTRY_COUNT>>;
+FittedByEntry fitted_of(const ShaderData& shader);
+inline LastFitted* last_of(const FittedByEntry& fitted, nacre_entry entry) {
+  return fitted != nullptr ? &(*fitted)[entry] : nullptr;
+}
+
+}  // namespace nacre::api
+
 struct nacre_system {
   std::shared_ptr<nacre::ShadingSystem> system;
   nacre::api::LazyList<nacre::api::NodeDefList> nodedefs;
@@ -66,8 +78,8 @@ struct nacre_shader {
 struct nacre_instance {
   std::shared_ptr<const nacre::api::ShaderData> data;
   std::vector<std::uint32_t> block;  ///< As ShaderData::block.
-  /// What goes with them, by entry: calls fill it in.
-  mutable std::array<nacre::LastFitted, NACRE_ENTRY_COUNT> fitted = {};
+  /// What calls fit to them.
+  nacre::api::FittedByEntry fitted;
 };
 
 struct nacre_binder {

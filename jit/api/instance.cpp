@@ -1,4 +1,5 @@
 #include <cstring>
+#include <memory>
 
 #include "jit/api/call.h"
 #include "jit/api/handles.h"
@@ -17,12 +18,21 @@ const ShaderParameter* parameter_of(const nacre_instance* instance, std::size_t 
 
 }  // namespace
 
+FittedByEntry nacre::api::fitted_of(const ShaderData& shader) {
+  for (int entry = 0; entry < NACRE_ENTRY_COUNT; ++entry) {
+    const BoundKernel* kernel = shader.kernel(static_cast<nacre_entry>(entry));
+    if (kernel == nullptr || !kernel->is_fitted()) continue;
+    return std::make_unique<FittedByEntry::element_type>();
+  }
+  return nullptr;
+}
+
 nacre_status nacre_instance_create(const nacre_shader* shader, nacre_instance** instance) {
   if (instance == nullptr) return NACRE_WRONG_ARGUMENTS;
   *instance = nullptr;
   if (shader == nullptr) return NACRE_WRONG_ARGUMENTS;
   return guarded([&] {
-    *instance = new nacre_instance{shader->data, shader->data->block()};
+    *instance = new nacre_instance{shader->data, shader->data->block(), fitted_of(*shader->data)};
     return NACRE_OK;
   });
 }

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,21 +17,27 @@ namespace nacre {
 class FittedNumbers {
  public:
   FittedNumbers(std::uint32_t rows, std::vector<std::uint32_t> values)
-      : rows_(rows), values_(std::move(values)) {}
+      : numbers_(new(std::align_val_t{alignment}) float[std::size_t{rows} * Fit::cells]()),
+        count_(std::size_t{rows} * Fit::cells),
+        values_(std::move(values)) {}
 
-  const float* data() const { return rows_.front().numbers.data(); }
+  const float* data() const { return numbers_.get(); }
   /// From the first number of a row on.
   std::span<float> from(std::uint32_t row) {
-    return {rows_[row].numbers.data(), (rows_.size() - row) * Fit::cells};
+    return std::span(numbers_.get(), count_).subspan(std::size_t{row} * Fit::cells);
   }
   /// Of ParameterFits' slots.
   const std::vector<std::uint32_t>& values() const { return values_; }
 
  private:
-  struct alignas(64) Row {
-    std::array<float, Fit::cells> numbers{};
+  static constexpr std::size_t alignment = 64;
+  struct Delete {
+    void operator()(float* numbers) const {
+      ::operator delete[](numbers, std::align_val_t{alignment});
+    }
   };
-  std::vector<Row> rows_;
+  std::unique_ptr<float[], Delete> numbers_;
+  std::size_t count_;
   std::vector<std::uint32_t> values_;
 };
 

@@ -173,8 +173,11 @@ Program lower_to_engine(Program program, const CompileOptions& options,
   if (const double error = table_error_of(options); error > 0) {
     passes.run("tabulate", [&](const Program& p) { return tabulate(p, error); });
     if (auto slots = fitted_slots(passes.program(), options); !slots.empty()) {
-      passes.run("fit_parameters",
-                 [&](const Program& p) { return fit_parameters(p, error, std::move(slots)); });
+      passes.run("fit_parameters", [&](const Program& p) {
+        // Beside fits stands what they are of: a Program that is nearly too large has none.
+        Program made = fit_parameters(p, error, std::move(slots));
+        return is_too_large(made, options) ? p : made;
+      });
     }
   }
 
@@ -183,6 +186,7 @@ Program lower_to_engine(Program program, const CompileOptions& options,
     return expand_math(p, options.accuracy, options.max_instructions);
   });
 
+  if (passes.is_over()) return std::move(passes.program());
   for (Fit& fit : passes.program().fits) {
     fit.maker = std::make_shared<const Program>(
         expand_math(*fit.maker, options.accuracy, options.max_instructions));

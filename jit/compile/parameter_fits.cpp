@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jit/passes/tabulate/fit.h"
+#include "runtime/float_environment.h"
 #include "runtime/interpreter/interpreter.h"
 
 namespace nacre {
@@ -25,6 +26,11 @@ Fits fits_of(const Kernel& kernel) {
 std::shared_ptr<const ParameterFits> ParameterFits::make(const Kernel& kernel) {
   Fits fits = fits_of(kernel);
   if (fits.list.empty()) return nullptr;
+  const std::size_t count = kernel.program().parameters.size();
+  const auto is_of_kernel = [&](const Fit& fit) {
+    return std::ranges::all_of(fit.slots, [&](std::uint32_t slot) { return slot < count; });
+  };
+  if (!std::ranges::all_of(fits.list, is_of_kernel)) return nullptr;
   return std::shared_ptr<const ParameterFits>(new ParameterFits(std::move(fits)));
 }
 
@@ -40,6 +46,7 @@ ParameterFits::ParameterFits(Fits fits) : fits_(std::move(fits)) {
 
 std::shared_ptr<const FittedNumbers> ParameterFits::of(std::span<const std::uint32_t> parameters,
                                                        LastFitted* last) const {
+  if (!process_.is_this()) return fit(parameters);
   if (last == nullptr) return known_or_fit(parameters);
   const auto value = [&](std::uint32_t slot) { return parameters[slot]; };
   auto numbers = last->get();
@@ -71,6 +78,7 @@ std::shared_ptr<const FittedNumbers> ParameterFits::known_or_fit(
 
 std::shared_ptr<const FittedNumbers> ParameterFits::fit(
     std::span<const std::uint32_t> parameters) const {
+  const ScopedDefaultFloatEnvironment environment;  // Of a host there may be another.
   std::vector<std::uint32_t> values;
   for (const std::uint32_t slot : slots_) values.push_back(parameters[slot]);
   auto made = std::make_shared<FittedNumbers>(fits_.rows, std::move(values));

@@ -10,11 +10,13 @@
 #include "jit/compile/fitted_numbers.h"
 #include "jit/service/compile_service.h"
 #include "runtime/kernel.h"
+#include "runtime/process.h"
 
 namespace nacre {
 
 /// Fits what a kernel reads for the values that its parameters have: in some ten microseconds, and
-/// once for those that calls have had lately. Used by any number of threads.
+/// once for those that calls have had lately. Used by any number of threads; in a child of fork(),
+/// which shares no locks, once a call.
 class ParameterFits {
  public:
   /// Null where the kernel reads nothing that is fitted.
@@ -31,6 +33,7 @@ class ParameterFits {
       std::span<const std::uint32_t> parameters) const;
   std::shared_ptr<const FittedNumbers> fit(std::span<const std::uint32_t> parameters) const;
 
+  const Process process_;
   Fits fits_;
   std::vector<std::unique_ptr<const Kernel>> makers_;  ///< One a fit.
   std::vector<std::uint32_t> slots_;                   ///< That any of them reads.

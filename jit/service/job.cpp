@@ -174,9 +174,9 @@ CompileJob::State CompileJob::state() const {
 }
 
 std::string_view CompileJob::fits() const {
-  if (entry() == nullptr) return {};
-  const std::scoped_lock lock(mutex_);
-  return code_->fits();
+  // Where the entry is there, so is the code, for good: no lock, which a child of fork() may not
+  // take.
+  return entry() != nullptr ? code_->fits() : std::string_view();
 }
 
 CompileStats CompileJob::stats() const {

@@ -64,6 +64,10 @@ class BoundKernel {
   /// of 16 of which one was outside.
   std::uint64_t points_outside_facts() const;
 
+  /// Whether calls fit what it reads to values of its parameters: then who keeps those should keep
+  /// a LastFitted.
+  bool is_fitted() const { return fits_ != nullptr; }
+
   /// The parameter block as the document has it, to be changed and passed to run().
   const std::vector<std::uint32_t>& parameters() const { return parameters_; }
   /// Index of a slot in the block, if this kernel reads it.

@@ -218,7 +218,9 @@ namespace {
 
 /// A slot of an element of the document, which has a path. Those that hosts set beside are others
 /// from call to call: of evaluate_at the one point is some.
-bool is_of_document(std::string_view slot) { return slot.find('/') != std::string_view::npos; }
+bool is_of_document(std::string_view slot) {
+  return slot.find('/') != std::string_view::npos && !slot.starts_with("geomprop.");
+}
 
 }  // namespace
 

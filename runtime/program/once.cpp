@@ -40,7 +40,7 @@ std::vector<bool> once_out_of_regions(const Function& entry) {
   for (std::size_t i = 0; i < once.size(); ++i) {
     const Op op = entry.code[i].op;
     const bool stays = is_structural(op) || op == Op::call || op == Op::texture_call ||
-                       op == Op::result || op == Op::keep;
+                       op == Op::result || op == Op::keep || op == Op::fitted;
     once[i] = once[i] || (!stays && uniform(entry, i, i + 1, once));
   }
   return once;

@@ -11,7 +11,7 @@ namespace nacre {
 std::vector<bool> once_per_call(const Function& entry);
 
 /// The same with what regions compute of such values alone and nobody can tell whether it was: what
-/// an engine may take out of them.
+/// an engine may take out of them. Not what was fitted, which may not be there.
 std::vector<bool> once_out_of_regions(const Function& entry);
 
 }  // namespace nacre

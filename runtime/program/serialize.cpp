@@ -1,5 +1,9 @@
 #include "runtime/program/serialize.h"
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 #include "runtime/bytes.h"
 
 namespace nacre {
@@ -78,6 +82,7 @@ bool take_fits(std::string_view bytes, Program& program) {
   BytesIn in(bytes);
   program.fitted_rows = in.take<std::uint32_t>();
   program.fits.resize(in.take_count(2 * sizeof(std::uint64_t) + 4 * sizeof(std::uint32_t)));
+  if (program.fits.size() > Fit::most || program.fitted_rows < Fit::first_rows) return false;
   for (Fit& fit : program.fits) {
     auto maker = program_from_bytes(in.take_text());
     if (!maker) return false;
@@ -87,7 +92,10 @@ bool take_fits(std::string_view bytes, Program& program) {
     fit.high = in.take<float>();
     fit.error = in.take<float>();
     const std::uint64_t rows = Fit::coefficients * std::uint64_t{maker->outputs.size()};
-    const bool fits = fit.row + rows <= program.fitted_rows && maker->inputs.size() == 1 &&
+    const auto is_number = [](const Channel& channel) { return channel.type == Scalar::f32; };
+    const bool fits = fit.row >= Fit::first_rows && fit.row + rows <= program.fitted_rows &&
+                      maker->inputs.size() == 1 && is_number(maker->inputs.front()) &&
+                      std::ranges::all_of(maker->outputs, is_number) &&
                       fit.slots.size() == maker->parameters.size();
     if (!fits) return false;
     fit.maker = std::make_shared<const Program>(std::move(*maker));

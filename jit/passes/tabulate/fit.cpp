@@ -49,9 +49,12 @@ bool fit_cells(const Fit& fit, std::span<const float> values, std::span<float> r
   const float floor = static_cast<float>(floor_of_peak) * peak;
   for (std::size_t cell = 0; cell < Fit::cells; ++cell) {
     const auto here = values.subspan(cell * parts, parts + 1);
-    const Polynomial p = cubic_through(here[0], here[parts / 4], here[3 * parts / 4], here[parts]);
+    Polynomial p = cubic_through(here[0], here[parts / 4], here[3 * parts / 4], here[parts]);
     for (std::size_t k = 0; k < p.size(); ++k) {
-      rows[k * Fit::cells + cell] = static_cast<float>(p[k]);
+      const auto number = static_cast<float>(p[k]);
+      if (!std::isfinite(number)) return false;
+      // What kernels read, who take what is denormal as 0, is what is looked at.
+      p[k] = rows[k * Fit::cells + cell] = std::isnormal(number) ? number : 0.0f;
     }
     for (std::size_t k = 0; k <= parts; ++k) {
       const double off = std::abs(value_at(p, static_cast<double>(k) / parts) - here[k]);

@@ -40,11 +40,16 @@ struct Place {
 class Fitting {
  public:
   Fitting(const Program& program, double error, std::vector<bool> slots)
-      : marked_(program), error_(error), groups_(mark(marked_), std::move(slots)) {}
+      : program_(program),
+        marked_(program),
+        error_(error),
+        groups_(mark(marked_), std::move(slots)) {}
 
   Program run() {
     plan_ = plan_all(marked_, groups_, error_);
     find_places();
+    // Which come first is no reason to have some of them.
+    if (marked_.fits.size() > Fit::most) return program_;
     if (places_.empty()) return marked_;
     const auto replace = [this](Recorder& recorder, const Instruction& instruction,
                                 std::span<const Ref> operands) {
@@ -95,6 +100,10 @@ class Fitting {
     Program maker = program_of(marked_, place.cone, place.looked->key, place.values);
     // tabulate() has been there.
     if (maker.parameters.empty()) return;
+    maker.origins = {""};
+    for (Function& function : maker.functions) {
+      for (Instruction& instruction : function.code) instruction.origin = 0;
+    }
     std::vector<std::uint32_t> slots;
     for (ParameterSlot& slot : maker.parameters) {
       const auto found = std::ranges::find(marked_.parameters, slot.name, &ParameterSlot::name);
@@ -108,28 +117,25 @@ class Fitting {
                  .low = static_cast<float>(axis.low),
                  .high = static_cast<float>(axis.high),
                  .error = static_cast<float>(error_of_floats * error_)};
-    if (!has_number(place)) return;
+    give_number(place);
     places_.push_back(std::move(place));
   }
 
-  /// Functions that are asked for of several numbers are fitted once. False where there are too
-  /// many.
-  bool has_number(Place& place) {
+  /// Functions that are asked for of several numbers are fitted once.
+  void give_number(Place& place) {
     const auto next = static_cast<std::uint32_t>(marked_.fits.size());
     const std::tuple key{to_string(*place.fit.maker), place.fit.low, place.fit.high};
     if (const auto known = numbers_.find(key); known != numbers_.end()) {
       place.number = known->second;
       place.fit = marked_.fits[place.number];
-      return true;
+      return;
     }
-    if (next == Fit::most) return false;
     place.number = numbers_[key] = next;
     if (marked_.fitted_rows == 0) marked_.fitted_rows = Fit::first_rows;
     place.fit.row = marked_.fitted_rows;
     marked_.fitted_rows +=
         Fit::coefficients * static_cast<std::uint32_t>(place.fit.maker->outputs.size());
     marked_.fits.push_back(place.fit);
-    return true;
   }
 
   std::optional<Ref> replacement(Recorder& recorder, const Instruction& instruction,
@@ -196,6 +202,7 @@ class Fitting {
     return values;
   }
 
+  const Program& program_;
   Program marked_;
   double error_;
   Groups groups_;

@@ -23,7 +23,6 @@ std::vector<std::uint32_t> on_trial(const Program& program, unsigned trial) {
   constexpr std::array numbers{0.3f, 1.5f, 0.8f, 0.1f, 0.5f, 0.9f};
   std::vector<std::uint32_t> bits;
   for (unsigned i = 0; i < program.parameters.size(); ++i) {
-    // Weyl's sequence: any two of them have all pairs sooner or later.
     const unsigned at = ((i * 7 + trial * (2 * i + 1)) * 0x9e3779b9u) >> 16;
     const bool is_number = program.parameters[i].type == Scalar::f32;
     bits.push_back(is_number ? std::bit_cast<std::uint32_t>(numbers[at % numbers.size()]) : at % 2);

@@ -137,6 +137,10 @@ class Planner {
   /// What fits, in as many cells and by as many coefficients whatever the parameters.
   void add_fits(ValueId key, const std::vector<std::size_t>& all, const Program& maker) {
     const Range& range = groups_.range(key);
+    // Far from 0 a float has too few digits to say where it is between the two.
+    constexpr double farthest = 8;
+    const double width = range.high - range.low;
+    if (std::max(std::abs(range.low), std::abs(range.high)) > farthest * width) return;
     const Axis axis = axis_of(range.low, range.high, Fit::cells, Axis::Along::root);
     const Fit fit{.maker = nullptr,
                   .low = static_cast<float>(range.low),

@@ -1,6 +1,7 @@
 // <nacre/code.hpp>: machine code that a host calls by itself, and code for single points.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cfenv>
 #include <cmath>
 #include <cstdint>
@@ -92,23 +93,29 @@ TEST_F(ApiCode, GivesTheBitsOfARun) {
   options.single_points = true;
   options.live = {"S/base_color"};
   options.no_footprints = true;
-  const Shader shader = compile(options);
-  Instance instance(shader);
-  instance.set("S/base_color", {0.1f, 0.9f, 0.3f});
-  const FloatEnvironment environment;
-  for (const nacre_entry entry : {NACRE_BEGIN, NACRE_EVALUATE, NACRE_SAMPLE, NACRE_ALBEDO}) {
-    Columns inputs(shader.inputs(entry), count);
-    inputs.fill(entry);
-    const auto expected = run(shader, entry, inputs, count, count, &instance);
-    for (const bool single : {false, true}) {
-      const Code code(shader, entry, &instance, single);
-      EXPECT_EQ(code.lanes() == 1, single);
-      Columns results(shader.results(entry), count);
-      EXPECT_EQ(code(inputs.get(), results.get(), count), NACRE_OK);
-      EXPECT_EQ(results.bits(), expected) << entry << single;
-      EXPECT_EQ(nacre_code_function(code.get()), code.function());
+  std::array<std::vector<std::vector<std::vector<std::uint32_t>>>, 2> all;
+  for (const bool is_fitted : {false, true}) {
+    options.fit_parameters = is_fitted;
+    const Shader shader = compile(options);
+    Instance instance(shader);
+    instance.set("S/base_color", {0.1f, 0.9f, 0.3f});
+    const FloatEnvironment environment;
+    for (const nacre_entry entry : {NACRE_BEGIN, NACRE_EVALUATE, NACRE_SAMPLE, NACRE_ALBEDO}) {
+      Columns inputs(shader.inputs(entry), count);
+      inputs.fill(entry);
+      const auto expected = run(shader, entry, inputs, count, count, &instance);
+      all[is_fitted ? 1 : 0].push_back(expected);
+      for (const bool single : {false, true}) {
+        const Code code(shader, entry, &instance, single);
+        EXPECT_EQ(code.lanes() == 1, single);
+        Columns results(shader.results(entry), count);
+        EXPECT_EQ(code(inputs.get(), results.get(), count), NACRE_OK);
+        EXPECT_EQ(results.bits(), expected) << entry << single << is_fitted;
+        EXPECT_EQ(nacre_code_function(code.get()), code.function());
+      }
     }
   }
+  EXPECT_TRUE(all[0] != all[1]);
 }
 
 TEST_F(ApiCode, SinglePointsHaveTheBitsOfMany) {

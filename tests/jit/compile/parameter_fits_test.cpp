@@ -59,6 +59,7 @@ std::vector<float> run(const Kernel& kernel, const std::vector<float>& x,
 
 std::vector<float> run(const Made& made, const std::vector<float>& x,
                        const std::vector<float>& parameters) {
+  if (made.fits == nullptr) return {};
   const auto bits = bits_of(parameters);
   const auto fitted = made.fits->of(bits);
   return run(*made.kernel, x, bits, fitted->data());
@@ -90,10 +91,13 @@ class FitParameters : public testing::Test {
     made.fits = ParameterFits::make(*made.kernel);
     return made;
   }
-  static Program metal() {
-    return program_of({"n", "k"}, [](Float x, const std::vector<Float>& p) {
-      return fresnel_conductor_polarised(x, clamp(p[0], 0.0f, 1e4f), clamp(p[1], 0.0f, 1e4f))
-          .mean();
+  /// What a metal reflects in three channels, of one index times 1, 1.5 and 2.
+  static Program metal(const std::string& n = "n", const std::string& k = "k") {
+    return program_of({n, k}, [](Float x, const std::vector<Float>& p) {
+      const Float index = clamp(p[0], 0.0f, 1e3f), extinction = clamp(p[1], 0.0f, 1e3f);
+      const Color3 f =
+          fresnel_conductor(x, Color3(index, 1.5f * index, 2.0f * index), Color3(extinction));
+      return f.x + f.y + f.z;
     });
   }
 
@@ -121,7 +125,10 @@ TEST_F(FitParameters, ReflectancesOfMetalsAreReadWhateverTheirIndices) {
     const std::vector<float> y = run(made, x, {n, k});
     double worst = 0;
     for (std::size_t i = 0; i < points; ++i) {
-      const double exact = reflectance(double{x[i]}, {double{n}, double{k}});
+      double exact = 0;
+      for (const double times : {1.0, 1.5, 2.0}) {
+        exact += reflectance(double{x[i]}, {times * double{n}, double{k}});
+      }
       worst = std::max(worst, std::abs(double{y[i]} - exact) / exact);
     }
     EXPECT_LT(worst, 5e-5) << n << ' ' << k;
@@ -130,8 +137,9 @@ TEST_F(FitParameters, ReflectancesOfMetalsAreReadWhateverTheirIndices) {
 
 /// A wave that fits where it is long, and has more crests than there are cells where it is short.
 TEST_F(FitParameters, WhatDoesNotFitIsComputed) {
-  const Program wave = program_of(
-      {"frequency"}, [](Float x, const std::vector<Float>& p) { return sin(x * p[0]) * exp(-x); });
+  const Program wave = program_of({"frequency"}, [](Float x, const std::vector<Float>& p) {
+    return sin(x * p[0]) * exp(-x) + cos(x * p[0]);
+  });
   options_.fits_slot = {};
   const Made plain = make(wave);
   options_.fits_slot = [](std::string_view) { return true; };
@@ -197,13 +205,64 @@ TEST_F(FitParameters, CodeFromACacheKnowsWhatToFit) {
 
 /// Programs that differ in names and values alone share their code.
 TEST_F(FitParameters, CodeIsSharedByProgramsWhoseSlotsHaveOtherNames) {
-  const Program other = program_of({"index", "extinction"}, [](Float x,
-                                                               const std::vector<Float>& p) {
-    return fresnel_conductor_polarised(x, clamp(p[0], 0.0f, 1e4f), clamp(p[1], 0.0f, 1e4f)).mean();
-  });
+  const Program other = metal("index", "extinction");
   const std::vector<float> x = cosines();
   const Made a = make(metal()), b = make(other);
+  // Which was found, and not lowered.
+  EXPECT_NE(a.kernel->program().fitted_rows, 0u);
+  EXPECT_EQ(b.kernel->program().fitted_rows, 0u);
+  ASSERT_NE(b.fits, nullptr);
   EXPECT_EQ(run(a, x, {0.3f, 2.0f}), run(b, x, {0.3f, 2.0f}));
+}
+
+/// Points of which a fact is not true are computed by a kernel of their own, from the same fits.
+TEST_F(FitParameters, FactsChangeNoBit) {
+  const std::vector<float> x = cosines();
+  const std::vector<float> without = run(make(metal()), x, {0.3f, 2.0f});
+  options_.facts = {{"x", 0.3, 0.6}};
+  EXPECT_EQ(run(make(metal()), x, {0.3f, 2.0f}), without);
+}
+
+TEST_F(FitParameters, InterpretedUntilTheCodeIsThereBitsAreTheSame) {
+  const std::vector<float> x = cosines();
+  options_.asynchronous = true;
+  const Made made = make(metal());
+  const std::vector<float> first = run(made, x, {0.3f, 2.0f});
+  EXPECT_TRUE(dynamic_cast<const CompiledKernel&>(*made.kernel).wait());
+  EXPECT_EQ(run(made, x, {0.3f, 2.0f}), first);
+  EXPECT_FALSE(first.empty());
+}
+
+/// A number that is far from 0 has too few digits to have a place between two that are near.
+TEST_F(FitParameters, NumbersFarFromZeroAreNoKeys) {
+  const auto made_of = [&](float low) {
+    Recorder recorder;
+    const Float x = clamp(Float(recorder.input("x", Scalar::f32)), low, low + 1.0f);
+    const Float k(recorder.parameter("k", Scalar::f32, 0));
+    const Float value = sin(k * x) + cos(k * x) + exp(-k * x) + exp2(k * x);
+    return make(slice(recorder.program(), "test", std::vector<SliceOutput>{{"y", value.ref()}}));
+  };
+  EXPECT_NE(made_of(2.0f).fits, nullptr);
+  EXPECT_EQ(made_of(1e5f).fits, nullptr);
+}
+
+TEST_F(FitParameters, RangesNeedNotBeginAtZero) {
+  Recorder recorder;
+  const Float x = clamp(Float(recorder.input("x", Scalar::f32)), -0.5f, 0.5f);
+  const Float k(recorder.parameter("k", Scalar::f32, 0));
+  const Float value = sin(k * x) + cos(k * x) + exp(-k * x) + exp2(k * x);
+  const Made made =
+      make(slice(recorder.program(), "test", std::vector<SliceOutput>{{"y", value.ref()}}));
+  ASSERT_NE(made.fits, nullptr);
+  std::vector<float> numbers;
+  for (int i = -25; i <= 25; ++i) numbers.push_back(0.03f * static_cast<float>(i));
+  const std::vector<float> y = run(made, numbers, {0.8f});
+  ASSERT_EQ(made.fits->of(bits_of({0.8f}))->data()[0], 1.0f);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double at = 0.8 * std::clamp(double{numbers[i]}, -0.5, 0.5);
+    const double exact = std::sin(at) + std::cos(at) + std::exp(-at) + std::exp2(at);
+    EXPECT_NEAR(y[i], exact, 5e-5 * exact) << numbers[i];
+  }
 }
 
 TEST_F(FitParameters, FitsAreBytes) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -73,6 +74,52 @@ TEST(LookUp, GivesTheEntryOnEveryCpu) {
                 << indices[i];
           }
         }
+      }
+    }
+  }
+}
+
+// What was fitted is a row of sixteen, of which the index's low bits tell which.
+TEST(LookUp, GivesTheFittedNumberOnEveryCpu) {
+  constexpr std::uint32_t rows = 6, row = 4;
+  Program interface;
+  interface.fitted_rows = rows;
+  Recorder recorder;
+  recorder.adopt_interface(interface);
+  const Ref index = recorder.input("index", Scalar::i32);
+  const Ref third = Ref::literal(3);
+  const std::vector<SliceOutput> outputs{
+      {"varying", recorder.emit(Op::fitted, std::span(&index, 1), row)},
+      {"uniform", recorder.emit(Op::fitted, std::span(&third, 1), row + 1)}};
+  const Program program = slice(recorder.program(), "fitted", outputs);
+  struct alignas(64) {
+    std::array<float, rows * Fit::cells> numbers;
+  } fitted;
+  for (std::size_t i = 0; i < fitted.numbers.size(); ++i) {
+    fitted.numbers[i] = 1.0f / (static_cast<float>(i) + 3.0f);
+  }
+  std::vector<std::int32_t> indices;
+  for (std::int32_t i = 0; i < 50; ++i) indices.push_back(i % 3 == 0 ? -i * 4097 : i);
+  for (const int lanes : {1, 4, 8, 16}) {
+    for (const char* cpu : {"", "x86-64", "nehalem", "sandybridge", "haswell"}) {
+      if (std::string_view(cpu) == "haswell" && __builtin_cpu_supports("avx2") == 0) continue;
+      const Target target = *cpu == '\0' ? Target::host() : Target::named(cpu);
+      const auto kernel = compiled(program, {.lanes = lanes, .target = target});
+      ASSERT_NE(kernel, nullptr);
+      std::vector<float> varying(indices.size()), uniform(indices.size());
+      const void* const input = indices.data();
+      const std::array<void*, 2> columns{varying.data(), uniform.data()};
+      KernelArguments arguments;
+      arguments.inputs = &input;
+      arguments.outputs = columns.data();
+      arguments.fitted = fitted.numbers.data();
+      arguments.count = indices.size();
+      ASSERT_EQ(kernel->run(arguments), RunStatus::done);
+      for (std::size_t i = 0; i < indices.size(); ++i) {
+        const auto at = static_cast<std::size_t>(indices[i] & 15);
+        ASSERT_EQ(varying[i], fitted.numbers[row * Fit::cells + at])
+            << "W = " << lanes << ", " << cpu << ", " << indices[i];
+        ASSERT_EQ(uniform[i], fitted.numbers[(row + 1) * Fit::cells + 3]);
       }
     }
   }

@@ -282,14 +282,14 @@ typedef struct nacre_compile_options {
   uint32_t error_points;    /* At how many points, 1,000 to 1,000,000. 0: 2048. */
   const char* error_record; /* What `nacre render --record-points` wrote, the text: of materials, to
                                measure where a scene shades them. NULL: at points of every kind. */
-  int measure_error;        /* 1: nacre_shader_error is wanted of what is asked for. */
+  int measure_error;        /* 1: nacre_shader_error is wanted of what is compiled as asked for. */
   const nacre_fact* facts;  /* Not of NACRE_REFERENCE. */
   size_t fact_count;
   int fade_noise;     /* 1: noise2d, noise3d and fractals fade where the footprint of a point covers
                          their cells; octaves of which nothing is left cost nothing. */
   int reserved_too;   /* As `reserved`. */
-  int fit_parameters; /* 1: what depends on live parameters and one number is read from polynomials
-                         fitted to their values, within 4e-5 (fast: 4e-3), else computed. */
+  int fit_parameters; /* 1: what depends on live parameters and one number is read from fits, made
+                         when a call has new ones: each within 4e-5 (fast: 4e-3), or computed. */
 } nacre_compile_options;
 
 typedef struct nacre_shader nacre_shader;
@@ -412,7 +412,7 @@ NACRE_API nacre_status nacre_shader_parameter(const nacre_shader* shader, size_t
 /* The index of the one of that name, or SIZE_MAX. */
 NACRE_API size_t nacre_shader_find_parameter(const nacre_shader* shader, const char* name);
 
-/* The values of a shader's parameters: about a kilobyte, made in a microsecond. */
+/* The values of a shader's parameters: some hundred bytes, made in a microsecond. */
 typedef struct nacre_instance nacre_instance;
 
 /* With the document's values. */

@@ -64,7 +64,7 @@ class Parameters(Mapping[str, Value]):
 
 
 class Instance(_core.Instance):
-    """Values of a shader's parameters, to begin with the document's: about a kilobyte, a mapping
+    """Values of a shader's parameters, to begin with the document's: some hundred bytes, a mapping
     that can be set.
 
         instance = shader.instance()
