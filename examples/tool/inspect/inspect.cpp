@@ -26,6 +26,7 @@ struct InspectOptions {
   std::vector<std::string> outputs;
   std::vector<std::string> dumps;
   bool live = false;
+  bool fit_parameters = false;
   bool cost = false;
   bool error = false;
   RecordedOption recorded;
@@ -250,6 +251,7 @@ int run(const InspectOptions& options) {
   const auto for_cost = options.cost ? options.common.compiler() : nullptr;
   shader.compile.whole = true;
   if (options.live) shader.parameters = ParameterMode::live;
+  shader.fit_parameters = options.fit_parameters;
   for (const std::string& dump : options.dumps) {
     if (dump == "program") shader.compile.keep_text = true;
     if (dump == "llvm") shader.compile.dump_ir = true;
@@ -304,7 +306,12 @@ void add_inspect(CLI::App& app, int& status) {
   command.add_flag("--error", options->error,
                    "Measure how far numbers are from double precision with everything exact");
   options->recorded.add(command);
-  command.add_flag("--live", options->live, "Keep parameters changeable");
+  CLI::Option* const live = command.add_flag("--live", options->live, "Keep parameters changeable");
+  command
+      .add_flag("--fit-parameters", options->fit_parameters,
+                "What depends on parameters and one number is read from polynomials, which are "
+                "fitted when the parameters change")
+      ->needs(live);
   command.add_flag("--json", options->json,
                    "For programs to read: a list with an object for each material and output");
   options->common.add_compile(command);

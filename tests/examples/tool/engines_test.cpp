@@ -72,6 +72,23 @@ TEST_F(Engines, CostIsSaidByNodeAndFunction) {
   EXPECT_TRUE(origins.contains("NG/clouds") && origins.contains("NG/wave")) << printed_;
 }
 
+TEST_F(Engines, FitsOfParametersAreShown) {
+  const std::string document = write("a.mtlx", R"(<materialx version="1.39">
+    <conductor_bsdf name="b" type="BSDF"><input name="ior" type="color3" value="0.2, 0.4, 1.4"/>
+      <input name="extinction" type="color3" value="3.9, 2.4, 1.6"/>
+      <input name="roughness" type="vector2" value="0.2, 0.2"/></conductor_bsdf>
+    <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
+    <surfacematerial name="M" type="material">
+      <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+    </materialx>)");
+  const std::string inspect = "inspect " + document + " --no-cache --dump program ";
+  ASSERT_EQ(run(inspect + "--live"), 0) << errors_;
+  EXPECT_EQ(printed_.find(" fitted "), std::string::npos);
+  ASSERT_EQ(run(inspect + "--live --fit-parameters"), 0) << errors_;
+  EXPECT_NE(printed_.find(" fitted "), std::string::npos);
+  EXPECT_EQ(run(inspect + "--fit-parameters"), 2);
+}
+
 TEST_F(Engines, OnlyCompiledCodeHasACost) {
   EXPECT_EQ(run("inspect " + write("a.mtlx", waves) + " --cost --backend interpreter"), 1);
   EXPECT_TRUE(says("--backend jit")) << errors_;

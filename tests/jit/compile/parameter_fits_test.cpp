@@ -1,13 +1,17 @@
 #include "jit/compile/parameter_fits.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <complex>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "jit/compile/compile.h"
@@ -263,6 +267,41 @@ TEST_F(FitParameters, RangesNeedNotBeginAtZero) {
     const double exact = std::sin(at) + std::cos(at) + std::exp(-at) + std::exp2(at);
     EXPECT_NEAR(y[i], exact, 5e-5 * exact) << numbers[i];
   }
+}
+
+/// A lock that another thread holds at a fork is held for ever in the child.
+TEST_F(FitParameters, ChildrenOfForkWaitForNoLock) {
+  const Made made = make(metal());
+  const std::vector<float> x = cosines();
+  const std::vector<float> expected = run(made, x, {0.3f, 2.0f});
+  LastFitted last;
+  std::atomic<bool> is_over = false;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 2; ++i) {
+    threads.emplace_back([&] {
+      while (!is_over) {
+        for (const float n : {0.2f, 0.2f, 0.2f, 0.7f})
+          (void)made.fits->of(bits_of({n, 2.0f}), &last);
+      }
+    });
+  }
+  int wrong = 0;
+  for (int i = 0; i < 60; ++i) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      alarm(20);
+      const auto bits = bits_of({0.3f, 2.0f});
+      const auto fitted = made.fits->of(bits, &last);
+      _exit(run(*made.kernel, x, bits, fitted->data()) == expected ? 0 : 1);
+    }
+    int status = 0;
+    EXPECT_EQ(waitpid(child, &status, 0), child);
+    wrong += status != 0 ? 1 : 0;
+  }
+  is_over = true;
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST_F(FitParameters, FitsAreBytes) {
