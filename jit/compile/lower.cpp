@@ -125,8 +125,9 @@ double table_error_of(const CompileOptions& options) {
 std::vector<bool> fitted_slots(const Program& program, const CompileOptions& options) {
   if (!options.fits_slot || table_error_of(options) <= 0) return {};
   std::vector<bool> fitted;
-  for (const ParameterSlot& slot : program.parameters)
+  for (const ParameterSlot& slot : program.parameters) {
     fitted.push_back(options.fits_slot(slot.name));
+  }
   if (std::ranges::find(fitted, true) == fitted.end()) fitted.clear();
   return fitted;
 }

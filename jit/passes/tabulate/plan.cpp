@@ -44,7 +44,7 @@ class Planner {
     find_tables();
     while (!tables_.empty()) {
       const std::vector<Looked> plan = cheapest();
-      // Fits are looked at when their parameters are known.
+      // Each fit is looked at when its parameters are known; what becomes of it here is not.
       if (plan.empty() || groups_.has_parameters()) return plan;
       const std::vector<std::size_t> far = outputs_too_far(plan);
       if (far.empty()) return plan;
@@ -105,8 +105,10 @@ class Planner {
     if (all.empty()) return;
     const std::vector<ValueId> values = values_of(all);
     const Cone cone = groups_.cone_of(values, key);
-    if (groups_.has_parameters())
-      return add_fits(key, all, program_of(program_, cone, key, values));
+    if (groups_.has_parameters()) {
+      add_fits(key, all, program_of(program_, cone, key, values));
+      return;
+    }
     const Sampler sampler(program_, cone, key, values);
     const auto add = [&](const Axis& axis, ValueId place) {
       for (Piecewise& fitted :
