@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -41,6 +42,20 @@ Program look_up(const std::vector<float>& table, std::int32_t mask) {
   return slice(recorder.program(), "look_up", outputs);
 }
 
+/// check(kernel, what) of a Program as code of all widths for all kinds of CPUs that this one is.
+template <class Check>
+void on_every_cpu(const Program& program, Check&& check) {
+  for (const int lanes : {1, 4, 8, 16}) {
+    for (const char* cpu : {"", "x86-64", "nehalem", "sandybridge", "haswell"}) {
+      if (std::string_view(cpu) == "haswell" && __builtin_cpu_supports("avx2") == 0) continue;
+      const Target target = *cpu == '\0' ? Target::host() : Target::named(cpu);
+      const auto kernel = compiled(program, {.lanes = lanes, .target = target});
+      ASSERT_NE(kernel, nullptr);
+      check(*kernel, "W = " + std::to_string(lanes) + ", " + cpu);
+    }
+  }
+}
+
 // A table is permuted in registers, whole or by bytes, or loaded from memory, by CPU and size.
 TEST(LookUp, GivesTheEntryOnEveryCpu) {
   // As floats that are whole: run() makes integers of them.
@@ -53,28 +68,19 @@ TEST(LookUp, GivesTheEntryOnEveryCpu) {
   for (const int count : {1, 3, 8, 9, 16, 17, 32, 33, 64, 65, 200}) {
     const std::vector<float> table = entries(count);
     for (const std::int32_t mask : {count - 1, 5, 7, 255}) {
-      const Program program = look_up(table, mask);
-      for (const int lanes : {1, 4, 8, 16}) {
-        for (const char* cpu : {"", "x86-64", "nehalem", "sandybridge", "haswell"}) {
-          if (std::string_view(cpu) == "haswell" && __builtin_cpu_supports("avx2") == 0) continue;
-          const Target target = *cpu == '\0' ? Target::host() : Target::named(cpu);
-          const auto kernel = compiled(program, {.lanes = lanes, .target = target});
-          ASSERT_NE(kernel, nullptr);
-          const Columns out = run(*kernel, in);
-          const auto expected = [&](std::int32_t index) {
-            const auto at = static_cast<std::size_t>(std::clamp(index, 0, count - 1));
-            return flush_denormal(std::bit_cast<std::uint32_t>(table[at]));
-          };
-          for (std::size_t i = 0; i < indices.size(); ++i) {
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(out.at("clamped")[i]), expected(indices[i]))
-                << count << " entries, W = " << lanes << ", " << cpu << ", " << indices[i];
-            ASSERT_EQ(std::bit_cast<std::uint32_t>(out.at("masked")[i]),
-                      expected(indices[i] & mask))
-                << count << " entries, & " << mask << ", W = " << lanes << ", " << cpu << ", "
-                << indices[i];
-          }
+      on_every_cpu(look_up(table, mask), [&](const Kernel& kernel, const std::string& what) {
+        const Columns out = run(kernel, in);
+        const auto expected = [&](std::int32_t index) {
+          const auto at = static_cast<std::size_t>(std::clamp(index, 0, count - 1));
+          return flush_denormal(std::bit_cast<std::uint32_t>(table[at]));
+        };
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(out.at("clamped")[i]), expected(indices[i]))
+              << count << " entries, " << what << ", " << indices[i];
+          ASSERT_EQ(std::bit_cast<std::uint32_t>(out.at("masked")[i]), expected(indices[i] & mask))
+              << count << " entries, & " << mask << ", " << what << ", " << indices[i];
         }
-      }
+      });
     }
   }
 }
@@ -100,29 +106,22 @@ TEST(LookUp, GivesTheFittedNumberOnEveryCpu) {
   }
   std::vector<std::int32_t> indices;
   for (std::int32_t i = 0; i < 50; ++i) indices.push_back(i % 3 == 0 ? -i * 4097 : i);
-  for (const int lanes : {1, 4, 8, 16}) {
-    for (const char* cpu : {"", "x86-64", "nehalem", "sandybridge", "haswell"}) {
-      if (std::string_view(cpu) == "haswell" && __builtin_cpu_supports("avx2") == 0) continue;
-      const Target target = *cpu == '\0' ? Target::host() : Target::named(cpu);
-      const auto kernel = compiled(program, {.lanes = lanes, .target = target});
-      ASSERT_NE(kernel, nullptr);
-      std::vector<float> varying(indices.size()), uniform(indices.size());
-      const void* const input = indices.data();
-      const std::array<void*, 2> columns{varying.data(), uniform.data()};
-      KernelArguments arguments;
-      arguments.inputs = &input;
-      arguments.outputs = columns.data();
-      arguments.fitted = fitted.numbers.data();
-      arguments.count = indices.size();
-      ASSERT_EQ(kernel->run(arguments), RunStatus::done);
-      for (std::size_t i = 0; i < indices.size(); ++i) {
-        const auto at = static_cast<std::size_t>(indices[i] & 15);
-        ASSERT_EQ(varying[i], fitted.numbers[row * Fit::cells + at])
-            << "W = " << lanes << ", " << cpu << ", " << indices[i];
-        ASSERT_EQ(uniform[i], fitted.numbers[(row + 1) * Fit::cells + 3]);
-      }
+  on_every_cpu(program, [&](const Kernel& kernel, const std::string& what) {
+    std::vector<float> varying(indices.size()), uniform(indices.size());
+    const void* const input = indices.data();
+    const std::array<void*, 2> columns{varying.data(), uniform.data()};
+    KernelArguments arguments;
+    arguments.inputs = &input;
+    arguments.outputs = columns.data();
+    arguments.fitted = fitted.numbers.data();
+    arguments.count = indices.size();
+    ASSERT_EQ(kernel.run(arguments), RunStatus::done);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      const auto at = static_cast<std::size_t>(indices[i] & 15);
+      ASSERT_EQ(varying[i], fitted.numbers[row * Fit::cells + at]) << what << ", " << indices[i];
+      ASSERT_EQ(uniform[i], fitted.numbers[(row + 1) * Fit::cells + 3]) << what;
     }
-  }
+  });
 }
 
 }  // namespace
