@@ -1,9 +1,9 @@
 // The bits that engines give on this CPU, as one SHA-256 for each engine: everywhere the same.
 //
-//   results LIBRARIES DOCUMENTS EXPECTED [RANDOM_PROGRAMS]
+//   results LIBRARIES DOCUMENTS EXPECTED [RANDOM_PROGRAMS [WIDTH...]]
 //
 // Runs random Programs, outputs of documents and surfaces by the interpreter and by compiled code
-// of every width. Exit status 0 if every digest is the one that EXPECTED holds.
+// of these widths, or of all. Exit status 0 if every digest is the one that EXPECTED holds.
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -159,11 +159,15 @@ std::string results(const std::vector<Program>& random_programs, const std::vect
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) return std::fputs("usage: results LIBRARIES SOURCE EXPECTED [COUNT]\n", stderr), 2;
+  if (argc < 4)
+    return std::fputs("usage: results LIBRARIES SOURCE EXPECTED [COUNT [WIDTH...]]\n", stderr), 2;
   const std::string source = argv[2];
   std::string expected;
   std::ifstream(argv[3]) >> expected;
   const std::size_t count = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 8;
+  std::vector<int> widths;
+  for (int i = 5; i < argc; ++i) widths.push_back(std::atoi(argv[i]));
+  if (widths.empty()) widths = {1, 4, 8, 16};
 
   Diagnostics diagnostics;
   const auto fail = [&] {
@@ -208,7 +212,7 @@ int main(int argc, char** argv) {
   report("interpreter", results(programs, chains, [](const Program& program) {
            return std::shared_ptr<const Kernel>(make_interpreter(program));
          }));
-  for (const int lanes : {1, 4, 8, 16}) {
+  for (const int lanes : widths) {
     CodegenOptions code{.lanes = lanes};
     code.tier = Tier::quick;
     const auto make = [&](const Program& program) -> std::shared_ptr<const Kernel> {

@@ -12,7 +12,7 @@ namespace {
 
 /// Of all forms of a row together.
 std::size_t count_of_points(const ClosureCase& row, const ClosureWay& way) {
-  const std::size_t count = row.large ? 20'000 : 100'000;
+  const std::size_t count = row.large ? 10'000 : 50'000;
   return way.asks_all ? count / 4 : count;
 }
 

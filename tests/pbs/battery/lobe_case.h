@@ -46,6 +46,7 @@ struct LobeCase {
   /// largest ratio over the battery's samples and roughnesses, measured; 0: promises nothing.
   double reciprocity = 1.0;
   float least_roughness = 0.05f;
+  bool slow_in_double = false;  ///< By the reference: fewer points every day.
   RoundingBounds standard{1e-4, 1e-4, 1e-5};
   RoundingBounds fast{1e-3, 2e-2, 1e-3};
 };

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "tests/pbs/battery/lobe_kernels.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::size_t count = 2000;
+bool full_run() { return std::getenv("NACRE_TEST_FULL") != nullptr; }
 
 /// Relative errors of one output, the denominator at least a millionth of the
 /// largest value of the configuration.
@@ -44,7 +45,8 @@ struct LobeErrors {
 /// double precision: what rounding and the mode's approximations do.
 class Comparison {
  public:
-  Comparison(const LobeCase& row, Accuracy accuracy) {
+  Comparison(const LobeCase& row, Accuracy accuracy)
+      : count_(row.slow_in_double && !full_run() ? 400 : 2000) {
     LobePrograms machine = lobe_programs(row, accuracy);
     evaluate_ = lobe_kernel(std::move(machine.evaluate), accuracy);
     sample_ = lobe_kernel(std::move(machine.sample), accuracy);
@@ -56,13 +58,13 @@ class Comparison {
   void add(float roughness, double angle, LobeErrors& errors) const {
     Columns columns = lobe_columns(roughness);
     set_directions(columns, "wo", {direction(angle)});
-    set_random(columns, count, 11);
+    set_random(columns, count_, 11);
     const Columns s = run(*sample_, columns);
     const DoubleColumns exact = run_double(*exact_sample_, columns);
     std::vector<Direction> wi;
     std::vector<float> weight;
     std::vector<double> exact_weight;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
       if (s.at("pdf")[i] <= 0.0f || exact.at("pdf")[i] <= 0.0) continue;
       wi.push_back({s.at("wi.x")[i], s.at("wi.y")[i], s.at("wi.z")[i]});
       weight.push_back(s.at("weight.x")[i]);
@@ -81,6 +83,7 @@ class Comparison {
   }
 
  private:
+  std::size_t count_;  ///< Of each roughness and angle.
   std::shared_ptr<const Kernel> evaluate_, sample_;
   std::unique_ptr<ReferenceKernel> exact_evaluate_, exact_sample_;
 };
