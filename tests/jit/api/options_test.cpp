@@ -285,8 +285,15 @@ TEST(ApiOptions, PatternsOfNothingAreSaid) {
   EXPECT_EQ(codes_of({"c/in"}, {}), "");
   EXPECT_EQ(codes_of({"c/*"}, {"c/i?"}), "");
   EXPECT_EQ(codes_of({"*"}, {"*"}), "");
-  EXPECT_EQ(codes_of({"other/in"}, {}), "");   // Another output of the document has that.
-  EXPECT_EQ(codes_of({"other/inn"}, {}), "");  // Of which nothing is known here.
+  EXPECT_EQ(codes_of({"other/in"}, {}), "");  // Another output of the document has that.
+  EXPECT_EQ(codes_of({"other/inn"}, {}), "unfit-pattern 'other/inn';");
+  EXPECT_EQ(codes_of({"*/coat_roughness"}, {}), "");  // The other kind has that.
+  EXPECT_EQ(codes_of({"*/coat_rouhgness"}, {}), "unfit-pattern '*/coat_rouhgness';");
+  EXPECT_EQ(codes_of({"*coat_roughness"}, {}), "");
+  EXPECT_EQ(codes_of({"*coat_rouhgness"}, {}), "unfit-pattern '*coat_rouhgness';");
+  EXPECT_EQ(codes_of({"*"}, {"*/coat_color.x", "*/coat_colour.x"}),
+            "unfit-pattern '*/coat_colour.x';");
+  EXPECT_EQ(codes_of({"S/*", "*/base_color"}, {"S/base_color.?"}), "");
   EXPECT_EQ(codes_of({"c/inn"}, {}), "unfit-pattern 'c/inn';");
   EXPECT_EQ(codes_of({"d/in"}, {}), "unfit-pattern 'd/in';");
   EXPECT_EQ(codes_of({"d*"}, {}), "unfit-pattern 'd*';");
