@@ -1,5 +1,7 @@
 #include "examples/render/image_io.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -96,9 +98,32 @@ void append_passes(const PassFilm& passes, ImageHeader& header, Planes& planes) 
   }
 }
 
+constexpr float largest_half = 65504.f;
+
+/// Says what 16-bit floats cannot hold, which becomes the largest that they can. What is infinite
+/// stays so.
+void report_cut(const Planes& planes, const std::string& path, Diagnostics& diagnostics) {
+  std::size_t count = 0, all = 0;
+  float least = INFINITY, most = -INFINITY;
+  for (const auto& plane : planes) {
+    all += plane.size();
+    for (const float value : plane) {
+      if (!std::isfinite(value)) continue;
+      count += std::abs(value) > largest_half ? 1 : 0;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+  if (count == 0) return;
+  diagnostics.warning("out-of-range", {path, 0, 0, {}}, "what the image cannot hold was cut off",
+                      "-65504 to 65504, or 32-bit floats",
+                      fmt::format("{} to {}, {} of {} numbers outside", least, most, count, all));
+}
+
 /// Empty when written; otherwise why not.
 std::string write_file(const Film& film, const std::string& path, bool exr,
-                       const WriteOptions& options) {
+                       const WriteOptions& options, const std::string& name,
+                       Diagnostics& diagnostics) {
   ImageHeader header{.kind = exr ? ImageKind::exr : ImageKind::png,
                      .width = film.window().width(),
                      .height = film.window().height(),
@@ -121,7 +146,9 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
   std::string problem;
   const auto image = open_image(path, header, problem);
   if (image == nullptr) return problem;
-  return write_planes(*image, header, planes);
+  problem = write_planes(*image, header, planes);
+  if (problem.empty() && exr && options.half) report_cut(planes, name, diagnostics);
+  return problem;
 }
 
 }  // namespace
@@ -140,7 +167,9 @@ bool write_image(const Film& film, const std::string& path, const WriteOptions& 
   const std::string extension = std::filesystem::path(path).extension().string();
   return write_atomically(
       path,
-      [&](const std::string& file) { return write_file(film, file, extension == ".exr", options); },
+      [&](const std::string& file) {
+        return write_file(film, file, extension == ".exr", options, path, diagnostics);
+      },
       diagnostics);
 }
 

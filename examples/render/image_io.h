@@ -30,7 +30,7 @@ bool is_image_name(const std::string& path, Diagnostics& diagnostics);
 /// window of the whole, the .png the window alone. A file appears complete or not at all: it is
 /// written beside its place and renamed. The bytes depend on nothing but the image and options. A
 /// film with alpha gives four channels; colours are multiplied by alpha in .exr and not in .png, as
-/// is the custom of either.
+/// is the custom of either. A warning says what 16-bit floats cannot hold.
 bool write_image(const Film& film, const std::string& path, const WriteOptions& options,
                  Diagnostics& diagnostics);
 

@@ -56,6 +56,27 @@ TEST(WriteImage, HalfRoundsToHalf) {
   ASSERT_TRUE(write_image(gradient(), folder.file("a.exr"), options, diagnostics));
   // Halves of 1024 to 2048 are one apart.
   EXPECT_EQ(read_back(folder.file("a.exr"))[2], 1235.f);
+  EXPECT_TRUE(diagnostics.all().empty());
+}
+
+TEST(WriteImage, WhatHalfCannotHoldIsSaid) {
+  const TemporaryFolder folder;
+  Film film = gradient();
+  film.mean(2, 1).y = 65504.f;
+  film.mean(3, 1).y = 1e6f;
+  film.mean(4, 1).y = INFINITY;
+  Diagnostics diagnostics;
+  ASSERT_TRUE(write_image(film, folder.file("a.exr"), {}, diagnostics));
+  ASSERT_TRUE(write_image(film, folder.file("a.png"), {.half = true}, diagnostics));
+  EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.to_string();
+  ASSERT_TRUE(write_image(film, folder.file("a.exr"), {.half = true}, diagnostics));
+  const std::vector<float> v = read_back(folder.file("a.exr"));
+  EXPECT_EQ(v[3 * (7 + 3) + 1], 65504.f);
+  EXPECT_EQ(v[3 * (7 + 4) + 1], INFINITY);
+  ASSERT_EQ(diagnostics.all().size(), 1u);
+  EXPECT_EQ(diagnostics.all()[0].severity, Severity::warning);
+  EXPECT_EQ(diagnostics.all()[0].where.file, folder.file("a.exr"));
+  EXPECT_EQ(diagnostics.all()[0].found, "0 to 1000000, 1 of 105 numbers outside");
 }
 
 TEST(WriteImage, PngIsToneMappedSrgb) {
