@@ -71,9 +71,11 @@ void TextureRequest::add(CLI::App& command) {
                   "tiles is called without {udim} and the '.', '_' or '-' before it")
       ->type_name("TEXT")
       ->capture_default_str();
-  command.add_flag("--clip", clip,
-                   "With --document, cut numbers off at the ends of what a texture holds, with a "
-                   "warning, where that is an error otherwise");
+  command
+      .add_flag("--clip", clip,
+                "With --document, cut numbers off at the ends of what a texture holds, with a "
+                "warning, where that is an error otherwise")
+      ->needs(command.get_option("--document"));
 }
 
 bool TextureRequest::check(Diagnostics& diagnostics) const {

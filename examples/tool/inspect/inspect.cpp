@@ -306,6 +306,7 @@ void add_inspect(CLI::App& app, int& status) {
   command.add_flag("--error", options->error,
                    "Measure how far numbers are from double precision with everything exact");
   options->recorded.add(command);
+  command.get_option("--recorded")->needs(command.get_option("--error"));
   CLI::Option* const live = command.add_flag("--live", options->live, "Keep parameters changeable");
   command
       .add_flag("--fit-parameters", options->fit_parameters,

@@ -123,12 +123,14 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
       ->check(number_within(0, 1e6))
       ->type_name("X");
   command.footer(pass_help());
-  command.add_option("--lens-radius", options.lens_radius, "Scene units; 0: all in focus")
-      ->check(number_within(0, host::largest_coordinate))
-      ->capture_default_str();
+  CLI::Option* const lens =
+      command.add_option("--lens-radius", options.lens_radius, "Scene units; 0: all in focus")
+          ->check(number_within(0, host::largest_coordinate))
+          ->capture_default_str();
   command
       .add_option("--focus-distance", options.focus_distance, "Scene units (default: the middle)")
-      ->check(number_within(0, host::largest_coordinate));
+      ->check(number_within(0, host::largest_coordinate))
+      ->needs(lens);
   add_scene_limits(command, options.scene_limits);
   options.common.add_compile(command);
   options.common.add_lobes(command);

@@ -19,14 +19,17 @@ void ProgressOptions::add(CLI::App& command) {
                   "are then (default: 0, none). Ctrl-C does the same")
       ->check(number_within(0, 1e9))
       ->type_name("S");
-  command
-      .add_option("--checkpoint", checkpoint,
-                  "Keeps what was done so far, for the same command to go on from, with the bits "
-                  "of a render that nothing interrupted; of this kind of machine, and refused "
-                  "where a file has changed")
-      ->type_name("FILE");
+  CLI::Option* const file =
+      command
+          .add_option(
+              "--checkpoint", checkpoint,
+              "Keeps what was done so far, for the same command to go on from, with the bits "
+              "of a render that nothing interrupted; of this kind of machine, and refused "
+              "where a file has changed")
+          ->type_name("FILE");
   command.add_option("--checkpoint-every", checkpoint_every, "How often")
       ->check(number_within(0, 1e9))
+      ->needs(file)
       ->capture_default_str()
       ->type_name("S");
 }

@@ -26,6 +26,27 @@ void check_passes(const RenderOptions& options, Diagnostics& diagnostics) {
   }
 }
 
+/// Says of options that change nothing.
+void report_idle(const RenderOptions& options, Diagnostics& diagnostics) {
+  const RenderOptions defaults;
+  const host::RenderSettings& s = options.settings;
+  const bool is_exr = options.out.ends_with(".exr"), is_png = options.out.ends_with(".png");
+  const auto idle = [&](bool is, const char* option, const char* expected) {
+    if (!is) return;
+    diagnostics.warning("no-effect", {}, std::string(option) + " changes nothing here", expected);
+  };
+  idle(is_exr && options.write.exposure != defaults.write.exposure, "--exposure",
+       "--out FILE.png: an .exr has light");
+  idle(is_exr && options.write.white != defaults.write.white, "--white",
+       "--out FILE.png: an .exr has light");
+  idle(is_png && options.write.half, "--half", "--out FILE.exr: a .png has whole numbers");
+  idle(s.techniques.roulette == host::Roulette::none &&
+           s.roulette_depth != defaults.settings.roulette_depth,
+       "--roulette-depth", "another --roulette than none");
+  idle(s.fps != defaults.settings.fps && !options.series.frames && !host::is_open(s), "--fps",
+       "--frames, or an open --shutter");
+}
+
 }  // namespace
 
 void complete_request(RenderOptions& options, Diagnostics& diagnostics) {
@@ -38,6 +59,7 @@ void complete_request(RenderOptions& options, Diagnostics& diagnostics) {
   check_view(options.view, options.out, diagnostics);
   check_techniques(settings, diagnostics);
   check_crop(settings, diagnostics);
+  report_idle(options, diagnostics);
   check_outputs(outputs_of(options), {options.common.file, options.scene, options.environment},
                 diagnostics);
   if (!diagnostics.has_errors()) check_request(options, diagnostics);

@@ -190,6 +190,37 @@ TEST_F(Report, CommandLinesThatMeanNothing) {
   EXPECT_EQ(said().front()["hint"], "did you mean '--size'?") << errors_;
 }
 
+TEST_F(Report, OptionsThatChangeNothing) {
+  const std::string render =
+      "render " NACRE_SOURCE_DIR "/examples/documents/brass.mtlx --size 8 --spp 1 --out ";
+  struct Row {
+    const char *out, *options, *code;
+  };
+  const std::vector<Row> rows{
+      {"a.exr", "--exposure 1", "--exposure changes nothing here"},
+      {"a.png", "--exposure 1", ""},
+      {"a.exr", "--white 2", "--white changes nothing here"},
+      {"a.png", "--half", "--half changes nothing here"},
+      {"a.exr", "--half", ""},
+      {"a.exr", "--fps 30", "--fps changes nothing here"},
+      {"a.exr", "--fps 30 --shutter 0 1", ""},
+      {"a.#.exr", "--fps 30 --frames 1", ""},
+      {"a.exr", "--roulette none --roulette-depth 2", "--roulette-depth changes nothing here"}};
+  for (const Row& row : rows) {
+    const std::string line = render + file(row.out) + ' ' + row.options;
+    const bool is_said = *row.code != '\0';
+    EXPECT_EQ(run(line + " --warnings-as-errors"), is_said ? 1 : 0) << line << errors_;
+    EXPECT_EQ(says("no-effect"), is_said) << line << errors_;
+    EXPECT_TRUE(says(row.code)) << line << errors_;
+  }
+  for (const char* alone : {"--focus-distance 3", "--checkpoint-every 3"}) {
+    EXPECT_EQ(run(render + file("a.exr") + ' ' + alone), 2) << alone << errors_;
+  }
+  EXPECT_EQ(run("bake a.mtlx --clip"), 2);
+  EXPECT_TRUE(says("--clip requires --document")) << errors_;
+  EXPECT_EQ(run("inspect a.mtlx --recorded p.json"), 2);
+}
+
 TEST_F(Report, NamesThatThereAreNot) {
   const std::string mtlx = write("a.mtlx", whole);
   const std::string render = "render --size 8 --spp 1 --out " + file("a.exr") + " " + mtlx;
