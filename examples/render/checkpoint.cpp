@@ -14,8 +14,8 @@ namespace nacre::host {
 namespace {
 
 // A file is the magic, the hash of all that follows, the hash of the key, how many tiles there are,
-// their samples, and the sums.
-constexpr std::string_view magic = "nacre render checkpoint 1\n";
+// their samples, what was counted, and the sums.
+constexpr std::string_view magic = "nacre render checkpoint 2\n";
 constexpr std::size_t hash_size = 64;
 
 std::string hash_of(std::string_view bytes) { return to_hex(sha256(bytes)); }
@@ -53,20 +53,24 @@ Checkpoint::Content Checkpoint::load(Diagnostics& diagnostics) const {
   std::vector<std::uint64_t> tiles(1);
   const bool has_tiles = take_numbers(rest, tiles) && tiles[0] <= rest.size() / sizeof(int);
   content.done.resize(has_tiles ? tiles[0] : 0);
-  if (!take_numbers(rest, content.done)) return wrong("the checkpoint is broken", "all of it");
+  std::vector<RenderCounts> counts(1);
+  if (!take_numbers(rest, content.done) || !take_numbers(rest, counts))
+    return wrong("the checkpoint is broken", "all of it");
+  content.counts = counts[0];
   content.sums = rest;
   return content;
 }
 
 bool Checkpoint::is_due() const { return Clock::now() - last_ >= every_; }
 
-bool Checkpoint::save(const std::vector<int>& done, const std::function<void(std::string&)>& append,
-                      Diagnostics& diagnostics) {
+bool Checkpoint::save(const std::vector<int>& done, const RenderCounts& counts,
+                      const std::function<void(std::string&)>& append, Diagnostics& diagnostics) {
   std::string bytes(magic);
   const std::size_t start = bytes.append(hash_size, '0').size();
   bytes += hash_of(key_);
   append_numbers(bytes, std::vector<std::uint64_t>{done.size()});
   append_numbers(bytes, done);
+  append_numbers(bytes, std::vector{counts});
   append(bytes);
   bytes.replace(magic.size(), hash_size, hash_of(std::string_view(bytes).substr(start)));
   const bool is_written = write_text_atomically(file_, bytes, diagnostics);

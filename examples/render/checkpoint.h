@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "examples/render/render_counts.h"
 #include "runtime/diagnostic.h"
 
 namespace nacre::host {
@@ -14,6 +15,7 @@ class Checkpoint {
  public:
   struct Content {
     std::vector<int> done;  ///< Samples by tile.
+    RenderCounts counts;    ///< Of those.
     std::string sums;       ///< Of Accumulation.
   };
 
@@ -27,8 +29,8 @@ class Checkpoint {
   /// Whether it is time to.
   bool is_due() const;
   /// `append`: adds the sums. False with an error; the file is then as it was.
-  bool save(const std::vector<int>& done, const std::function<void(std::string&)>& append,
-            Diagnostics& diagnostics);
+  bool save(const std::vector<int>& done, const RenderCounts& counts,
+            const std::function<void(std::string&)>& append, Diagnostics& diagnostics);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -32,8 +32,8 @@ struct Shared {
   Accumulation& sums;
   const Film& film;  ///< What is to be filled.
   Diagnostics& diagnostics;
-  std::mutex mutex = {};  ///< Guards what follows.
-  RenderStatistics statistics = {};
+  RenderStatistics& statistics;  ///< Guarded by the mutex.
+  std::mutex mutex = {};
 };
 
 /// Adds samples to a tile; as many as it has then, which are fewer than wanted where the render
@@ -71,20 +71,8 @@ bool is_good(const Shared& shared, std::size_t tile, int done) {
 
 void save(Shared& shared) {
   shared.control.checkpoint->save(
-      shared.queue.done(), [&](std::string& bytes) { shared.sums.append_to(bytes); },
-      shared.diagnostics);
-}
-
-void add(RenderStatistics& sum, const RenderStatistics& s) {
-  sum.paths += s.paths;
-  sum.rays += s.rays;
-  sum.shadow_rays += s.shadow_rays;
-  sum.invalid_results += s.invalid_results;
-  sum.beyond_bound += s.beyond_bound;
-  sum.media_dropped += s.media_dropped;
-  sum.paths_cut += s.paths_cut;
-  sum.shading_seconds += s.shading_seconds;
-  sum.tracing_seconds += s.tracing_seconds;
+      shared.queue.done(), shared.statistics,
+      [&](std::string& bytes) { shared.sums.append_to(bytes); }, shared.diagnostics);
 }
 
 void work(Shared& shared) {
@@ -98,6 +86,10 @@ void work(Shared& shared) {
   paths.reserve(most);
   while (const auto work = shared.queue.take()) {
     const int done = render_tile(shared, *work, camera, wavefront, paths);
+    {
+      const std::lock_guard lock(shared.mutex);
+      shared.statistics.add(wavefront.take_counts());
+    }
     if (shared.control.enough.stop_requested()) shared.queue.wrap_up();
     const bool is_over = shared.control.stop.stop_requested();
     if (is_over) shared.queue.close();
@@ -109,8 +101,6 @@ void work(Shared& shared) {
       if (checkpoint->is_due()) save(shared);
     });
   }
-  const std::lock_guard lock(shared.mutex);
-  add(shared.statistics, wavefront.statistics());
 }
 
 void count_samples(const std::vector<Tile>& tiles, const std::vector<int>& done,
@@ -140,8 +130,8 @@ int samples_at_once(const RenderSettings& s) {
 }
 
 /// Goes on with what a checkpoint has. False with an error.
-bool resume(const RenderControl& control, std::vector<int>& done, Accumulation& sums,
-            Diagnostics& diagnostics) {
+bool resume(const RenderControl& control, std::vector<int>& done, RenderCounts& counts,
+            Accumulation& sums, Diagnostics& diagnostics) {
   if (control.checkpoint == nullptr) return true;
   const std::size_t errors = diagnostics.error_count();
   const Checkpoint::Content content = control.checkpoint->load(diagnostics);
@@ -149,6 +139,7 @@ bool resume(const RenderControl& control, std::vector<int>& done, Accumulation& 
   if (content.done.empty()) return true;
   if (content.done.size() == done.size() && sums.assign(content.sums)) {
     done = content.done;
+    counts = content.counts;
     return true;
   }
   diagnostics.error("bad-checkpoint", {}, "the checkpoint is of an image of another size");
@@ -169,9 +160,10 @@ std::optional<Film> render(const RenderInput& input, const RenderSettings& setti
       PassFilm(settings.passes, *input.scene, input.material_names, film.window().pixels());
   Accumulation sums(settings.passes, film, window_of(tiles));
   std::vector<int> done(tiles.size());
-  if (!resume(control, done, sums, diagnostics)) return {};
+  RenderStatistics found;
+  if (!resume(control, done, found, sums, diagnostics)) return {};
   TileQueue queue(done, settings.samples, samples_at_once(settings));
-  Shared shared{context, control, tiles, queue, sums, film, diagnostics};
+  Shared shared{context, control, tiles, queue, sums, film, diagnostics, found};
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     if (is_good(shared, i, done[i])) queue.finish(i);
   }

@@ -13,6 +13,7 @@
 #include "examples/render/light_shader.h"
 #include "examples/render/passes.h"
 #include "examples/render/pixel_window.h"
+#include "examples/render/render_counts.h"
 #include "examples/render/sampler.h"
 #include "examples/render/scene.h"
 #include "examples/render/shader.h"
@@ -104,22 +105,13 @@ struct RenderControl {
   Checkpoint* checkpoint = nullptr;
 };
 
-struct RenderStatistics {
-  std::uint64_t paths = 0;
-  std::uint64_t rays = 0;  ///< Camera and scattered.
-  std::uint64_t shadow_rays = 0;
-  /// Kernel results that were not finite, and were dropped. Not 0: a bug in a shader.
-  std::uint64_t invalid_results = 0;
-  std::uint64_t beyond_bound = 0;   ///< Points of volumes that are denser than was found before.
-  std::uint64_t media_dropped = 0;  ///< Of paths that were inside of more than Media holds.
-  std::uint64_t paths_cut = 0;  ///< That were scattered more often in media than max_scatterings.
+/// Of a picture: of all runs that it took, if it went on from a checkpoint.
+struct RenderStatistics : RenderCounts {
   /// Samples that pixels have: of tiles, the fewest and the most, and the mean of all pixels.
   int least_samples = 0, most_samples = 0;
   double mean_samples = 0;
   bool is_whole = false;        ///< Whether that is all that was asked for.
   std::size_t noisy_tiles = 0;  ///< Beyond RenderSettings::noise, with all samples.
-  /// Seconds, summed over threads, within Shader calls and within Embree.
-  double shading_seconds = 0, tracing_seconds = 0;
 };
 
 /// Path traces the scene. The film is the same, bit for bit, for any number of

@@ -49,7 +49,7 @@ Wavefront::Wavefront(const RenderContext& context, std::size_t given_paths)
 
 void Wavefront::trace(std::span<Path> paths) {
   paths_ = with_forks(paths);
-  statistics_.paths += paths.size();
+  counts_.paths += paths.size();
   begin_passes();
   active_.clear();
   for (std::uint32_t i = 0; i < given_; ++i) active_.push_back(i);
@@ -85,9 +85,9 @@ void Wavefront::intersect() {
     rays_[i].kind = path.from_camera ? ray_camera : ray_secondary;
     straight = straight && path.from_camera;
   }
-  statistics_.rays += count;
+  counts_.rays += count;
   {
-    const Stopwatch watch(statistics_.tracing_seconds);
+    const Stopwatch watch(counts_.tracing_seconds);
     context_.bvh.intersect({rays_.data(), count}, {ray_hits_.data(), count}, straight);
   }
   for (std::size_t i = 0; i < count; ++i) hits_[active_[i]] = ray_hits_[i];

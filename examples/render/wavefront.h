@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "examples/render/batch_buffer.h"
@@ -77,7 +78,8 @@ class Wavefront {
   /// What passes need of path i of those that trace() followed.
   PathRecord record(std::size_t i) const;
 
-  const RenderStatistics& statistics() const { return statistics_; }
+  /// Of all paths since the last call.
+  RenderCounts take_counts() { return std::exchange(counts_, {}); }
 
  private:
   struct LightSample {
@@ -300,7 +302,7 @@ class Wavefront {
   std::vector<FirstHit> first_hits_;                ///< By path.
   std::vector<float> values_;                       ///< By path, all of one together.
   bool asks_points_ = false, asks_motion_ = false;  ///< PassNeed::point and motion.
-  RenderStatistics statistics_;
+  RenderCounts counts_;
 };
 
 /// Counting sort, stable: `order` lists the indices 0 … count-1 by key(i), a

@@ -141,7 +141,7 @@ void Wavefront::light_emission(const Material& material, std::span<const std::ui
   for (const std::uint32_t k : points) points_.push_back(light_points_[k].point);
   context_.geometry.fill(points_, material.capabilities, context_.camera, buffer_);
   draw_texels(points, [&](std::uint32_t k) { return light_points_[k].path; }, Draw::light_texel);
-  const Stopwatch watch(statistics_.shading_seconds);
+  const Stopwatch watch(counts_.shading_seconds);
   material.shader->emission(buffer_.batch, buffer_.rgb);
   for (std::size_t lane = 0; lane < points.size(); ++lane) {
     light_samples_[light_points_[points[lane]].path].radiance = load(buffer_.rgb, lane);
@@ -163,7 +163,7 @@ void Wavefront::light_points(const LightShader& light, std::span<const std::uint
   context_.geometry.fill_within(inner_points_, needs, context_.camera, buffer_);
   const LightLanes seen{buffer_.rgb, buffer_.wi, buffer_.value.pdf};
   {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     light.light(buffer_.batch, seen);
   }
   for (std::size_t lane = 0; lane < lit.size(); ++lane) {

@@ -23,7 +23,7 @@ void Wavefront::cross_media() {
     const Flight flight = sample_flight(medium, path.throughput, far, draw(path, Draw::flight));
     path.throughput *= flight.weight;
     if (!is_finite(path.throughput)) {
-      ++statistics_.invalid_results;
+      ++counts_.invalid_results;
       return true;
     }
     if (!(max_component(path.throughput) > 0.f)) return true;
@@ -37,7 +37,7 @@ void Wavefront::cross_media() {
 bool Wavefront::scatter_inside(std::uint32_t i, const Medium& medium, float distance) {
   Path& path = paths_[i];
   if (++path.scatterings > context_.settings.max_scatterings) {
-    ++statistics_.paths_cut;
+    ++counts_.paths_cut;
     return false;
   }
   const float brightest = max_component(path.throughput);
@@ -81,7 +81,7 @@ void Wavefront::connect_media() {
         (weight * value / light.pdf) * (at.throughput * light.radiance), paths_[at.path].depth > 1);
     if (is_zero(contribution)) continue;
     if (!is_finite(contribution)) {
-      ++statistics_.invalid_results;
+      ++counts_.invalid_results;
       continue;
     }
     add_shadow(light, at.path, paths_[at.path].vertex, contribution);
@@ -134,7 +134,7 @@ void Wavefront::change_medium(const Material& material, Path& path, const Hit& h
   if (medium.is_empty()) return;
   if (!path.media.enter(hit.mesh, hit.instance, medium,
                         is_below ? material.exit : Media::no_exit)) {
-    ++statistics_.media_dropped;
+    ++counts_.media_dropped;
   }
 }
 

@@ -82,7 +82,7 @@ void Wavefront::enter_solid(Media& media, const Hit& hit, std::size_t lane) {
   const Dielectric dielectric =
       dielectric_of(buffer_.interior, lane, context_.scene.meshes[hit.mesh].priority);
   if (!media.enter(hit.mesh, hit.instance, medium_of(buffer_.interior, lane), dielectric)) {
-    ++statistics_.media_dropped;
+    ++counts_.media_dropped;
   }
 }
 

@@ -23,7 +23,7 @@ void Wavefront::apply_opacity() {
 std::uint32_t Wavefront::pass_through(const Material& material, std::span<std::uint32_t> paths) {
   fill(paths, material);
   {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->opacity(buffer_.batch, buffer_.rgb);
   }
   std::uint32_t stay = 0;

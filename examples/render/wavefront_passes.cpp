@@ -163,7 +163,7 @@ void Wavefront::record_hits(const Material& material, std::span<const std::uint3
     store(point_.normal, lane, dot(n, load(buffer_.batch.wo, lane)) < 0.f ? -n : n);
   }
   if (asks_points_) {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->point(buffer_.batch, buffer_.state, point_);
   }
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {

@@ -27,7 +27,7 @@ void Wavefront::shade_batch(const Material& material, std::span<const std::uint3
   fill(paths, material);
   if (material.capabilities.emits) add_emission(material, paths);
   if (scatters || asks_points_) {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->begin(buffer_.batch, buffer_.state);
   }
   record_hits(material, paths);
@@ -38,7 +38,7 @@ void Wavefront::shade_batch(const Material& material, std::span<const std::uint3
 
 void Wavefront::add_emission(const Material& material, std::span<const std::uint32_t> paths) {
   {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->emission(buffer_.batch, buffer_.rgb);
   }
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
@@ -46,7 +46,7 @@ void Wavefront::add_emission(const Material& material, std::span<const std::uint
     const Vec3 emitted = load(buffer_.rgb, lane);
     if (is_zero(emitted) || path.unlit) continue;
     if (!is_finite(emitted)) {
-      ++statistics_.invalid_results;
+      ++counts_.invalid_results;
       continue;
     }
     const Hit& hit = hits_[paths[lane]];
@@ -77,7 +77,7 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
         (1.f / light.pdf) * (path.throughput * weighed_[lane] * light.radiance), path.depth > 0);
     if (is_zero(contribution)) continue;
     if (!is_finite(contribution)) {
-      ++statistics_.invalid_results;
+      ++counts_.invalid_results;
       continue;
     }
     add_shadow(light, paths[lane], leave(buffer_, lane, light.wi), contribution);
@@ -92,7 +92,7 @@ void Wavefront::connect_lights(const Material& material, std::span<const std::ui
 /// What the lanes' light samples bring by these lobes, less what paths find of it themselves.
 void Wavefront::weigh_connections(const Material& material, std::span<const std::uint32_t> paths) {
   const auto evaluate = [&] {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->evaluate(buffer_.batch, buffer_.state, buffer_.wi, buffer_.value);
   };
   const auto weighed = [&](std::size_t lane) {
@@ -134,7 +134,7 @@ void Wavefront::extend(const Material& material, std::span<const std::uint32_t> 
 }
 
 void Wavefront::sample(const Material& material, std::span<const std::uint32_t> paths) {
-  const Stopwatch watch(statistics_.shading_seconds);
+  const Stopwatch watch(counts_.shading_seconds);
   material.shader->sample(buffer_.batch, buffer_.state, buffer_.u, buffer_.sample);
   find_media(material, paths.size());
 }
@@ -167,7 +167,7 @@ bool Wavefront::scatter(Path& path, std::size_t lane, float distance) {
   const float pdf = buffer_.sample.pdf[lane];
   const float squared = dot(wi, wi);
   if (!is_finite(weight) || !std::isfinite(pdf) || !(squared > 0.9f && squared < 1.1f)) {
-    ++statistics_.invalid_results;
+    ++counts_.invalid_results;
     return false;
   }
   const Vec3 before = path.throughput;

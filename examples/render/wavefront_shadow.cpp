@@ -42,9 +42,9 @@ void Wavefront::trace_opaque_shadows() {
     rays_[i] = shadows_[i].ray;
     rays_[i].kind = ray_shadow;
   }
-  statistics_.shadow_rays += count;
+  counts_.shadow_rays += count;
   {
-    const Stopwatch watch(statistics_.tracing_seconds);
+    const Stopwatch watch(counts_.tracing_seconds);
     context_.bvh.occluded({rays_.data(), count}, {blocked_.data(), count});
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -60,9 +60,9 @@ void Wavefront::trace_dimmed_shadows() {
       rays_[i] = shadows_[i].ray;
       rays_[i].kind = ray_shadow;
     }
-    statistics_.shadow_rays += count;
+    counts_.shadow_rays += count;
     {
-      const Stopwatch watch(statistics_.tracing_seconds);
+      const Stopwatch watch(counts_.tracing_seconds);
       context_.bvh.intersect({rays_.data(), count}, {ray_hits_.data(), count}, false);
     }
     if (context_.any_volume) dim_shadows();
@@ -120,7 +120,7 @@ void Wavefront::attenuate(const Material& material, std::span<const std::uint32_
   fill_shadows(shadows, material);
   draw_texels(shadows, [&](std::uint32_t i) { return shadows_[i].path; }, Draw::shadow_texel, met);
   {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->opacity(buffer_.batch, buffer_.rgb);
   }
   for (std::size_t lane = 0; lane < shadows.size(); ++lane) {

@@ -46,7 +46,7 @@ bool Wavefront::may_dim(std::uint32_t i) {
   ShadowMedia& in = shadow_media_[i];
   if (in.key.step >= static_cast<std::uint32_t>(context_.settings.max_scatterings)) {
     contribution = {};
-    ++statistics_.paths_cut;
+    ++counts_.paths_cut;
     return false;
   }
   ++in.key.step;
@@ -66,7 +66,7 @@ void Wavefront::dim_by_points(const Material& material, std::span<const std::uin
   }
   context_.geometry.fill_within(inner_points_, material.capabilities, context_.camera, buffer_);
   {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->volume(buffer_.batch, buffer_.within);
   }
   for (std::size_t lane = 0; lane < shadows.size(); ++lane) {
@@ -74,7 +74,7 @@ void Wavefront::dim_by_points(const Material& material, std::span<const std::uin
     const Medium there = medium_of(buffer_.within, lane);
     const float bound = shadow_media_[i].media.current().bound;
     const Vec3 lost = there.absorption + there.scattering;
-    if (max_component(lost) > bound) ++statistics_.beyond_bound;
+    if (max_component(lost) > bound) ++counts_.beyond_bound;
     shadows_[i].contribution *= (1.f / bound) * (Vec3{bound, bound, bound} - lost);
   }
 }
@@ -83,7 +83,7 @@ void Wavefront::dim_by_points(const Material& material, std::span<const std::uin
 void Wavefront::cross_border(const Material& material, std::span<const std::uint32_t> shadows) {
   fill_shadows(shadows, material);
   if (!material.capabilities.volume_varies) {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->volume(buffer_.batch, buffer_.within);
   }
   for (std::size_t lane = 0; lane < shadows.size(); ++lane) {

@@ -38,7 +38,7 @@ void Wavefront::meet_medium(const Material& material, std::span<const std::uint3
   }
   context_.geometry.fill_within(inner_points_, material.capabilities, context_.camera, buffer_);
   {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->volume(buffer_.batch, buffer_.within);
   }
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
@@ -48,12 +48,12 @@ void Wavefront::meet_medium(const Material& material, std::span<const std::uint3
     const Medium there = medium_of(buffer_.within, lane);
     const Meeting meeting =
         sample_meeting(there, bound, path.throughput, draw(path, Draw::flight).x);
-    if (max_component(there.absorption + there.scattering) > bound) ++statistics_.beyond_bound;
+    if (max_component(there.absorption + there.scattering) > bound) ++counts_.beyond_bound;
     add_found(i, (1.f / bound) * (path.throughput * there.emission),
               context_.settings.passes.groups.mesh(path.media.mesh()));
     path.throughput *= meeting.weight;
     if (!is_finite(path.throughput) || !is_finite(there.emission)) {
-      ++statistics_.invalid_results;
+      ++counts_.invalid_results;
       continue;
     }
     if (is_zero(path.throughput)) continue;
@@ -62,7 +62,7 @@ void Wavefront::meet_medium(const Material& material, std::span<const std::uint3
       continue;
     }
     if (++path.scatterings > context_.settings.max_scatterings) {
-      ++statistics_.paths_cut;
+      ++counts_.paths_cut;
       continue;
     }
     path.ray.origin = inner_points_[lane].P;
@@ -88,7 +88,7 @@ void Wavefront::enter_volumes() {
 void Wavefront::enter_volume(const Material& material, std::span<const std::uint32_t> paths) {
   fill(paths, material);
   if (!material.capabilities.volume_varies) {
-    const Stopwatch watch(statistics_.shading_seconds);
+    const Stopwatch watch(counts_.shading_seconds);
     material.shader->volume(buffer_.batch, buffer_.within);
   }
   for (std::size_t lane = 0; lane < paths.size(); ++lane) {
@@ -116,7 +116,7 @@ void Wavefront::take_through(Media& media, const Material& material, const Hit& 
                            context_.bounds[hit.mesh])
           : medium_of(buffer_.within, lane);
   if (!medium.is_empty() && !media.enter(hit.mesh, hit.instance, medium)) {
-    ++statistics_.media_dropped;
+    ++counts_.media_dropped;
   }
 }
 

@@ -106,7 +106,8 @@ TEST_F(Progress, HasTheSamplesThatThereAre) {
 }
 
 TEST_F(Progress, GoesOnFromACheckpointWithTheSameBits) {
-  const auto whole = film();
+  RenderStatistics all;
+  const auto whole = film({}, &all);
   ASSERT_TRUE(whole);
   std::optional<Film> last;
   int interruptions = 0;
@@ -124,7 +125,14 @@ TEST_F(Progress, GoesOnFromACheckpointWithTheSameBits) {
                        .checkpoint = &checkpoint},
                       &statistics);
     ASSERT_TRUE(found) << diagnostics_.to_string();
-    if (statistics.least_samples == settings_.samples) last = std::move(found);
+    EXPECT_LE(statistics.rays, all.rays);
+    if (statistics.least_samples == settings_.samples) {
+      last = std::move(found);
+      // What was counted is of all runs.
+      EXPECT_EQ(statistics.paths, all.paths);
+      EXPECT_EQ(statistics.rays, all.rays);
+      EXPECT_EQ(statistics.shadow_rays, all.shadow_rays);
+    }
     ++interruptions;
   }
   ASSERT_TRUE(last);
