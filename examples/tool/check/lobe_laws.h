@@ -17,6 +17,8 @@ struct LobeView {
   double valid = 0;
   double chi_square = 1;  ///< Probability of samples at least as far from the density.
   double reciprocity = 1;
+  bool is_integrated =
+      true;  ///< Whether quadrature has seen the density: laws_of_density ask for it.
 };
 
 /// The laws: of single numbers, and of sums of them, which are tried where the former hold.
@@ -25,6 +27,7 @@ inline constexpr const char* laws_of_numbers[] = {"finite", "lost",    "unit",  
                                                   "sides",  "density", "weight", "support"};
 inline constexpr const char* laws_of_sums[] = {"normalised", "samples", "light", "energy",
                                                "albedo"};
+inline constexpr const char* laws_of_density[] = {"normalised", "samples", "light"};
 /// @}
 
 /// A law that does not hold.

@@ -53,6 +53,12 @@ bool lacks_sums(const LobeFindings& findings) {
                              [&](const char* law) { return find_fault(findings, law) != nullptr; });
 }
 
+/// Whether a law was not tried of a view.
+bool is_left_out(const std::string& law, const LobeFindings& findings) {
+  return std::ranges::find(laws_of_density, law) != std::end(laws_of_density) &&
+         !std::ranges::all_of(findings.views, &LobeView::is_integrated);
+}
+
 }  // namespace
 
 void print_views(const std::string& title, const LobeFindings& findings) {
@@ -67,8 +73,9 @@ void print_views(const std::string& title, const LobeFindings& findings) {
     return fmt::format("{:7.4f} {:7.4f} {:7.4f}", rgb[0], rgb[1], rgb[2]);
   };
   for (const LobeView& view : findings.views) {
-    fmt::print("  {:7.2f}  {}  {}  {:7.4f}  {:11.4g}\n", view.degrees, colour(view.light),
-               colour(view.albedo), view.valid, view.reciprocity);
+    fmt::print("  {:7.2f}  {}  {}  {:7.4f}  {:11.4g}{}\n", view.degrees, colour(view.light),
+               colour(view.albedo), view.valid, view.reciprocity,
+               view.is_integrated ? "" : "  too thin to integrate");
   }
 }
 
@@ -80,7 +87,8 @@ Json to_json(const LobeFindings& findings) {
                      {"albedo", view.albedo},
                      {"valid", view.valid},
                      {"chi_square", view.chi_square},
-                     {"reciprocity", view.reciprocity}});
+                     {"reciprocity", view.reciprocity},
+                     {"integrated", view.is_integrated}});
   }
   for (const LobeFault& fault : findings.faults) {
     faults.push_back({{"law", fault.law},
@@ -101,7 +109,7 @@ std::vector<LawResult> try_laws(const std::vector<LobeFindings>& sets) {
       const LobeFault* const fault = find_fault(sets[i], law);
       if (fault != nullptr) {
         result = {law, State::broken, fault->text, i};
-      } else if (is_of_sums && lacks_sums(sets[i])) {
+      } else if (is_of_sums && (lacks_sums(sets[i]) || is_left_out(law, sets[i]))) {
         result.state = State::not_tried;
       }
     }

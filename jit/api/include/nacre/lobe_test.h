@@ -60,6 +60,10 @@ typedef struct nacre_lobe_view {
   /* The greatest ratio of what scatters one way to what scatters the other: 1 for what is
      reciprocal, as models need not be. */
   double reciprocity;
+  /* Fraction of the samples that fall where the density is far more than its quadrature has seen,
+     as of facets that are rough one way and smooth the other. Above 1e-4 "normalised", "samples"
+     and "light" are not tried. */
+  double unseen;
 } nacre_lobe_view;
 
 typedef struct nacre_lobe_report nacre_lobe_report;

@@ -16,7 +16,10 @@ std::string material(const std::string& bsdf) {
 </materialx>)";
 }
 
-class LobeTool : public Tool {};
+class LobeTool : public Tool {
+ protected:
+  std::string text_;
+};
 
 TEST_F(LobeTool, PrintsWhatLeavesOfTheLight) {
   write("metal.mtlx", material(R"(<conductor_bsdf name="b" type="BSDF">
@@ -47,6 +50,36 @@ TEST_F(LobeTool, NamesTheLawThatDoesNotHold) {
   EXPECT_NE(errors_.find("[lobe-energy]"), std::string::npos) << errors_;
   EXPECT_EQ(run(check + " --most-energy 1.6"), 0) << errors_;
   EXPECT_EQ(run("check " + file("rough.mtlx") + " --samples 20000"), 2);
+}
+
+// Facets that are rough one way and smooth the other scatter into a fan that quadrature does not
+// see all of. That is no fault of theirs, and said; of what is seen all laws are tried.
+TEST_F(LobeTool, SaysWhatIsTooThinToIntegrate) {
+  const auto views_of = [&](const std::string& roughness) {
+    write("facets.mtlx", material(R"(<dielectric_bsdf name="b" type="BSDF">
+      <input name="roughness" type="vector2" value=")" +
+                                  roughness + R"("/>
+      <input name="scatter_mode" type="string" value="RT"/></dielectric_bsdf>)"));
+    const std::string check = "check " + file("facets.mtlx") + " --lobes";
+    EXPECT_EQ(run(check), 0) << roughness << errors_;
+    text_ = printed_;
+    EXPECT_EQ(run(check + " --json"), 0) << errors_;
+    return nlohmann::json::parse(printed_)[0]["views"];
+  };
+  std::size_t thin = 0;
+  for (const auto& view : views_of("1, 0")) {
+    if (view["integrated"].get<bool>()) continue;
+    ++thin;
+    EXPECT_EQ(view["chi_square"], 1.0);
+  }
+  EXPECT_GT(thin, 0u);
+  EXPECT_LT(thin, 5u);
+  EXPECT_NE(text_.find("too thin to integrate"), std::string::npos) << text_;
+  for (const auto& view : views_of("1, 0.01")) {
+    EXPECT_TRUE(view["integrated"].get<bool>());
+    EXPECT_LT(view["chi_square"], 1.0);
+  }
+  EXPECT_EQ(text_.find("too thin"), std::string::npos) << text_;
 }
 
 // What has nothing to be tried is named too.

@@ -56,6 +56,11 @@ struct LobeView {
   /// The greatest ratio of what scatters one way to what scatters the other: 1 for what is
   /// reciprocal, as models need not be.
   double reciprocity = 1.0;
+  /// Fraction of the samples that fall where the density is far more than its quadrature has seen,
+  /// as of facets that are rough one way and smooth the other. Above most_unseen "normalised",
+  /// "samples" and "light" are not tried.
+  double unseen = 0.0;
+  static constexpr double most_unseen = 1e-4;
 };
 
 struct LobeReport {

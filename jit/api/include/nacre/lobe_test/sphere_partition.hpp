@@ -38,11 +38,17 @@ class SpherePartition {
   double pdf(std::size_t cell) const { return leaf_pdf_[cell]; }
   double pdf_integral() const;
   double f_integral() const;
+  /// Whether there is far more at `w` than at any node of its cell: quadrature has missed a lobe
+  /// that is as thin as a needle there.
+  bool misses(Direction w, double pdf) const {
+    return pdf > 4.0 * cells_[find_cell(place(w))].most_pdf;
+  }
 
  private:
   struct Cell {
     double z0, z1, phi0, phi1;
     double pdf = 0.0, f = 0.0;
+    double most_pdf = 0.0;  ///< At a node.
     std::size_t child = 0;  ///< The first of four; 0: a leaf.
     std::size_t leaf = 0;
     Cell(double z0_, double z1_, double phi0_, double phi1_)
@@ -159,6 +165,7 @@ inline void SpherePartition::integrate(const Evaluate& evaluate, std::size_t fir
     for (const double a : node_weight) {
       for (const double b : node_weight) {
         cell.pdf += values.pdf[k] * a * b * area;
+        cell.most_pdf = std::max(cell.most_pdf, double(values.pdf[k]));
         cell.f += values.f[k] * a * b * area;
         ++k;
       }

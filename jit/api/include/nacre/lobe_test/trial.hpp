@@ -209,6 +209,12 @@ class LobeTrial {
       return densities;
     };
     const SpherePartition cells(evaluate, pilot(), double(count()));
+    std::size_t unseen = 0;
+    for (std::size_t i = 0; i < count(); ++i) {
+      unseen += is_smooth(i) && cells.misses(samples_.wi[i], samples_.pdf[i]);
+    }
+    view_.unseen = static_cast<double>(unseen) / static_cast<double>(count());
+    if (view_.unseen > LobeView::most_unseen) return;
     const double chance =
         deviations * std::sqrt(smooth * (1.0 - smooth) / static_cast<double>(count()));
     expect(std::abs(cells.pdf_integral() - smooth) <= rounding + chance, "normalised",
