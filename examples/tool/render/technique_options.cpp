@@ -19,8 +19,9 @@ void add_techniques(CLI::App& command, host::RenderSettings& settings) {
                    "there");
   command.add_flag("--draw-texels", techniques.draws_texels,
                    "Images give one of the texels that their filter weighs, drawn for each point: "
-                   "quicker look-ups, and noise that more samples take (not of displacement, media "
-                   "and light shaders, nor of what normals are derived from)");
+                   "quicker look-ups, and noise that more samples take; what several images give "
+                   "together is of one texel (not of displacement, media and light shaders, nor of "
+                   "what normals are derived from)");
   const std::map<std::string, host::Roulette> kinds{{"none", host::Roulette::none},
                                                     {"throughput", host::Roulette::throughput},
                                                     {"event", host::Roulette::event}};

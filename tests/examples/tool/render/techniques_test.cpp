@@ -11,9 +11,9 @@ namespace {
 
 constexpr int size = 48;
 
-/// What is seen of which of the two meshes.
+/// What is seen of which of the two meshes, and of everything.
 struct Picture {
-  std::vector<float> floor, wall;
+  std::vector<float> floor, wall, all;
 
   /// The share of pixels that differ. Kernels with other inputs round otherwise, and few paths
   /// take another turn for that.
@@ -24,6 +24,7 @@ struct Picture {
     return static_cast<double>(others) / static_cast<double>(a.size());
   }
   static double mean(const std::vector<float>& values) {
+    EXPECT_GT(values.size(), 100u);
     double sum = 0;
     for (const float each : values) sum += static_cast<double>(each);
     return sum / static_cast<double>(values.size());
@@ -56,6 +57,32 @@ class Techniques : public Tool {
                               R"(" type="BSDF"><input name="scatter_mode" type="string" value="RT"/>
            <input name="roughness" type="vector2" value=")" +
                               alpha + ", " + alpha + R"("/></dielectric_bsdf>)");
+  }
+
+  /// Half way between a black texel and a white one, of which --draw-texels takes one: nodes "dots"
+  /// and "dot", its red.
+  std::string dots() const {
+    std::string pixels(18, '\0');  // Truevision TGA 2.0, image type 2: 2 x 1 of 24 bits.
+    pixels[2] = 2, pixels[12] = 2, pixels[14] = 1, pixels[16] = 24;
+    write("dots.tga", pixels + std::string(3, '\x00') + std::string(3, '\xff'));
+    return R"(<image name="dots" type="color3">
+      <input name="file" type="filename" value="dots.tga"/>
+      <input name="texcoord" type="vector2" value="0.5, 0.5"/></image>
+      <extract name="dot" type="float"><input name="in" type="color3" nodename="dots"/></extract>)";
+  }
+  static std::string with_image(std::string text, const std::string& before,
+                                const std::string& more) {
+    return text.replace(text.find(before), 0, more);
+  }
+
+  /// A floor that scatters what "dot" says.
+  static std::string weighed_floor() {
+    return with_image(diffuse("floor", "0.6"), "<input name=\"color\"",
+                      "<input name=\"weight\" type=\"float\" nodename=\"dot\"/>");
+  }
+  static std::string opaque(const std::string& material, const std::string& opacity) {
+    return with_image(material, "<input name=\"bsdf\"",
+                      "<input name=\"opacity\" type=\"float\" nodename=\"" + opacity + "\"/>");
   }
 
   /// A floor and a wall of these materials, "floor" and "wall", under the studio.
@@ -107,23 +134,23 @@ f 1/1 2/2 6/3 5/4
       for (int x = 1; x + 1 < size; ++x) {
         if (is_within(x, y, 1.f)) picture.floor.push_back(value(x, y, "G"));
         if (is_within(x, y, 2.f)) picture.wall.push_back(value(x, y, "G"));
+        picture.all.push_back(value(x, y, "G"));
       }
     }
-    EXPECT_GT(picture.floor.size(), 100u);
-    EXPECT_GT(picture.wall.size(), 100u);
     return picture;
   }
 
-  /// Standard deviations between what options give of the floor and wall together, or of the floor
-  /// alone, of so many seeds each.
+  /// Standard deviations between what options give of the floor and wall together, or of one list
+  /// of pixels, of so many seeds each.
   double difference(const std::string& materials, const std::string& one, const std::string& other,
-                    bool of_floor = false) {
+                    std::vector<float> Picture::* of = nullptr) {
     constexpr int seeds = 8;
     double sum[2] = {}, squares[2] = {};
     for (int k = 0; k < 2 * seeds; ++k) {
       const Picture p = render(
           materials, (k % 2 == 0 ? one : other) + " --spp 16 --seed " + std::to_string(100 + k));
-      const double mean = Picture::mean(p.floor) + (of_floor ? 0 : Picture::mean(p.wall));
+      const double mean =
+          of != nullptr ? Picture::mean(p.*of) : Picture::mean(p.floor) + Picture::mean(p.wall);
       sum[k % 2] += mean;
       squares[k % 2] += mean * mean;
     }
@@ -198,18 +225,6 @@ TEST_F(Techniques, ForksHaveTheSameMean) {
 // one: were both drawn by one number, they would be white together, and what is lit twice as
 // bright.
 TEST_F(Techniques, DrawnTexelsHaveTheSameMean) {
-  std::string pixels(18, '\0');  // Truevision TGA 2.0, image type 2: 2 x 1 of 24 bits.
-  pixels[2] = 2, pixels[12] = 2, pixels[14] = 1, pixels[16] = 24;
-  write("dots.tga", pixels + std::string(3, '\x00') + std::string(3, '\xff'));
-  const std::string dots = R"(<image name="dots" type="color3">
-    <input name="file" type="filename" value="dots.tga"/>
-    <input name="texcoord" type="vector2" value="0.5, 0.5"/></image>
-    <extract name="dot" type="float"><input name="in" type="color3" nodename="dots"/></extract>)";
-  const auto with_image = [](std::string text, const std::string& before, const std::string& more) {
-    return text.replace(text.find(before), 0, more);
-  };
-  const std::string floor = with_image(diffuse("floor", "0.6"), "<input name=\"color\"",
-                                       "<input name=\"weight\" type=\"float\" nodename=\"dot\"/>");
   const std::string wall =
       with_image(with_image(diffuse("wall", "0.6"), "<surface ",
                             R"(<multiply name="bright" type="color3">
@@ -218,14 +233,46 @@ TEST_F(Techniques, DrawnTexelsHaveTheSameMean) {
                     <uniform_edf name="e" type="EDF"><input name="color" type="color3"
                       nodename="bright"/></uniform_edf>)"),
                  "<input name=\"bsdf\"", R"(<input name="edf" type="EDF" nodename="e"/>)");
-  const std::string both = dots + floor + wall;
-  EXPECT_LT(difference(both, "--max-depth 1", "--max-depth 1 --draw-texels", true), 3.5);
+  const std::string both = dots() + weighed_floor() + wall;
+  EXPECT_LT(difference(both, "--max-depth 1", "--max-depth 1 --draw-texels", &Picture::floor), 3.5);
   const char* const options = "--spp 4 --draw-texels";
   const Picture drawn = render(both, std::string(options) + " --threads 1");
   const Picture again = render(both, std::string(options) + " --threads 3");
   EXPECT_EQ(drawn.floor, again.floor);
   EXPECT_EQ(drawn.wall, again.wall);
   EXPECT_GT(Picture::difference(drawn.floor, render(both, "--spp 4").floor), 0.1);
+}
+
+// What lets half of the light pass, by a texel of its own: itself, what is behind it, and its
+// shadow.
+TEST_F(Techniques, DrawnOpacityHasTheSameMean) {
+  const std::string both = dots() + weighed_floor() + opaque(diffuse("wall", "0.6"), "dot");
+  EXPECT_LT(difference(both, "--max-depth 1", "--max-depth 1 --draw-texels", &Picture::all), 3.5);
+}
+
+// A texel's opacity goes with the same texel's colour, as if each were shaded by itself (Pharr et
+// al. 2024, "Filtering After Shading With Stochastic Texture Filtering"): where the white one lets
+// all pass and the black one is black, the wall is half as dark as something black, however grey
+// their means are.
+TEST_F(Techniques, TexelsAreShadedByThemselves) {
+  const std::string holes = R"(<subtract name="solid" type="float">
+      <input name="in1" type="float" value="1"/>
+      <input name="in2" type="float" nodename="dot"/></subtract>)";
+  const auto pictures = [&](const std::string& weight, const std::string& options) {
+    const std::string wall = with_image(diffuse("wall", "0.6"), "<input name=\"color\"",
+                                        "<input name=\"weight\" type=\"float\" " + weight + "/>");
+    double sum = 0;
+    for (int seed = 0; seed < 4; ++seed) {
+      const Picture p = render(dots() + holes + weighed_floor() + opaque(wall, "solid"),
+                               "--max-depth 1 --spp 64 --seed " + std::to_string(seed) + options);
+      sum += Picture::mean(p.all) / 4;
+    }
+    return sum;
+  };
+  const double black = pictures("value=\"0\"", ""), grey = pictures("nodename=\"dot\"", ""),
+               drawn = pictures("nodename=\"dot\"", " --draw-texels");
+  EXPECT_GT(grey, 1.05 * black);
+  EXPECT_NEAR(drawn, black, 0.01 * black);
 }
 
 // What a path has met, and where its forks are, hangs on nothing but the path.
