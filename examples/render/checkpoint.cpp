@@ -16,6 +16,7 @@ namespace {
 // A file is the magic, the hash of all that follows, the hash of the key, how many tiles there are,
 // their samples, what was counted, and the sums.
 constexpr std::string_view magic = "nacre render checkpoint 2\n";
+constexpr std::string_view any_version = "nacre render checkpoint ";
 constexpr std::size_t hash_size = 64;
 
 std::string hash_of(std::string_view bytes) { return to_hex(sha256(bytes)); }
@@ -32,6 +33,9 @@ Checkpoint::Content Checkpoint::load(Diagnostics& diagnostics) const {
     return Content{};
   };
   std::string_view rest(*bytes);
+  if (rest.starts_with(any_version) && !rest.starts_with(magic)) {
+    return wrong("the checkpoint is of another version of nacre", "no such file, to begin anew");
+  }
   if (!rest.starts_with(magic) || rest.size() < magic.size() + 2 * hash_size) {
     return wrong("the file is no checkpoint of a render", "another name, or no such file");
   }

@@ -100,24 +100,25 @@ void append_passes(const PassFilm& passes, ImageHeader& header, Planes& planes) 
 
 constexpr float largest_half = 65504.f;
 
-/// Says what 16-bit floats cannot hold, which becomes the largest that they can. What is infinite
-/// stays so.
-void report_cut(const Planes& planes, const std::string& path, Diagnostics& diagnostics) {
-  std::size_t count = 0, all = 0;
-  float least = INFINITY, most = -INFINITY;
-  for (const auto& plane : planes) {
-    all += plane.size();
-    for (const float value : plane) {
+/// Says what 16-bit floats cannot hold of each channel, which becomes the largest that they can.
+/// What is infinite stays so.
+void report_cut(const ImageHeader& header, const Planes& planes, const std::string& path,
+                Diagnostics& diagnostics) {
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    std::size_t count = 0;
+    float least = INFINITY, most = -INFINITY;
+    for (const float value : planes[k]) {
       if (!std::isfinite(value)) continue;
       count += std::abs(value) > largest_half ? 1 : 0;
       least = std::min(least, value);
       most = std::max(most, value);
     }
+    if (count == 0) continue;
+    diagnostics.warning(
+        "out-of-range", {path, 0, 0, header.channels[k]}, "what the image cannot hold was cut off",
+        "-65504 to 65504, or no --half",
+        fmt::format("{} to {}, {} of {} pixels outside", least, most, count, planes[k].size()));
   }
-  if (count == 0) return;
-  diagnostics.warning("out-of-range", {path, 0, 0, {}}, "what the image cannot hold was cut off",
-                      "-65504 to 65504, or 32-bit floats",
-                      fmt::format("{} to {}, {} of {} numbers outside", least, most, count, all));
 }
 
 /// Empty when written; otherwise why not.
@@ -147,7 +148,7 @@ std::string write_file(const Film& film, const std::string& path, bool exr,
   const auto image = open_image(path, header, problem);
   if (image == nullptr) return problem;
   problem = write_planes(*image, header, planes);
-  if (problem.empty() && exr && options.half) report_cut(planes, name, diagnostics);
+  if (problem.empty() && exr && options.half) report_cut(header, planes, name, diagnostics);
   return problem;
 }
 

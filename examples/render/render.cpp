@@ -32,7 +32,7 @@ struct Shared {
   Accumulation& sums;
   const Film& film;  ///< What is to be filled.
   Diagnostics& diagnostics;
-  RenderStatistics& statistics;  ///< Guarded by the mutex.
+  RenderStatistics& statistics;  ///< Added to under the mutex, read while no tile is at work.
   std::mutex mutex = {};
 };
 

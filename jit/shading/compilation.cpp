@@ -187,13 +187,12 @@ std::optional<std::vector<Recorded>> Compilation::record(const Graph& graph) {
 }
 
 void Compilation::warn_of_unfit(const Graph& graph, const RecordOptions& options) {
-  const Definitions& library = parts_.library->definitions();
-  for (const std::string& pattern : unfit_live(options_.live, graph, document_, library)) {
+  DocumentInputs document(document_, parts_.library->definitions());
+  for (const std::string& pattern : unfit_live(options_.live, graph, document)) {
     diagnostics_.warning("unfit-pattern", {}, "no parameter is live by this pattern",
                          "one of a parameter's path, \"node/input\"", "'" + pattern + "'");
   }
-  for (const std::string& pattern :
-       unfit_varying(options_.varying, graph, options, document_, library)) {
+  for (const std::string& pattern : unfit_varying(options_.varying, graph, options, document)) {
     diagnostics_.warning("unfit-pattern", {}, "no parameter comes with the points by this pattern",
                          "one of a live parameter's path, \"node/input\"", "'" + pattern + "'");
   }

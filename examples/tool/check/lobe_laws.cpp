@@ -17,7 +17,7 @@ LobeFindings try_lobes(nacre_shader* shader, const LobeEffort& effort) {
   for (const nacre::LobeView& view : report.views) {
     findings.views.push_back({std::acos(std::fmin(view.wo.z, 1.0f)) * 57.29577951308232,
                               view.energy, view.albedo, view.valid, view.chi_square,
-                              view.reciprocity, view.unseen <= nacre::LobeView::most_unseen});
+                              view.reciprocity, view.is_too_thin});
   }
   for (const nacre::LobeFault& fault : report.faults) {
     findings.faults.push_back({fault.law, fault.text, fault.found, fault.expected});

@@ -17,8 +17,7 @@ struct LobeView {
   double valid = 0;
   double chi_square = 1;  ///< Probability of samples at least as far from the density.
   double reciprocity = 1;
-  bool is_integrated =
-      true;  ///< Whether quadrature has seen the density: laws_of_density ask for it.
+  bool is_too_thin = false;  ///< For quadrature to see the density: no laws_of_density then.
 };
 
 /// The laws: of single numbers, and of sums of them, which are tried where the former hold.

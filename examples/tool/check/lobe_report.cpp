@@ -56,7 +56,7 @@ bool lacks_sums(const LobeFindings& findings) {
 /// Whether a law was not tried of a view.
 bool is_left_out(const std::string& law, const LobeFindings& findings) {
   return std::ranges::find(laws_of_density, law) != std::end(laws_of_density) &&
-         !std::ranges::all_of(findings.views, &LobeView::is_integrated);
+         std::ranges::any_of(findings.views, &LobeView::is_too_thin);
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ void print_views(const std::string& title, const LobeFindings& findings) {
   for (const LobeView& view : findings.views) {
     fmt::print("  {:7.2f}  {}  {}  {:7.4f}  {:11.4g}{}\n", view.degrees, colour(view.light),
                colour(view.albedo), view.valid, view.reciprocity,
-               view.is_integrated ? "" : "  too thin to integrate");
+               view.is_too_thin ? "  too thin to integrate" : "");
   }
 }
 
@@ -88,7 +88,7 @@ Json to_json(const LobeFindings& findings) {
                      {"valid", view.valid},
                      {"chi_square", view.chi_square},
                      {"reciprocity", view.reciprocity},
-                     {"integrated", view.is_integrated}});
+                     {"too_thin", view.is_too_thin}});
   }
   for (const LobeFault& fault : findings.faults) {
     faults.push_back({{"law", fault.law},
@@ -109,8 +109,11 @@ std::vector<LawResult> try_laws(const std::vector<LobeFindings>& sets) {
       const LobeFault* const fault = find_fault(sets[i], law);
       if (fault != nullptr) {
         result = {law, State::broken, fault->text, i};
-      } else if (is_of_sums && (lacks_sums(sets[i]) || is_left_out(law, sets[i]))) {
+      } else if (is_of_sums && lacks_sums(sets[i])) {
         result.state = State::not_tried;
+      } else if (is_left_out(law, sets[i])) {
+        result.state = State::not_tried;
+        result.figure = "some are too thin to integrate";
       }
     }
     if (result.state == State::holds) result.figure = figure_of(law, sets);
@@ -130,7 +133,7 @@ void print_laws(const std::string& title, const std::vector<LobeFindings>& sets,
   for (const LawResult& law : laws) {
     switch (law.state) {
       case LawResult::State::holds: print(law.law, "holds ", law.figure); break;
-      case LawResult::State::not_tried: print(law.law, "not tried in all sets", ""); break;
+      case LawResult::State::not_tried: print(law.law, "not tried in all sets", law.figure); break;
       case LawResult::State::broken:
         print(law.law, "BROKEN", fmt::format("set {}, {}", law.set + 1, law.figure));
         break;

@@ -43,8 +43,9 @@ void report_idle(const RenderOptions& options, Diagnostics& diagnostics) {
   idle(s.techniques.roulette == host::Roulette::none &&
            s.roulette_depth != defaults.settings.roulette_depth,
        "--roulette-depth", "another --roulette than none");
-  idle(s.fps != defaults.settings.fps && !options.series.frames && !host::is_open(s), "--fps",
-       "--frames, or an open --shutter");
+  const bool has_shutter = s.shutter_open != 0.0f || s.shutter_close != 0.0f;
+  idle(s.fps != defaults.settings.fps && !options.series.frames && !has_shutter, "--fps",
+       "--frames, or --shutter");
 }
 
 }  // namespace

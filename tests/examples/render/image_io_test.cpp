@@ -76,7 +76,8 @@ TEST(WriteImage, WhatHalfCannotHoldIsSaid) {
   ASSERT_EQ(diagnostics.all().size(), 1u);
   EXPECT_EQ(diagnostics.all()[0].severity, Severity::warning);
   EXPECT_EQ(diagnostics.all()[0].where.file, folder.file("a.exr"));
-  EXPECT_EQ(diagnostics.all()[0].found, "0 to 1000000, 1 of 105 numbers outside");
+  EXPECT_EQ(diagnostics.all()[0].where.path, "G");
+  EXPECT_EQ(diagnostics.all()[0].found, "0 to 1000000, 1 of 35 pixels outside");
 }
 
 TEST(WriteImage, PngIsToneMappedSrgb) {

@@ -52,6 +52,21 @@ TEST(TileQueue, WrapsUpWithTilesThatHaveNothing) {
   EXPECT_FALSE(queue.take());
 }
 
+TEST(RenderCounts, AllAddUp) {
+  // Nine numbers, each of its own.
+  RenderCounts sum{1, 2, 3, 4, 5, 6, 7, 8.0, 9.0};
+  sum.add({10, 20, 30, 40, 50, 60, 70, 80.0, 90.0});
+  EXPECT_EQ(sum.paths, 11u);
+  EXPECT_EQ(sum.rays, 22u);
+  EXPECT_EQ(sum.shadow_rays, 33u);
+  EXPECT_EQ(sum.invalid_results, 44u);
+  EXPECT_EQ(sum.beyond_bound, 55u);
+  EXPECT_EQ(sum.media_dropped, 66u);
+  EXPECT_EQ(sum.paths_cut, 77u);
+  EXPECT_EQ(sum.shading_seconds, 88.0);
+  EXPECT_EQ(sum.tracing_seconds, 99.0);
+}
+
 class Progress : public ::testing::Test {
  protected:
   Progress() {
@@ -158,6 +173,11 @@ TEST_F(Progress, RefusesCheckpointsOfSomethingElse) {
     std::ofstream(file, std::ios::binary) << bytes.substr(0, cut);
     EXPECT_FALSE(film({.checkpoint = &mine})) << cut;
   }
+  std::string old = bytes;
+  old[std::string_view("nacre render checkpoint ").size()] = '1';
+  std::ofstream(file, std::ios::binary) << old;
+  EXPECT_FALSE(film({.checkpoint = &mine}));
+  EXPECT_NE(diagnostics_.to_string().find("another version"), std::string::npos);
   bytes[bytes.size() - 5] ^= 1;
   std::ofstream(file, std::ios::binary) << bytes;
   EXPECT_FALSE(film({.checkpoint = &mine}));

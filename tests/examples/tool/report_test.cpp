@@ -204,6 +204,7 @@ TEST_F(Report, OptionsThatChangeNothing) {
       {"a.exr", "--half", ""},
       {"a.exr", "--fps 30", "--fps changes nothing here"},
       {"a.exr", "--fps 30 --shutter 0 1", ""},
+      {"a.exr", "--fps 30 --shutter 0.5 0.5", ""},
       {"a.#.exr", "--fps 30 --frames 1", ""},
       {"a.exr", "--roulette none --roulette-depth 2", "--roulette-depth changes nothing here"}};
   for (const Row& row : rows) {

@@ -264,6 +264,12 @@ TEST(ApiOptions, PatternsOfNothingAreSaid) {
   System system;
   const Document document = Document::parse(R"(<materialx version="1.39">
     <sin name="c" type="float"><input name="in" type="float" value="1"/></sin>
+    <nodedef name="ND_twice" node="twice"><input name="in" type="float" value="1"/>
+      <output name="out" type="float"/></nodedef>
+    <nodegraph name="NG_twice" nodedef="ND_twice">
+      <multiply name="inner" type="float"><input name="in1" type="float" interfacename="in"/>
+      </multiply><output name="out" type="float" nodename="inner"/></nodegraph>
+    <twice name="outer" type="float"/>
     <sin name="other" type="float"/><standard_surface name="S" type="surfaceshader"/>
     <surfacematerial name="M" type="material">
       <input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
@@ -294,6 +300,10 @@ TEST(ApiOptions, PatternsOfNothingAreSaid) {
   EXPECT_EQ(codes_of({"*"}, {"*/coat_color.x", "*/coat_colour.x"}),
             "unfit-pattern '*/coat_colour.x';");
   EXPECT_EQ(codes_of({"S/*", "*/base_color"}, {"S/base_color.?"}), "");
+  // A node is no parameter; within the graph of another one they may be.
+  EXPECT_EQ(codes_of({"othe?"}, {}), "unfit-pattern 'othe?';");
+  EXPECT_EQ(codes_of({"outer/*/in1", "outer/inner/in2"}, {}), "");
+  EXPECT_EQ(codes_of({"outer/*/inn"}, {}), "unfit-pattern 'outer/*/inn';");
   EXPECT_EQ(codes_of({"c/inn"}, {}), "unfit-pattern 'c/inn';");
   EXPECT_EQ(codes_of({"d/in"}, {}), "unfit-pattern 'd/in';");
   EXPECT_EQ(codes_of({"d*"}, {}), "unfit-pattern 'd*';");

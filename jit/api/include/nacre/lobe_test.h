@@ -61,9 +61,10 @@ typedef struct nacre_lobe_view {
      reciprocal, as models need not be. */
   double reciprocity;
   /* Fraction of the samples that fall where the density is far more than its quadrature has seen,
-     as of facets that are rough one way and smooth the other. Above 1e-4 "normalised", "samples"
-     and "light" are not tried. */
+     as of facets that are rough one way and smooth the other. */
   double unseen;
+  /* 1: that is above 1e-4, of more than two: "normalised", "samples" and "light" are not tried. */
+  int is_too_thin;
 } nacre_lobe_view;
 
 typedef struct nacre_lobe_report nacre_lobe_report;

@@ -57,10 +57,10 @@ struct LobeView {
   /// reciprocal, as models need not be.
   double reciprocity = 1.0;
   /// Fraction of the samples that fall where the density is far more than its quadrature has seen,
-  /// as of facets that are rough one way and smooth the other. Above most_unseen "normalised",
-  /// "samples" and "light" are not tried.
+  /// as of facets that are rough one way and smooth the other.
   double unseen = 0.0;
-  static constexpr double most_unseen = 1e-4;
+  /// Above 1e-4 of more than two: "normalised", "samples" and "light" are not tried.
+  bool is_too_thin = false;
 };
 
 struct LobeReport {

@@ -40,7 +40,7 @@ class SpherePartition {
   double f_integral() const;
   /// Whether there is far more at `w` than at any node of its cell: quadrature has missed a lobe
   /// that is as thin as a needle there.
-  bool misses(Direction w, double pdf) const {
+  bool is_unseen(Direction w, double pdf) const {
     return pdf > 4.0 * cells_[find_cell(place(w))].most_pdf;
   }
 

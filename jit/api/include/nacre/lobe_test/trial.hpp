@@ -211,10 +211,11 @@ class LobeTrial {
     const SpherePartition cells(evaluate, pilot(), double(count()));
     std::size_t unseen = 0;
     for (std::size_t i = 0; i < count(); ++i) {
-      unseen += is_smooth(i) && cells.misses(samples_.wi[i], samples_.pdf[i]);
+      unseen += is_smooth(i) && cells.is_unseen(samples_.wi[i], samples_.pdf[i]);
     }
     view_.unseen = static_cast<double>(unseen) / static_cast<double>(count());
-    if (view_.unseen > LobeView::most_unseen) return;
+    view_.is_too_thin = unseen > 2 && view_.unseen > 1e-4;
+    if (view_.is_too_thin) return;
     const double chance =
         deviations * std::sqrt(smooth * (1.0 - smooth) / static_cast<double>(count()));
     expect(std::abs(cells.pdf_integral() - smooth) <= rounding + chance, "normalised",
