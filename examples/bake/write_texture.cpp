@@ -21,8 +21,6 @@ namespace nacre::host {
 
 namespace {
 
-constexpr float largest_half = 65504.0f;
-
 bool is_vector(Type type) {
   return type == Type::vector2 || type == Type::vector3 || type == Type::vector4;
 }

@@ -18,6 +18,9 @@ namespace nacre::host {
 /// Files that are written. A .tx is a TIFF in tiles, with levels of half the size each.
 enum class ImageKind { exr, png, tx };
 
+/// Of SampleType::half: what is larger and finite is stored as that.
+inline constexpr float largest_half = 65504.0f;
+
 /// What the file is to be.
 struct ImageHeader {
   ImageKind kind = ImageKind::exr;

@@ -98,8 +98,6 @@ void append_passes(const PassFilm& passes, ImageHeader& header, Planes& planes) 
   }
 }
 
-constexpr float largest_half = 65504.f;
-
 /// Says what 16-bit floats cannot hold of each channel, which becomes the largest that they can.
 /// What is infinite stays so.
 void report_cut(const ImageHeader& header, const Planes& planes, const std::string& path,

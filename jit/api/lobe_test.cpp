@@ -120,7 +120,6 @@ nacre_status nacre_lobe_report_view(const nacre_lobe_report* found, size_t index
   one.valid = from.valid;
   one.chi_square = from.chi_square;
   one.reciprocity = from.reciprocity;
-  one.unseen = from.unseen;
   one.is_too_thin = from.is_too_thin ? 1 : 0;
   return nacre::api::give(view, one);
 }

@@ -6,11 +6,9 @@
 
 namespace nacre {
 
-namespace {
-
 /// What the last `*` stands for grows by a letter whenever the rest does not fit: one star may
 /// take whatever those before it left, so nothing else has to be tried again.
-bool fits(std::string_view name, std::string_view pattern) {
+bool fits_pattern(std::string_view name, std::string_view pattern) {
   std::size_t at = 0;
   std::size_t star = std::string_view::npos;  // Behind the last one passed,
   std::size_t taken = 0;                      // which stands for what ends here.
@@ -32,11 +30,9 @@ bool fits(std::string_view name, std::string_view pattern) {
   return pattern.find_first_not_of('*', next) == std::string_view::npos;
 }
 
-}  // namespace
-
 bool fits_any(const std::string& name, std::span<const std::string> patterns) {
-  return std::ranges::any_of(patterns,
-                             [&](const std::string& pattern) { return fits(name, pattern); });
+  return std::ranges::any_of(
+      patterns, [&](const std::string& pattern) { return fits_pattern(name, pattern); });
 }
 
 }  // namespace nacre

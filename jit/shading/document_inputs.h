@@ -31,7 +31,7 @@ class DocumentInputs {
   using Inputs = std::map<std::string, Type>;
 
   void collect(const Element& element, const std::string& path);
-  const Inputs& inputs_of(const NodeDef& def);
+  const Inputs& inputs_of(const NodeDef& def, int level);
 
   const Document* document_;
   const Definitions& library_;
@@ -40,6 +40,7 @@ class DocumentInputs {
   Inputs inputs_;
   std::vector<std::string> unknown_nodes_;
   std::unordered_map<const NodeDef*, Inputs> of_defs_;  ///< Relative to the node.
+  bool is_cut_ = false;  ///< There are more, of which nothing is known.
 };
 
 }  // namespace nacre

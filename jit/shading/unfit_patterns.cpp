@@ -10,10 +10,6 @@ namespace nacre {
 
 namespace {
 
-bool fits(const std::string& name, const std::string& pattern) {
-  return fits_any(name, {&pattern, 1});
-}
-
 /// Whether a pattern is of an input of a node that the graph has: that has no such parameter then,
 /// whatever else the document holds.
 bool names_input_of(const Graph& graph, const std::string& pattern) {
@@ -39,7 +35,7 @@ std::vector<std::string> unfit_live(const std::vector<std::string>& live, const 
   std::vector<std::string> unfit;
   for (const std::string& pattern : live) {
     const bool is_fit = std::ranges::any_of(graph.parameters, [&](const Parameter& parameter) {
-      return !is_text(parameter.type) && fits(parameter.path, pattern);
+      return !is_text(parameter.type) && fits_pattern(parameter.path, pattern);
     });
     if (!is_fit && !may_be_elsewhere(pattern, graph, document)) unfit.push_back(pattern);
   }

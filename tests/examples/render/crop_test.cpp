@@ -89,9 +89,17 @@ TEST_F(Crop, GoesOnFromACheckpoint) {
   std::stop_source enough;
   Checkpoint checkpoint(folder_.file("a.checkpoint"), "key", 1e9);
   enough.request_stop();
-  film(window, {.enough = enough.get_token(), .checkpoint = &checkpoint});
+  double share = 0;
+  film(window, {.enough = enough.get_token(),
+                .progress = [&](double done) { share = done; },
+                .checkpoint = &checkpoint});
   ASSERT_LT(statistics_.most_samples, settings_.samples);
-  expect_part(film(window, {.checkpoint = &checkpoint}), whole, window);
+  std::optional<double> first;
+  const RenderControl control{.progress = [&](double done) { first = first.value_or(done); },
+                              .checkpoint = &checkpoint};
+  expect_part(film(window, control), whole, window);
+  ASSERT_TRUE(first);
+  EXPECT_GT(*first, share);  // It goes on from there, and does not begin anew.
   EXPECT_EQ(statistics_.paths, window.pixels() * 32);  // Of both runs: nothing twice.
 }
 

@@ -313,6 +313,33 @@ TEST(ApiOptions, PatternsOfNothingAreSaid) {
   EXPECT_EQ(codes_of({}, {"*"}), "");  // All that is no parameter: time, and so on.
 }
 
+// Of a document that doubles itself with each definition nothing is said, and soon.
+TEST(ApiOptions, PatternsAreNotLookedForWithoutEnd) {
+  std::string text = R"(<materialx version="1.39"><sin name="c" type="float"/>)";
+  for (int k = 0; k < 60; ++k) {
+    const std::string own = std::to_string(k);
+    const std::string inner = k == 0 ? "sin" : "d" + std::to_string(k - 1);
+    text +=
+        "<nodedef name=\"ND_" + own + "\" node=\"d" + own +
+        R"("><input name="in" type="float" value="1"/><output name="out" type="float"/></nodedef>
+               <nodegraph name="NG_)" +
+        own + "\" nodedef=\"ND_" + own + "\">";
+    for (const char* name : {"a", "b"}) {
+      text += "<" + inner + " name=\"" + name +
+              R"(" type="float"><input name="in" type="float" interfacename="in"/></)" + inner +
+              ">";
+    }
+    text += R"(<output name="out" type="float" nodename="a"/></nodegraph>)";
+  }
+  const Document document = Document::parse(text + R"(<d59 name="e" type="float"/></materialx>)");
+  System system;
+  CompileOptions options;
+  options.live = {"*/inn"};
+  std::vector<Diagnostic> said;
+  EXPECT_NO_THROW(system.compile_outputs(document, {"c"}, options, &said));
+  EXPECT_TRUE(said.empty());
+}
+
 TEST(ApiOptions, EntriesThatThereAreNotAreNotRun) {
   System system;
   const Document document = Document::parse(R"(<materialx version="1.39">

@@ -60,10 +60,9 @@ typedef struct nacre_lobe_view {
   /* The greatest ratio of what scatters one way to what scatters the other: 1 for what is
      reciprocal, as models need not be. */
   double reciprocity;
-  /* Fraction of the samples that fall where the density is far more than its quadrature has seen,
-     as of facets that are rough one way and smooth the other. */
-  double unseen;
-  /* 1: that is above 1e-4, of more than two: "normalised", "samples" and "light" are not tried. */
+  /* 1: more than a 10,000th of the samples, and two of them, fall where the density is far more
+     than its quadrature has seen, as of facets that are rough one way and smooth the other:
+     "normalised", "samples" and "light" are not tried. */
   int is_too_thin;
 } nacre_lobe_view;
 

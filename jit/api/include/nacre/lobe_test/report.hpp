@@ -56,10 +56,9 @@ struct LobeView {
   /// The greatest ratio of what scatters one way to what scatters the other: 1 for what is
   /// reciprocal, as models need not be.
   double reciprocity = 1.0;
-  /// Fraction of the samples that fall where the density is far more than its quadrature has seen,
-  /// as of facets that are rough one way and smooth the other.
-  double unseen = 0.0;
-  /// Above 1e-4 of more than two: "normalised", "samples" and "light" are not tried.
+  /// More than a 10,000th of the samples, and two of them, fall where the density is far more than
+  /// its quadrature has seen, as of facets that are rough one way and smooth the other:
+  /// "normalised", "samples" and "light" are not tried.
   bool is_too_thin = false;
 };
 

@@ -213,8 +213,7 @@ class LobeTrial {
     for (std::size_t i = 0; i < count(); ++i) {
       unseen += is_smooth(i) && cells.is_unseen(samples_.wi[i], samples_.pdf[i]);
     }
-    view_.unseen = static_cast<double>(unseen) / static_cast<double>(count());
-    view_.is_too_thin = unseen > 2 && view_.unseen > 1e-4;
+    view_.is_too_thin = unseen > std::max<std::size_t>(2, count() / 10'000);
     if (view_.is_too_thin) return;
     const double chance =
         deviations * std::sqrt(smooth * (1.0 - smooth) / static_cast<double>(count()));
