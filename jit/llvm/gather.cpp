@@ -1,6 +1,9 @@
 #include "jit/llvm/gather.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <iterator>
 #include <numeric>
 
 #include "jit/llvm/lanes.h"
@@ -10,6 +13,9 @@ namespace nacre::codegen {
 namespace {
 
 using llvm::Value;
+
+/// As many as an instruction of the CPU gathers at once.
+constexpr int native_lanes = 16;
 
 /// Lane k of an index as 64 bits. One by one: lanes in pairs, a tenth faster, LLVM
 /// 19.1 miscompiles at times (the mask of the lower one is lost).
@@ -71,11 +77,70 @@ std::vector<Value*> transpose_fours(Builder& b, const std::vector<Value*>& runs)
           shuffle_fours(b, front_high, back_high, odd)};
 }
 
+bool gathers_natively(FunctionEmitter& e, int lanes) {
+  return lanes == native_lanes && e.module().features().fast_gather;
+}
+
+/// What an instruction of the CPU gathers from.
+struct Gathered {
+  Value* array;
+  Value* index;
+};
+
+/// The same elements by indices as the CPU takes them, which has signed ones: from the middle of
+/// what 32 bits reach.
+Gathered from_middle(FunctionEmitter& e, Value* array, Value* index) {
+  Builder& b = e.builder();
+  constexpr std::uint32_t middle = 0x8000'0000u;
+  Value* address = b.CreateConstGEP1_64(b.getInt32Ty(), array, middle);
+  return {address, b.CreateXor(index, e.i32(middle, native_lanes))};
+}
+
+/// For each element of the index what lies there, a word or a pair of them.
+Value* gather_natively(FunctionEmitter& e, llvm::Intrinsic::ID intrinsic, llvm::Type* element,
+                       Value* array, Value* index) {
+  Builder& b = e.builder();
+  const unsigned count = llvm::cast<llvm::FixedVectorType>(index->getType())->getNumElements();
+  llvm::Type* result = llvm::FixedVectorType::get(element, count);
+  llvm::Type* mask = llvm::FixedVectorType::get(b.getInt1Ty(), count);
+  return b.CreateIntrinsic(intrinsic, {},
+                           {llvm::PoisonValue::get(result), array, index,
+                            llvm::Constant::getAllOnesValue(mask), b.getInt32(sizeof(float))});
+}
+
+/// Vectors of the words w of all lanes, from runs of two words a lane.
+std::vector<Value*> gather_twos(FunctionEmitter& e, Scalar scalar, const Gathered& from) {
+  Builder& b = e.builder();
+  std::vector<Value*> halves;
+  for (const int first : {0, native_lanes / 2}) {
+    std::vector<int> lanes(native_lanes / 2);
+    std::iota(lanes.begin(), lanes.end(), first);
+    Value* pairs =
+        gather_natively(e, llvm::Intrinsic::x86_avx512_mask_gather_dpd_512, b.getDoubleTy(),
+                        from.array, b.CreateShuffleVector(from.index, lanes));
+    halves.push_back(b.CreateBitCast(pairs, e.module().type(scalar, native_lanes)));
+  }
+  std::vector<Value*> words;
+  for (const int word : {0, 1}) {
+    std::vector<int> places;
+    for (int lane = 0; lane < native_lanes; ++lane) places.push_back(2 * lane + word);
+    words.push_back(b.CreateShuffleVector(halves[0], halves[1], places));
+  }
+  return words;
+}
+
 }  // namespace
 
 llvm::Value* gather(FunctionEmitter& e, Scalar scalar, llvm::Value* array, llvm::Value* index,
                     int lanes) {
   llvm::Type* type = e.module().type(scalar, 1);
+  if (gathers_natively(e, lanes)) {
+    const Gathered from = from_middle(e, array, index);
+    return gather_natively(e,
+                           scalar == Scalar::f32 ? llvm::Intrinsic::x86_avx512_mask_gather_dps_512
+                                                 : llvm::Intrinsic::x86_avx512_mask_gather_dpi_512,
+                           type, from.array, from.index);
+  }
   return each_lane(e, scalar, lanes, [&](int k) {
     return e.load_invariant(type, e.builder().CreateInBoundsGEP(type, array, offset(e, index, k)));
   });
@@ -84,6 +149,14 @@ llvm::Value* gather(FunctionEmitter& e, Scalar scalar, llvm::Value* array, llvm:
 std::vector<llvm::Value*> gather_run(FunctionEmitter& e, Scalar scalar, llvm::Value* array,
                                      llvm::Value* first, int lanes, std::size_t count) {
   Builder& b = e.builder();
+  if (gathers_natively(e, lanes)) {
+    const Gathered from = from_middle(e, array, first);
+    std::vector<Value*> words = gather_twos(e, scalar, from);
+    if (count == 2) return words;
+    Value* third = b.CreateAdd(from.index, e.i32(2, lanes));
+    std::ranges::copy(gather_twos(e, scalar, {from.array, third}), std::back_inserter(words));
+    return words;
+  }
   llvm::Type* type = e.module().type(scalar, 1);
   llvm::Type* run = llvm::FixedVectorType::get(type, static_cast<unsigned>(count));
   std::vector<Value*> runs;

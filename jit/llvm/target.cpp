@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <mutex>
 #include <new>
 #include <utility>
@@ -45,13 +46,24 @@ llvm::CodeGenOptLevel level(Tier tier) {
   return tier == Tier::quick ? llvm::CodeGenOptLevel::None : llvm::CodeGenOptLevel::Default;
 }
 
+/// LLVM's word for CPUs whose gathers are quick: nothing that a CPU says of itself.
+constexpr std::string_view tuning_for_gathers = "fast-gather";
+
+/// Whether the CPU's microcode makes gathers slow, so that nobody reads others' data by them
+/// (INTEL-SA-00828). As Linux tells: Documentation/admin-guide/hw-vuln/gather_data_sampling.rst.
+bool has_slow_gathers() {
+  std::ifstream file("/sys/devices/system/cpu/vulnerabilities/gather_data_sampling");
+  std::string word;
+  return file >> word && word.starts_with("Mitigation");
+}
+
 /// What the emitter and LLVM's selection gain from, sorted. Nothing else of a CPU is
 /// used, because LLVM takes what it is given: with avx512fp16 it keeps masks as halves
 /// and then has no instruction for that ("Cannot select: f16 = bitcast v16i1").
-constexpr std::array<std::string_view, 19> useful{
-    "avx",    "avx2", "avx512bw", "avx512cd", "avx512dq", "avx512f", "avx512vl",
-    "bmi",    "bmi2", "evex512",  "f16c",     "fma",      "lzcnt",   "movbe",
-    "popcnt", "sse3", "sse4.1",   "sse4.2",   "ssse3"};
+constexpr std::array<std::string_view, 20> useful{
+    "avx",   "avx2",   "avx512bw", "avx512cd", "avx512dq",         "avx512f", "avx512vl",
+    "bmi",   "bmi2",   "evex512",  "f16c",     tuning_for_gathers, "fma",     "lzcnt",
+    "movbe", "popcnt", "sse3",     "sse4.1",   "sse4.2",           "ssse3"};
 static_assert(std::ranges::is_sorted(useful));
 
 /// AVX-512 counts as a whole, at its full width, or not at all: the first CPUs had some
@@ -107,7 +119,10 @@ Target Target::host() {
     // it on again: so each is named.
     const llvm::StringMap<bool> all = llvm::sys::getHostCPUFeatures();
     llvm::SubtargetFeatures features;
-    for (const std::string_view name : useful) features.AddFeature(name, all.lookup(name));
+    for (const std::string_view name : useful) {
+      if (name != tuning_for_gathers) features.AddFeature(name, all.lookup(name));
+    }
+    if (has_slow_gathers()) features.AddFeature(tuning_for_gathers, false);
     return Target{llvm::sys::getHostCPUName().str(), features.getString()};
   }();
   return found;
@@ -170,6 +185,7 @@ Features features_of(const llvm::TargetMachine& machine) {
           .avx2 = has("+avx2"),
           .f16c = has("+f16c"),
           .avx512 = has("+avx512f"),
+          .fast_gather = has("+avx512f") && has("+fast-gather"),
           .all = machine.getTargetFeatureString().str()};
 }
 

@@ -149,7 +149,7 @@ TEST(Parts, GiveTheSameBits) {
 
 /// CPUs whose code this machine can run too, and what each lacks.
 TEST(Targets, GiveTheSameBits) {
-  for (const char* cpu : {"x86-64-v2", "x86-64-v3", "haswell", "skylake-avx512"}) {
+  for (const char* cpu : {"x86-64-v2", "x86-64-v3", "haswell", "skylake-avx512", "znver4"}) {
     if (widest_lanes(Target::named(cpu)) > widest_lanes(Target::host())) continue;
     for (std::uint64_t seed = first_seed(); seed < first_seed() + 60; ++seed) {
       const Program program = random_program(seed);
