@@ -96,7 +96,8 @@ Gathered from_middle(FunctionEmitter& e, Value* array, Value* index) {
   return {address, b.CreateXor(index, e.i32(middle, native_lanes))};
 }
 
-/// For each element of the index what lies there, a word or a pair of them.
+/// For each element of the index what lies there, a word or a pair of them. LLVM does not know that
+/// nobody writes there, and moves none of these over a store.
 Value* gather_natively(FunctionEmitter& e, llvm::Intrinsic::ID intrinsic, llvm::Type* element,
                        Value* array, Value* index) {
   Builder& b = e.builder();

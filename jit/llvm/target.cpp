@@ -49,12 +49,11 @@ llvm::CodeGenOptLevel level(Tier tier) {
 /// LLVM's word for CPUs whose gathers are quick: nothing that a CPU says of itself.
 constexpr std::string_view tuning_for_gathers = "fast-gather";
 
-/// Whether the CPU's microcode makes gathers slow, so that nobody reads others' data by them
-/// (INTEL-SA-00828). As Linux tells: Documentation/admin-guide/hw-vuln/gather_data_sampling.rst.
-bool has_slow_gathers() {
+bool may_gather() {
   std::ifstream file("/sys/devices/system/cpu/vulnerabilities/gather_data_sampling");
-  std::string word;
-  return file >> word && word.starts_with("Mitigation");
+  std::string line;
+  std::getline(file, line);
+  return codegen::gathers_are_not_slowed(line);
 }
 
 /// What the emitter and LLVM's selection gain from, sorted. Nothing else of a CPU is
@@ -122,7 +121,7 @@ Target Target::host() {
     for (const std::string_view name : useful) {
       if (name != tuning_for_gathers) features.AddFeature(name, all.lookup(name));
     }
-    if (has_slow_gathers()) features.AddFeature(tuning_for_gathers, false);
+    if (!may_gather()) features.AddFeature(tuning_for_gathers, false);
     return Target{llvm::sys::getHostCPUName().str(), features.getString()};
   }();
   return found;
@@ -176,6 +175,10 @@ std::unique_ptr<llvm::TargetMachine> make_target_machine(const CodegenOptions& o
     return nullptr;
   }
   return machine;
+}
+
+bool gathers_are_not_slowed(std::string_view linux_says) {
+  return linux_says.starts_with("Not affected") || linux_says.starts_with("Vulnerable");
 }
 
 Features features_of(const llvm::TargetMachine& machine) {

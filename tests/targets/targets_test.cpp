@@ -11,6 +11,7 @@
 
 #include "jit/compile/lower.h"
 #include "jit/llvm/codegen.h"
+#include "jit/llvm/features.h"
 #include "jit/record/bodies.h"
 #include "runtime/program/recorder.h"
 #include "runtime/program/slice.h"
@@ -125,6 +126,41 @@ TEST(Targets, UseNoFeatureThatKernelsGainNothingFrom) {
   }
   EXPECT_EQ(Target::host().features.find("fp16"), std::string::npos);
   EXPECT_EQ(diagnostics.to_string(), "");
+}
+
+// Where gathers are quick, which LLVM knows of CPUs and a host of itself.
+TEST(Targets, GatherWhereThatIsQuick) {
+  Recorder recorder;
+  const Ref index = recorder.input("index", Scalar::i32);
+  const std::vector<float> numbers(1000, 1.5f);
+  const std::vector<SliceOutput> outputs{
+      {"entry", recorder.emit(Op::table, std::span(&index, 1), recorder.table("t", numbers))}};
+  Program program = slice(recorder.program(), "look_up", outputs);
+  mark_varying(program);
+  const auto gathers = [&](const Target& target, int lanes) {
+    Diagnostics diagnostics;
+    const std::string ir = dump_ir(program, {.lanes = lanes, .target = target}, diagnostics);
+    EXPECT_NE(ir.find("load"), std::string::npos) << diagnostics.to_string();
+    return ir.find("call <16 x float> @llvm.x86.avx512.mask.gather") != std::string::npos;
+  };
+  for (const char* cpu : {"skylake-avx512", "icelake-server", "sapphirerapids"}) {
+    EXPECT_TRUE(gathers(Target::named(cpu), 16)) << cpu;
+    EXPECT_FALSE(gathers({cpu, "-fast-gather"}, 16)) << cpu;
+    EXPECT_FALSE(gathers({cpu, "-evex512"}, 16)) << cpu;
+    EXPECT_FALSE(gathers(Target::named(cpu), 8)) << cpu;
+  }
+  for (const char* cpu : {"znver4", "znver5", "haswell", "alderlake"}) {
+    EXPECT_FALSE(gathers(Target::named(cpu), 16)) << cpu;
+  }
+  // What Linux 6.6 has for each state.
+  for (const char* quick : {"Not affected", "Vulnerable", "Vulnerable: No microcode"}) {
+    EXPECT_TRUE(codegen::gathers_are_not_slowed(quick)) << quick;
+  }
+  for (const char* slow :
+       {"Mitigation: Microcode", "Mitigation: Microcode (locked)",
+        "Mitigation: AVX disabled, no microcode", "Unknown: Dependent on hypervisor status", ""}) {
+    EXPECT_FALSE(codegen::gathers_are_not_slowed(slow)) << slow;
+  }
 }
 
 /// The widest lanes need all of AVX-512: the first CPUs had less, others have it for 256 bits.

@@ -52,6 +52,7 @@ void on_every_cpu(const Program& program, Check&& check) {
          {"", "x86-64", "nehalem", "sandybridge", "haswell", "znver4", "sapphirerapids"}) {
       const Target target = *cpu == '\0' ? Target::host() : Target::named(cpu);
       if (widest_lanes(target) > widest_lanes(Target::host())) continue;
+      if (std::string_view(cpu) == "haswell" && __builtin_cpu_supports("avx2") == 0) continue;
       const auto kernel = compiled(program, {.lanes = lanes, .target = target});
       ASSERT_NE(kernel, nullptr);
       check(*kernel, "W = " + std::to_string(lanes) + ", " + cpu);
