@@ -12,8 +12,8 @@ struct Features {
   bool avx2 = false;
   bool f16c = false;
   bool avx512 = false;  ///< F, BW, CD, DQ and VL at 512 bits: masks are native at every width.
-  /// There are instructions that gather, with AVX-512, and LLVM calls them fast: Intel's are
-  /// (bench/results/textures.md), those of AMD are not.
+  /// There are instructions that gather, with AVX-512, and LLVM calls them fast: Intel's, which
+  /// bench/results/textures.md has, and of AMD none.
   bool fast_gather = false;
   std::string all = {};  ///< Of the machine, in LLVM's words; on top of baseline_cpu.
 };

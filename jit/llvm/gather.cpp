@@ -87,12 +87,13 @@ struct Gathered {
   Value* index;
 };
 
-/// The same elements by indices as the CPU takes them, which has signed ones: from the middle of
-/// what 32 bits reach.
-Gathered from_middle(FunctionEmitter& e, Value* array, Value* index) {
+/// By indices as the CPU takes them, which has signed ones: where there are more words, from the
+/// middle of what 32 bits reach.
+Gathered by_signed_index(FunctionEmitter& e, const Words& words, Value* index) {
+  if (!words.are_many) return {words.first, index};
   Builder& b = e.builder();
   constexpr std::uint32_t middle = 0x8000'0000u;
-  Value* address = b.CreateConstGEP1_64(b.getInt32Ty(), array, middle);
+  Value* address = b.CreateConstGEP1_64(b.getInt32Ty(), words.first, middle);
   return {address, b.CreateXor(index, e.i32(middle, native_lanes))};
 }
 
@@ -132,37 +133,38 @@ std::vector<Value*> gather_twos(FunctionEmitter& e, Scalar scalar, const Gathere
 
 }  // namespace
 
-llvm::Value* gather(FunctionEmitter& e, Scalar scalar, llvm::Value* array, llvm::Value* index,
-                    int lanes) {
-  llvm::Type* type = e.module().type(scalar, 1);
+llvm::Value* gather(FunctionEmitter& e, const Words& words, llvm::Value* index, int lanes) {
+  llvm::Type* type = e.module().type(words.scalar, 1);
   if (gathers_natively(e, lanes)) {
-    const Gathered from = from_middle(e, array, index);
-    return gather_natively(e,
-                           scalar == Scalar::f32 ? llvm::Intrinsic::x86_avx512_mask_gather_dps_512
-                                                 : llvm::Intrinsic::x86_avx512_mask_gather_dpi_512,
-                           type, from.array, from.index);
+    const auto intrinsic = words.scalar == Scalar::f32
+                               ? llvm::Intrinsic::x86_avx512_mask_gather_dps_512
+                               : llvm::Intrinsic::x86_avx512_mask_gather_dpi_512;
+    const Gathered from = by_signed_index(e, words, index);
+    return gather_natively(e, intrinsic, type, from.array, from.index);
   }
-  return each_lane(e, scalar, lanes, [&](int k) {
-    return e.load_invariant(type, e.builder().CreateInBoundsGEP(type, array, offset(e, index, k)));
+  return each_lane(e, words.scalar, lanes, [&](int k) {
+    return e.load_invariant(type,
+                            e.builder().CreateInBoundsGEP(type, words.first, offset(e, index, k)));
   });
 }
 
-std::vector<llvm::Value*> gather_run(FunctionEmitter& e, Scalar scalar, llvm::Value* array,
-                                     llvm::Value* first, int lanes, std::size_t count) {
+std::vector<llvm::Value*> gather_run(FunctionEmitter& e, const Words& words, llvm::Value* first,
+                                     int lanes, std::size_t count) {
   Builder& b = e.builder();
   if (gathers_natively(e, lanes)) {
-    const Gathered from = from_middle(e, array, first);
-    std::vector<Value*> words = gather_twos(e, scalar, from);
-    if (count == 2) return words;
+    const Gathered from = by_signed_index(e, words, first);
+    std::vector<Value*> found = gather_twos(e, words.scalar, from);
+    if (count == 2) return found;
     Value* third = b.CreateAdd(from.index, e.i32(2, lanes));
-    std::ranges::copy(gather_twos(e, scalar, {from.array, third}), std::back_inserter(words));
-    return words;
+    std::ranges::copy(gather_twos(e, words.scalar, {from.array, third}), std::back_inserter(found));
+    return found;
   }
-  llvm::Type* type = e.module().type(scalar, 1);
+  llvm::Type* type = e.module().type(words.scalar, 1);
   llvm::Type* run = llvm::FixedVectorType::get(type, static_cast<unsigned>(count));
   std::vector<Value*> runs;
   for (int k = 0; k < lanes; ++k) {
-    runs.push_back(e.load_invariant(run, b.CreateInBoundsGEP(type, array, offset(e, first, k))));
+    runs.push_back(
+        e.load_invariant(run, b.CreateInBoundsGEP(type, words.first, offset(e, first, k))));
   }
   return count == 2 ? transpose_twos(b, runs) : transpose_fours(b, runs);
 }

@@ -166,7 +166,7 @@ llvm::Value* look_up_in_row(FunctionEmitter& e, llvm::Value* row, std::uint32_t 
                             llvm::Value* index, int lanes) {
   const Permute cpu = permute_of(e.module().features(), lanes);
   const bool fits = fits_registers(e.module().features(), count, lanes) && !is_of_bytes(cpu);
-  if (!fits) return gather(e, Scalar::f32, row, index, lanes);
+  if (!fits) return gather(e, {Scalar::f32, row}, index, lanes);
   const Entries entries{
       count, [&](std::size_t first, int width) -> Value* {
         Value* from = e.byte_offset(row, first * sizeof(float));

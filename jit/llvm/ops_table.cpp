@@ -53,7 +53,7 @@ void emit_run(FunctionEmitter& e, const std::vector<ValueId>& run, Value* index,
   Value* first = clamp(e, index, -static_cast<std::int32_t>(margin), last, lanes);
   first = b.CreateAdd(first, e.i32(margin, lanes));
   Value* around = e.module().table_data(number);
-  const auto entries = gather_run(e, Scalar::f32, around, first, lanes, run.size());
+  const auto entries = gather_run(e, {Scalar::f32, around}, first, lanes, run.size());
   Value* lowest = e.f32_bits(flush_denormal(std::bit_cast<std::uint32_t>(values.front())), lanes);
   e.define(run[0], entries[0]);
   for (std::size_t k = 1; k < run.size(); ++k) {
@@ -89,7 +89,7 @@ Value* table(FunctionEmitter& e, ValueId id) {
   }
   if (!masked) index = clamp(e, index, 0, last, lanes);
   index = e.builder().CreateAdd(index, e.i32(margin, lanes));
-  return gather(e, Scalar::f32, e.module().table_data(instruction.imm), index, lanes);
+  return gather(e, {Scalar::f32, e.module().table_data(instruction.imm)}, index, lanes);
 }
 
 /// A row of the fitted numbers is as many as one register holds, or two.

@@ -18,6 +18,8 @@ using llvm::Value;
 struct Binding {
   Value* words;
   Value* last;
+
+  Words all() const { return {Scalar::i32, words, true}; }
 };
 
 Binding load_binding(FunctionEmitter& e, Value* slot) {
@@ -44,7 +46,7 @@ Binding load_binding(FunctionEmitter& e, Value* slot) {
 Value* load_words(FunctionEmitter& e, Binding from, Value* word, int lanes) {
   Builder& b = e.builder();
   Value* inside = b.CreateICmpULE(word, e.spread(from.last, lanes));
-  return gather(e, Scalar::i32, from.words, b.CreateSelect(inside, word, e.i32(0, lanes)), lanes);
+  return gather(e, from.all(), b.CreateSelect(inside, word, e.i32(0, lanes)), lanes);
 }
 
 /// `count` neighbouring words for each lane where some lane reaches beyond the end, word
@@ -117,8 +119,7 @@ void emit_run(FunctionEmitter& e, const std::vector<ValueId>& run, Binding from,
   llvm::BasicBlock* done = block("texel.done");
   b.CreateCondBr(safe, fast, slow, llvm::MDBuilder(here->getContext()).createLikelyBranchWeights());
   b.SetInsertPoint(fast);
-  const std::vector<Value*> loaded =
-      gather_run(e, Scalar::i32, from.words, first, lanes, run.size());
+  const std::vector<Value*> loaded = gather_run(e, from.all(), first, lanes, run.size());
   b.CreateBr(done);
   b.SetInsertPoint(slow);
   llvm::CallInst* call =

@@ -49,6 +49,7 @@ llvm::CodeGenOptLevel level(Tier tier) {
 /// LLVM's word for CPUs whose gathers are quick: nothing that a CPU says of itself.
 constexpr std::string_view tuning_for_gathers = "fast-gather";
 
+/// Of this machine.
 bool may_gather() {
   std::ifstream file("/sys/devices/system/cpu/vulnerabilities/gather_data_sampling");
   std::string line;
@@ -184,11 +185,12 @@ bool gathers_are_not_slowed(std::string_view linux_says) {
 Features features_of(const llvm::TargetMachine& machine) {
   const llvm::MCSubtargetInfo& info = *machine.getMCSubtargetInfo();
   const auto has = [&](const char* feature) { return info.checkFeatures(feature); };
+  const bool avx512 = has("+avx512f");
   return {.avx = has("+avx"),
           .avx2 = has("+avx2"),
           .f16c = has("+f16c"),
-          .avx512 = has("+avx512f"),
-          .fast_gather = has("+avx512f") && has("+fast-gather"),
+          .avx512 = avx512,
+          .fast_gather = avx512 && has("+fast-gather"),
           .all = machine.getTargetFeatureString().str()};
 }
 
