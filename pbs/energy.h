@@ -36,6 +36,21 @@ FacetView facet_view(Float3 wo, FacetDistribution distribution, Float2 alpha, bo
 /// How unequal roughnesses are: 0 where they are equal, 1 from a ratio of 0.95 on.
 Float facet_stretch(Float2 alpha);
 
+/// What becomes of the light at a rough interface between dielectrics (pbs/facet_sum.h).
+struct FacetSum {
+  Float reflected = 0.0f;  ///< Albedo of reflection without a Fresnel factor.
+  Float fresnel = 0.0f;    ///< Its mean over that light.
+  Float passed = 0.0f;     ///< Albedo of transmission without it.
+  Float total = 0.0f;      ///< Of both with it.
+  Float turned = 0.0f;     ///< Of the facets that reflect all light.
+};
+template <class F>
+void visit(FacetSum& sum, F&& f) {
+  f(sum.reflected), f(sum.fresnel), f(sum.passed), f(sum.total), f(sum.turned);
+}
+/// From a to b where t is 1.
+FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t);
+
 /// Measured against quadrature (tests/pbs/energy_test.cpp: alpha 0.01 to 1, cosines from 0.05):
 /// albedo of perfect facets 0.4 %; times Fresnel, with for_dielectric()'s cosines, 0.7 % of the
 /// light for indices of 1.05 to 2.5. Of unequal roughness, to a ratio of 0.1, 1 % of either, for
@@ -44,10 +59,9 @@ struct FacetReflection {
   Float albedo;  ///< Of perfectly reflecting facets, in (0, 1].
   /// Facet cosines for the darker and the brighter half of the reflected light.
   Float low, high;
-  /// Only where anisotropic (pbs/facet_sum.h):
-  Float low_share = 0.5f;   ///< Part of the light that `low` stands for.
-  Float dielectric = 0.0f;  ///< The mean of a dielectric's Fresnel factor, where light leaves it.
-  Float summed = 0.0f;      ///< How far to trust `dielectric` rather than tables, in [0, 1].
+  /// Only where a dielectric's facets are summed (pbs/facet_sum.h):
+  FacetSum sum = {};
+  Float summed = 0.0f;  ///< How far to trust its mean Fresnel factor rather than tables, in [0, 1].
   /// Only of other curves than a dielectric's, where light leaves:
   Color3 rest = Color3(0.0f);  ///< The mean of what they are more than that.
   Float rest_share = 0.0f;     ///< How far to trust it rather than two cosines, in [0, 1].
@@ -56,15 +70,13 @@ struct FacetReflection {
   template <class F>
   auto mean(F&& f) const {
     using Factor = decltype(f(low));
-    if (low_share.is_constant(0.5f)) return (f(low) + f(high)) * Factor(0.5f);
-    const Factor of_high = f(high), of_low = f(low);
-    return fma(of_low - of_high, Factor(low_share), of_high);
+    return (f(low) + f(high)) * Factor(0.5f);
   }
 };
 template <class F>
 void visit(FacetReflection& reflection, F&& f) {
-  f(reflection.albedo), f(reflection.low), f(reflection.high), f(reflection.low_share);
-  f(reflection.dielectric), f(reflection.summed);
+  f(reflection.albedo), f(reflection.low), f(reflection.high);
+  visit(reflection.sum, f), f(reflection.summed);
   visit(reflection.rest, f), f(reflection.rest_share);
 }
 FacetReflection facet_reflection(Recorder& recorder, const FacetView& view);

@@ -1,202 +1,100 @@
 #include "pbs/facet_sum.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
+#include <fmt/format.h>
 
+#include <string>
+
+#include "pbs/estimate.h"
 #include "pbs/fresnel.h"
-#include "pbs/microfacet.h"
-#include "pbs/microfacet_transmission.h"
-#include "pbs/sampling.h"
+#include "pbs/visible_facets.h"
 #include "runtime/value/control.h"
 
 namespace nacre {
 
 namespace {
 
-/// Facets of a sum: points of a rank-1 lattice with a Fibonacci number of them, the best there is
-/// of that kind in two dimensions: Niederreiter, "Random Number Generation and Quasi-Monte Carlo
-/// Methods", 1992, section 5.1. One coordinate is an azimuth, in which the sum is periodic. Where
-/// light is totally reflected from some angle on, and views see hardly any that passes, it takes
-/// many more than where light enters, for the same error.
-struct Points {
-  int entering, leaving;
-};
-
-/// Beckmann's facets are found by Newton's steps, each many times as dear as one of GGX's.
-Points points_of(Accuracy accuracy, FacetDistribution distribution) {
-  const bool is_dear = distribution == FacetDistribution::beckmann;
-  if (accuracy == Accuracy::fast) return {34, is_dear ? 89 : 144};
-  if (accuracy == Accuracy::standard) return {89, is_dear ? 144 : 987};
-  return is_dear ? Points{144, 377} : Points{377, 2584};
+/// What passes ends more steeply than what is reflected, which Fresnel's factor lets fade.
+VisibleFacets::Lines lines_of(Accuracy accuracy, bool transmits) {
+  if (accuracy == Accuracy::fast) return {13, transmits ? 34 : 21};
+  if (accuracy == Accuracy::standard) return {21, transmits ? 55 : 34};
+  return {34, transmits ? 89 : 55};
 }
 
-/// Fewer do for a mean over the reflected light.
-Points points_of_mean(Accuracy accuracy, FacetDistribution distribution) {
-  const bool is_dear = distribution == FacetDistribution::beckmann;
-  if (accuracy == Accuracy::fast) return {21, is_dear ? 34 : 89};
-  if (accuracy == Accuracy::standard) return {34, is_dear ? 89 : 377};
-  return is_dear ? Points{89, 144} : Points{144, 987};
+/// Where each facet's Fresnel factor is dear, as under a film.
+VisibleFacets::Lines lines_of_film(Accuracy accuracy) {
+  if (accuracy == Accuracy::fast) return {8, 13};
+  return accuracy == Accuracy::standard ? VisibleFacets::Lines{13, 21}
+                                        : VisibleFacets::Lines{34, 34};
 }
 
-/// Fewer still where each facet's Fresnel factor is dear, as under a film.
-Points points_of_film(Accuracy accuracy) {
-  if (accuracy == Accuracy::fast) return {21, 34};
-  return {accuracy == Accuracy::standard ? 34 : 89, 144};
-}
+/// What facets of a dielectric do with light.
+class Interface {
+ public:
+  Interface(const Facets& facets, Float3 wo, Float eta)
+      : facets_(facets),
+        wo_(wo),
+        root_(facets.root(wo)),
+        above_(wo.z + root_),
+        eta2_(square(eta)),
+        beyond_((eta - 1.0f) * (eta + 1.0f)) {}
 
-/// In between, of a curve over both sides of an interface.
-Points points_of_curve(Accuracy accuracy, FacetDistribution distribution) {
-  return {points_of(accuracy, distribution).entering,
-          points_of_mean(accuracy, distribution).leaving};
-}
-
-/// The Fibonacci number before: what a lattice of so many points steps by.
-int fibonacci_before(int points) {
-  int before = 1, at = 1;
-  while (at < points) before = std::exchange(at, at + before);
-  return before;
-}
-
-/// That of each lane.
-struct LaneLattice {
-  int most;  ///< Points of any lane.
-  Int points;
-  Float share;   ///< One over their number.
-  Float across;  ///< From a point to the next, of the unit square's second side.
-  Float2 turn;   ///< The same around the view: cosine and sine.
-};
-LaneLattice in_lanes(Points points, Bool leaving) {
-  const auto either = [&](auto&& number) {
-    return select(leaving, Float(static_cast<float>(number(points.leaving))),
-                  Float(static_cast<float>(number(points.entering))));
+  struct Light {
+    Float back, forth;  ///< Of the facet's share, by above(): 0 on the other side of the surface.
+                        ///< The latter also where nobody asks whether it `transmits`.
+    Float fresnel;      ///< 0 to the bit where the index is 1.
   };
-  const auto across = [](int n) { return static_cast<double>(fibonacci_before(n)) / n; };
-  const auto turn = [&](int n) { return 2.0 * std::numbers::pi * across(n); };
-  return {.most = std::max(points.entering, points.leaving),
-          .points = select(leaving, Int(points.leaving), Int(points.entering)),
-          .share = either([](int n) { return 1.0 / n; }),
-          .across = either(across),
-          .turn = {either([&](int n) { return std::cos(turn(n)); }),
-                   either([&](int n) { return std::sin(turn(n)); })}};
-}
-
-template <class Sum>
-struct State {
-  Sum sum;
-  Float2 azimuth;  ///< Cosine and sine.
-  template <class F>
-  friend void visit(State& state, F&& f) {
-    visit(state.sum, f), visit(state.azimuth, f);
+  /// What smith_shadowing() has of the view alone.
+  Float above() const { return above_; }
+  Light at(const VisibleFacet& facet, bool transmits) const {
+    const Float cosine = facet.cosine;
+    // Times eta, the cosine beyond; 0 where light is totally reflected.
+    const Float cosine2 = square(cosine);
+    const Float beyond = estimated_root(max(cosine2 + beyond_, 0.0f));
+    // (c - g) / (c + g) and (eta^2 c - g) / (eta^2 c + g), their differences divided out.
+    const Float s = cosine + beyond, p = fma(eta2_, cosine, beyond);
+    const Float inverse = estimated_inverse(max(s * p, 1e-18f));
+    const Float of_s = p * inverse, of_p = s * inverse;
+    const Float across = beyond_ * square(of_s);
+    const Float along = beyond_ * square(of_p) * fma(cosine2, eta2_ + 1.0f, -1.0f);
+    // Refracted, times eta: what is seen of it is the same of any length.
+    const Sent back = sent(facet, cosine + cosine, 1.0f);
+    const Sent forth = transmits ? sent(facet, -(beyond_ * of_s), -1.0f) : Sent{0.0f, 1.0f};
+    // smith_shadowing() of both by one division.
+    const Float either = facet.share * estimated_inverse(max(back.dark * forth.dark, 1e-24f));
+    return {.back = back.cosine * forth.dark * either,
+            .forth = forth.cosine * back.dark * either,
+            .fresnel = min(0.5f * fma(across, across, square(along)), 1.0f)};
   }
-};
 
-/// A facet that the view sees, and what is seen of what it reflects: 0 below the surface.
-struct Facet {
-  Float3 h;
-  Float cosine;  ///< To the view, in [0, 1].
-  Float back;
-  Float change;  ///< Of cosine^2 from a facet of the lattice to the next; 0 where nobody knows.
-};
-
-/// How much cosine^2, that of the view wo to the normal v of any length, changes where v does so by
-/// `d`.
-Float change_of_cosine2(Float3 wo, Float3 v, Float3 d) {
-  const Float inverse = 1.0f / max(dot(v, v), 1e-30f);
-  const Float along = dot(wo, v);
-  return 2.0f * inverse * along * fma(-along * inverse, dot(v, d), dot(wo, d));
-}
-
-/// add(facet, unshadowed, share, sum) for each, `share` being one over their number;
-/// unshadowed(wi, possible): what is seen of light along wi.
-template <class Sum, class F>
-Sum over_facets(Recorder& recorder, const LaneLattice& lattice, Float3 wo, const Facets& facets,
-                Sum start_sum, F&& add) {
-  const Float2 alpha = facets.alpha;
-  const Float share = lattice.share;
-  const Float2 on = lattice.turn;
-  // The facets that a view sees, as sample_visible_normal has them: where roughness is stretched
-  // away they are a cap of the sphere. Azimuths begin at the view's, so that an isotropic surface
-  // looks the same from all around.
-  const Float x = alpha.x * wo.x, y = alpha.y * wo.y;
-  const Float across2 = fma(x, x, square(y));
-  const Float length = sqrt(fma(wo.z, wo.z, across2));
-  const Float inverse = 1.0f / max(length, 1e-30f);
-  const Float3 seen{x * inverse, y * inverse, wo.z * inverse};
-  const Bool slanted = across2 > 1e-30f;
-  const Float inverse_across = 1.0f / sqrt(max(across2, 1e-30f));
-  const bool is_ggx = facets.distribution == FacetDistribution::ggx;
-  const Float root_o = is_ggx ? length : facets.root(wo);
-  const State<Sum> start{.sum = start_sum,
-                         .azimuth = {select(slanted, x * inverse_across, 1.0f),
-                                     select(slanted, y * inverse_across, 0.0f)}};
-  const auto next = [&](Int k, State<Sum>& state) {
-    const Float up = fma(to_float(k), -share, 1.0f - 0.5f * share);
-    Float change = 0.0f;
-    const auto on_cap = [&] {
-      const Float z = fma(up, 1.0f + seen.z, -seen.z);
-      const Float slant = safe_sqrt((1.0f - z) * (1.0f + z));
-      const Float3 stretched{alpha.x * fma(slant, state.azimuth.x, seen.x),
-                             alpha.y * fma(slant, state.azimuth.y, seen.y), z + seen.z};
-      const Float outwards = -z / max(slant, 1e-6f);
-      const Float3 upwards{alpha.x * state.azimuth.x * outwards,
-                           alpha.y * state.azimuth.y * outwards, 1.0f};
-      const Float3 around{-alpha.x * slant * state.azimuth.y, alpha.y * slant * state.azimuth.x,
-                          0.0f};
-      const Float by_height = (1.0f + seen.z) * change_of_cosine2(wo, stretched, upwards);
-      const Float by_azimuth = 2.0f * pi * change_of_cosine2(wo, stretched, around);
-      change = sqrt(fma(by_height, by_height, square(by_azimuth)) * share);
-      return stretched * Float3(1.0f / sqrt(max(dot(stretched, stretched), 1e-30f)));
-    };
-    const auto by_slopes = [&] {
-      const Float across = fma(to_float(k), lattice.across, 0.5f * share);
-      return facets.sample_visible(wo, up, fract(across));
-    };
-    const Float3 h = is_ggx ? on_cap() : by_slopes();
-    const Float cosine = saturate(dot(wo, h));
-    const auto unshadowed = [&](Float3 wi, Bool possible) {
-      const Float cos_i = abs(wi.z);
-      return select(possible, smith_shadowing(wo.z, root_o, cos_i, facets.root(wi)), 0.0f);
-    };
-    const Float3 mirrored = reflect(wo, h);
-    const Float back = unshadowed(mirrored, mirrored.z > 0.0f);
-    add(Facet{h, cosine, back, change}, unshadowed, share, state.sum);
-    const Float2 now = state.azimuth;
-    state.azimuth = {fma(now.x, on.x, -(now.y * on.y)), fma(now.x, on.y, now.y * on.x)};
-    return k + Int(1) < lattice.points;
+ private:
+  struct Sent {
+    Float cosine;  ///< To the normal on the side `side` of the surface, else 0.
+    Float dark;    ///< What smith_shadowing() divides by.
   };
-  return loop(recorder, Bool(true), lattice.most, start, next).sum;
-}
-
-/// Of the lattice's cell that a facet stands for, where eta < 1: light passes up to the angle of
-/// total reflection, where it does not fade. Measured: seven tenths of what cosine^2 changes by
-/// from cell to cell are the best width; of that, what lies in [0, 1]. Without this the steep
-/// facets of a grazing cell count as if some let nothing pass, at indices where nearly all do.
-Float part_that_passes(const Facet& facet, Float eta) {
-  const Float cosine2 = square(facet.cosine);
-  const Float within = fma(facet.cosine, facet.cosine, (eta - 1.0f) * (eta + 1.0f));
-  const Float inverse = 1.0f / clamp(0.7f * facet.change, 1e-12f, 2.0f);
-  const Float below = max(0.5f - cosine2 * inverse, 0.0f);
-  const Float above = max(fma(cosine2 - 1.0f, inverse, 0.5f), 0.0f);
-  return saturate((fma(within, inverse, 0.5f) - above) / (1.0f - below - above));
-}
-
-/// Of y = (1 - cosine)^4: what Fresnel factors rise by at grazing, and needs no root.
-struct Moments {
-  Float light, first, second, third;
-  template <class F>
-  friend void visit(Moments& m, F&& f) {
-    f(m.light), f(m.first), f(m.second), f(m.third);
+  /// Along the facet's normal times `along`, less the view.
+  Sent sent(const VisibleFacet& facet, Float along, float side) const {
+    const Float3 wi = fma(Float3(along * facet.inverse), facet.normal, -wo_);
+    const Float cosine = max(side * wi.z, 0.0f);
+    const Float x = facets_.alpha.x * wi.x, y = facets_.alpha.y * wi.y;
+    const bool is_ggx = facets_.distribution == FacetDistribution::ggx;
+    const Float root =
+        is_ggx ? estimated_root(fma(x, x, fma(y, y, square(wi.z)))) : facets_.root(wi);
+    return {cosine, fma(cosine, root_, wo_.z * root)};
   }
+
+  const Facets& facets_;
+  Float3 wo_;
+  Float root_, above_, eta2_, beyond_;
 };
 
-struct RestSum {
-  Float light;
-  Color3 rest;
+/// What facets send on, and with Fresnel's factor.
+struct Sums {
+  Float share = 0.0f;
+  Float back = 0.0f, back_fresnel = 0.0f;    ///< Above the surface, and times F.
+  Float forth = 0.0f, forth_fresnel = 0.0f;  ///< Below it.
   template <class F>
-  friend void visit(RestSum& sum, F&& f) {
-    f(sum.light), nacre::visit(sum.rest, f);
+  friend void visit(Sums& sums, F&& f) {
+    f(sums.share), f(sums.back), f(sums.back_fresnel), f(sums.forth), f(sums.forth_fresnel);
   }
 };
 
@@ -206,136 +104,136 @@ FacetFresnelPtr in_sums(const FacetFresnel& fresnel) {
   return film == nullptr || !film->exists() ? nullptr : fresnel.with_film(film->in_sums());
 }
 
-Float cosine_of(Float y) { return 1.0f - sqrt(sqrt(saturate(y))); }
+/// The mean of what a curve is more than a dielectric's over all reflected light, `perfect`, where
+/// it leaves: nothing where that is totally reflected.
+Color3 mean_rest(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
+                 const FacetFresnel& fresnel, Float eta, Bool inside, Float perfect) {
+  const FacetFresnelPtr filmed = in_sums(fresnel);
+  const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
+  const Interface interface(facets, wo, eta);
+  const Color3 rest = VisibleFacets(wo, facets, eta)
+                          .sum(recorder, lines_of_film(accuracy), Bool(true), Color3(0.0f),
+                               [&](const VisibleFacet& facet, Color3& sum) {
+                                 const Interface::Light light = interface.at(facet, false);
+                                 const Color3 more =
+                                     of_facets.at(facet.cosine, inside) - Color3(light.fresnel);
+                                 sum = fma(more, Color3(light.back), sum);
+                               });
+  return rest * Color3(interface.above() / perfect);
+}
 
 }  // namespace
 
 FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t) {
-  return {nacre::lerp(a.reflected, b.reflected, t), nacre::lerp(a.passed, b.passed, t),
-          nacre::lerp(a.total, b.total, t), nacre::lerp(a.turned, b.turned, t)};
+  return {nacre::lerp(a.reflected, b.reflected, t), nacre::lerp(a.fresnel, b.fresnel, t),
+          nacre::lerp(a.passed, b.passed, t), nacre::lerp(a.total, b.total, t),
+          nacre::lerp(a.turned, b.turned, t)};
 }
 
+namespace {
+
+FacetSum record_sum(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
+                    Float eta, Float perfect, bool transmits) {
+  // Where light leaves, the sum is of the facets that let it pass. Of those next to index 1, which
+  // are nearly all, what all reflect has to be of the same facets, lest a difference be left.
+  const Bool leaves = eta < 1.0f;
+  Float near = facet_sum_share(facets.alpha, true, max(eta, 1.0f / eta));
+  if (accuracy == Accuracy::precise) near = select(leaves, 1.0f, near);
+  const Interface interface(facets, wo, eta);
+  Sums sums = VisibleFacets(wo, facets, eta)
+                  .sum(recorder, lines_of(accuracy, transmits), leaves | (near > 0.0f), Sums(),
+                       [&](const VisibleFacet& facet, Sums& sum) {
+                         const Interface::Light light = interface.at(facet, transmits);
+                         sum.share = sum.share + facet.share;
+                         sum.back = sum.back + light.back;
+                         sum.back_fresnel = fma(light.fresnel, light.back, sum.back_fresnel);
+                         sum.forth = sum.forth + light.forth;
+                         sum.forth_fresnel = fma(light.fresnel, light.forth, sum.forth_fresnel);
+                       });
+  const Float2 others = if_any(leaves & (near > 0.0f), Float2{0.0f, 1.0f}, [&] {
+    return VisibleFacets(wo, facets, 1.0f)
+        .sum(recorder, lines_of(accuracy, transmits), Bool(true), Float2{0.0f, 0.0f},
+             [&](const VisibleFacet& facet, Float2& sum) {
+               sum.x = sum.x + interface.at(facet, transmits).back;
+               sum.y = sum.y + facet.share;
+             });
+  });
+  // All facets are all there are to the last digit.
+  const Float inverse = 1.0f / select(leaves, lerp(1.0f, others.y, near), sums.share);
+  const Float scale = inverse * interface.above();
+  visit(sums, [&](Float& sum) { sum = sum * scale; });
+  perfect = lerp(perfect, others.x * scale, near);
+  // What the sums of the same facets are apart by rounding is no light.
+  const Float turned = select(leaves, max(fma(sums.back, -1.000004f, perfect), 0.0f), 0.0f);
+  const Float all = sums.back + turned;
+  const Float reflected = sums.back_fresnel + turned;
+  return {.reflected = saturate(all),
+          .fresnel = saturate(reflected / max(all, 1e-20f)),
+          .passed = saturate(sums.forth),
+          .total = saturate(reflected + (sums.forth - sums.forth_fresnel)),
+          .turned = saturate(turned)};
+}
+
+}  // namespace
+
 FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
-                         Float eta, LobeOfFacets lobe) {
-  // Of equal roughnesses the sum is for indices next to 1 alone, which lets the lobe end soon after
-  // the angle of total reflection, on either side.
-  const Bool many =
-      facets.isotropic ? Bool(true) : (eta < 1.0f) | (facet_stretch(facets.alpha) <= 0.0f);
-  const FacetSum all =
-      over_facets(recorder, in_lanes(points_of(accuracy, facets.distribution), many), wo, facets,
-                  FacetSum{0.0f, 0.0f, 0.0f, 0.0f},
-                  [&](const Facet& facet, const auto& unshadowed, Float share, FacetSum& sum) {
-                    const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
-                    const Float back = facet.back;
-                    const Float fresnel = fresnel_dielectric(facet.cosine, eta);
-                    sum.reflected = fma(back, share, sum.reflected);
-                    if (lobe == LobeOfFacets::joint) {
-                      const Float forth = unshadowed(bent.wi, bent.possible);
-                      sum.passed = fma(forth, share, sum.passed);
-                      sum.total = fma(lerp(forth, back, fresnel), share, sum.total);
-                      return;
-                    }
-                    const Float part = select(eta < 1.0f, part_that_passes(facet, eta), 1.0f);
-                    const Float forth = unshadowed(bent.wi, bent.wi.z < 0.0f);
-                    sum.passed = fma(forth * part, share, sum.passed);
-                    sum.total = fma(lerp(forth, back, fresnel), share, sum.total);
-                    sum.turned = fma(back * (1.0f - part), share, sum.turned);
-                  });
-  return {saturate(all.reflected), saturate(all.passed), saturate(all.total), saturate(all.turned)};
+                         Float eta, Float perfect, bool transmits) {
+  // One function for all lobes of a kernel.
+  const bool is_ggx = facets.distribution == FacetDistribution::ggx;
+  const std::string name = fmt::format("{}_{}", transmits ? "facet_sum" : "facet_reflection_sum",
+                                       is_ggx ? "ggx" : "beckmann");
+  const auto body = [&](Float3 from, Float2 alpha, Float index, Float albedo) {
+    Facets same = facets;
+    same.alpha = alpha;
+    same.isotropic = false;
+    return record_sum(recorder, accuracy, from, same, index, albedo, transmits);
+  };
+  return outline<FacetSum>(recorder, name, body, wo, facets.alpha, eta, perfect);
 }
 
 FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, const Facets& facets,
                                      const LocalView& local, const FacetFresnel& fresnel,
-                                     Bool inside) {
+                                     Bool inside, bool transmits) {
   const FacetView seen = facets.table_view(local);
   FacetReflection table = facet_reflection(recorder, seen);
-  Float steep = 0.0f;
-  if (fresnel.covers_dielectric()) {
-    const Float index = fresnel.index();
-    steep = steepness(max(index, 1.0f / index), 1.0f - fresnel.film_share());
-    table = for_dielectric(recorder, seen, table, steep);
-  }
-  const Points few = points_of_mean(accuracy, facets.distribution);
+  if (!fresnel.has_inside()) return table;
   const Float eta = relative_index(fresnel.index(), inside);
-  const auto mean_dielectric = [&](Bool leaving) {
-    const Float2 light = over_facets(
-        recorder, in_lanes(few, leaving), local.wo, facets, Float2{0.0f, 0.0f},
-        [&](const Facet& facet, const auto&, Float, Float2& all) {
-          all = {all.x + facet.back, fma(facet.back, fresnel_dielectric(facet.cosine, eta), all.y)};
-        });
-    return light.y / max(light.x, 1e-20f);
-  };
-  if (fresnel.has_inside() && !fresnel.is_dielectric()) {
+  if (!fresnel.is_dielectric()) {
     // What goes up and down with the cosine, or bends up steeply, and then is total reflection has
     // no two cosines. What it is more than a dielectric's curve has no step, and a small sum.
     const Float share = fresnel.covers_dielectric() ? fresnel.film_share() : Float(1.0f);
-    const FacetFresnelPtr filmed = in_sums(fresnel);
-    const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
     table.rest_share = select((eta < 1.0f) & !facets.delta, share, 0.0f);
     table.rest = if_any(table.rest_share > 0.0f, Color3(0.0f), [&] {
-      const RestSum sum = over_facets(
-          recorder, in_lanes(points_of_film(accuracy), Bool(true)), local.wo, facets,
-          RestSum{0.0f, Color3(0.0f)}, [&](const Facet& facet, const auto&, Float, RestSum& all) {
-            const Float bare = fresnel_dielectric(facet.cosine, eta);
-            const Color3 rest = of_facets.at(facet.cosine, inside) - Color3(bare);
-            all.light = all.light + facet.back;
-            all.rest = fma(rest, Color3(facet.back), all.rest);
-          });
-      return sum.rest * Color3(1.0f / max(sum.light, 1e-20f));
+      return mean_rest(recorder, accuracy, local.wo, facets, fresnel, eta, inside, table.albedo);
     });
   }
-  const Bool leaving = fresnel.has_inside() ? eta < 1.0f : Bool(false);
-  const Float stretch = seen.stretch;
-  if (fresnel.has_inside()) {
-    // Next to 1 no cosines stand for Fresnel's curve, nor can a table's axes tell where total
-    // reflection begins. Measured, of equal roughnesses: the sum is better up to indices of 1.01
-    // where light enters, of 1.025 where it leaves; not from 1.06 and 1.05 on. Of unequal ones it
-    // is of light that leaves, whatever the index: where total reflection sets in no two cosines
-    // stand for all.
-    const Float dense = max(fresnel.index(), 1.0f / fresnel.index());
-    const Float where_leaving = facet_sum_share(facets.alpha, true, fma(2.0f, dense, -1.0f));
-    const Float where_entering = fresnel.covers_dielectric()
-                                     ? facet_sum_share(facets.alpha, true, dense + 0.04f)
-                                     : Float(0.0f);
-    // Nothing is recorded for an index that is known to be another.
-    const bool never = where_leaving.is_constant(0.0f) && where_entering.is_constant(0.0f);
-    if (!facets.isotropic || !never) {
-      table.summed =
-          select(leaving, max(stretch, where_leaving), (1.0f - stretch) * where_entering);
-      table.dielectric = if_any((table.summed > 0.0f) & !facets.delta, Float(0.0f),
-                                [&] { return mean_dielectric(never ? Bool(true) : leaving); });
-    }
+  const Float dense = max(fresnel.index(), 1.0f / fresnel.index());
+  Float steep = 0.0f;
+  if (fresnel.covers_dielectric()) {
+    steep = steepness(dense, 1.0f - fresnel.film_share());
+    table = for_dielectric(recorder, seen, table, steep);
   }
-  // The table's two cosines will do but for curves that are steep at grazing.
-  const Float share = select(steep > 0.0f, stretch, 0.0f);
-  return if_any((share > 0.0f) & !facets.delta, table, [&] {
-    const Moments sum = over_facets(
-        recorder, in_lanes(few, Bool(false)), local.wo, facets, Moments{0.0f, 0.0f, 0.0f, 0.0f},
-        [](const Facet& facet, const auto&, Float, Moments& m) {
-          const Float y = square(square(1.0f - facet.cosine));
-          const Float first = facet.back * y, second = first * y;
-          m = {m.light + facet.back, m.first + first, m.second + second, fma(second, y, m.third)};
-        });
-    const Float inverse = 1.0f / max(sum.light, 1e-20f);
-    const Float mean = sum.first * inverse;
-    const Float variance = max(fma(sum.second, inverse, -square(mean)), 0.0f);
-    const Float cubed =
-        fma(mean, fma(-3.0f * sum.second, inverse, 2.0f * square(mean)), sum.third * inverse);
-    // The nodes are the roots of x^2 - skew x - variance about the mean: polynomials of y up to the
-    // third degree have their mean (Golub and Welsch, "Calculation of Gauss Quadrature Rules",
-    // 1969, for two nodes). The root with the digits first, the other by their product.
-    const Float skew = cubed / max(variance, 1e-12f);
-    const Float far = 0.5f * (skew + copysign(sqrt(fma(skew, skew, 4.0f * variance)), skew));
-    const Float near = select(abs(far) > 1e-12f, -variance / far, 0.0f);
-    const Float far_share = variance / max(fma(far, far, variance), 1e-24f);
-    // In the order that the table's are in: what lies between one and another is neither else.
-    const Bool far_is_low = far > near;
-    FacetReflection result = table;
-    result.low = lerp(table.low, cosine_of(mean + max(far, near)), share);
-    result.high = lerp(table.high, cosine_of(mean + min(far, near)), share);
-    result.low_share = lerp(0.5f, select(far_is_low, far_share, 1.0f - far_share), share);
-    return result;
+  // Next to 1 no cosines stand for Fresnel's curve, nor can a table's axes tell where total
+  // reflection begins. Measured, of equal roughnesses: the sum is better up to indices of 1.01
+  // where light enters, of 1.025 where it leaves; not from 1.06 and 1.05 on. Of unequal ones it
+  // is of light that leaves, whatever the index, for where total reflection sets in no two cosines
+  // stand for all; and of curves that are steep at grazing.
+  const Float stretch = seen.stretch;
+  const Float where_leaving =
+      max(stretch, facet_sum_share(facets.alpha, true, fma(2.0f, dense, -1.0f)));
+  const Float where_entering = fresnel.covers_dielectric()
+                                   ? max(facet_sum_share(facets.alpha, true, dense + 0.04f),
+                                         select(steep > 0.0f, stretch, 0.0f))
+                                   : Float(0.0f);
+  // Nothing is recorded for an index that is known to be another.
+  const bool never = where_leaving.is_constant(0.0f) && where_entering.is_constant(0.0f);
+  if (!never) table.summed = select(eta < 1.0f, where_leaving, where_entering);
+  Float share = table.summed;
+  if (transmits) share = max(share, facet_sum_share(facets.alpha, facets.isotropic, dense));
+  table.sum = if_any((share > 0.0f) & !facets.delta, table.sum, [&] {
+    return sum_over_facets(recorder, accuracy, local.wo, facets, eta, table.albedo, transmits);
   });
+  return table;
 }
 
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
@@ -343,17 +241,18 @@ Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const 
   const FacetFresnelPtr filmed = in_sums(fresnel);
   const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
   // Not by whether there is a film, which nobody knows of one that may come.
-  const Points points = fresnel.covers_dielectric()
-                            ? points_of_film(accuracy)
-                            : points_of_curve(accuracy, facets.distribution);
-  return over_facets(recorder, in_lanes(points, eta < 1.0f), wo, facets, Color3(0.0f),
-                     [&](const Facet& facet, const auto& unshadowed, Float share, Color3& sum) {
-                       const Refraction bent = refract(wo, facet.h, facet.cosine, eta);
-                       const Float forth = unshadowed(bent.wi, bent.possible);
-                       const Color3 more = of_facets.at(facet.cosine, inside) -
-                                           Color3(fresnel_dielectric(facet.cosine, eta));
-                       sum = fma(more, Color3((facet.back - forth) * share), sum);
-                     });
+  const auto lines =
+      fresnel.covers_dielectric() ? lines_of_film(accuracy) : lines_of(accuracy, true);
+  const Interface interface(facets, wo, eta);
+  const Color3 all = VisibleFacets(wo, facets, eta)
+                         .sum(recorder, lines, eta < 1.0f, Color3(0.0f),
+                              [&](const VisibleFacet& facet, Color3& sum) {
+                                const Interface::Light light = interface.at(facet, true);
+                                const Color3 more =
+                                    of_facets.at(facet.cosine, inside) - Color3(light.fresnel);
+                                sum = fma(more, Color3(light.back - light.forth), sum);
+                              });
+  return all * Color3(interface.above());
 }
 
 Float facet_sum_share(Float2 alpha, bool isotropic, Float dense) {

@@ -7,41 +7,24 @@ namespace nacre {
 
 /// What becomes of the light at a rough interface between dielectrics, by a sum over the facets
 /// that the view sees: for what the tables of pbs/tables do not know. `eta`: index beyond over
-/// that on the viewer's side. wo: above the surface, in its frame.
+/// that on the viewer's side. wo: above the surface, in its frame. `perfect`: the albedo of facets
+/// that reflect all, of which the sum has only those that let light pass where it leaves. Without
+/// `transmits` nothing of what passes is summed.
 /// Light that is missing or too much where a lobe is divided by it, at worst
 /// (bench/results/furnace.md, anisotropic facets): where both sides are one lobe 3.7 % in `fast`,
 /// 1.2 % in `standard`, 0.8 % in `precise`; of transmission alone 4.6, 1.3 and 1 %.
-struct FacetSum {
-  Float reflected;  ///< Albedo of reflection without a Fresnel factor.
-  Float passed;     ///< Of transmission, the same.
-  Float total;      ///< Of both with it.
-  Float turned;     ///< Of the facets that reflect all light.
-};
-template <class F>
-void visit(FacetSum& sum, F&& f) {
-  f(sum.reflected), f(sum.passed), f(sum.total), f(sum.turned);
-}
-/// From a to b where t is 1.
-FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t);
-
-/// What is divided by the sum: both sides together, or transmission alone, whose light ends where
-/// total reflection begins.
-enum class LobeOfFacets { joint, transmission };
-
-/// Of `joint`, `turned` is 0.
 FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
-                         Float eta, LobeOfFacets lobe);
+                         Float eta, Float perfect, bool transmits);
 
-/// facet_reflection(); and where roughnesses differ and the index is next to 1 (steepness()), what
-/// a sum over fewer facets knows of their cosines: a rule of Gauss with two nodes.
+/// facet_reflection(), and a sum over facets where tables do not do: where roughnesses differ, or
+/// the index is next to 1. Of a lobe that transmits that is of both sides.
 FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, const Facets& facets,
                                      const LocalView& local, const FacetFresnel& fresnel,
-                                     Bool inside);
+                                     Bool inside, bool transmits);
 
 /// What FacetSum::total has more by channel where the Fresnel factor is another than that of a
-/// dielectric whose relative index is `eta`: that of those facets only which let light pass. By as
-/// few facets as reflection_of_facets() where that is a film's, which is dear; of other curves by
-/// more.
+/// dielectric whose relative index is `eta`: that of those facets only which let light pass. By few
+/// facets where that is a film's, which is dear.
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                         const FacetFresnel& fresnel, Float eta, Bool inside);
 

@@ -256,7 +256,7 @@ Color3 FacetFresnel::mean(Recorder& recorder, Accuracy accuracy, const FacetRefl
     const Float eta = min(index(), 1.0f / index());
     const Float table = facet_leaving(recorder, view, eta, reflection.albedo).fresnel;
     const Float dielectric =
-        has_sum ? lerp(table, reflection.dielectric, reflection.summed) : table;
+        has_sum ? lerp(table, reflection.sum.fresnel, reflection.summed) : table;
     return with_rest(dielectric, eta, true);
   };
   const auto entering = [&] {
@@ -265,8 +265,10 @@ Color3 FacetFresnel::mean(Recorder& recorder, Accuracy accuracy, const FacetRefl
     const Color3 two = of_cosines(from_inside);
     if (!has_sum || !covers_dielectric()) return two;
     return if_any(reflection.summed > 0.0f, two, [&] {
-      const Color3 all = with_rest(reflection.dielectric, max(index(), 1.0f / index()), false);
-      return fma(all - two, Color3(reflection.summed), two);
+      const Color3 all = with_rest(reflection.sum.fresnel, max(index(), 1.0f / index()), false);
+      // Two cosines may be far off, or no cosines at all, where the sum is all.
+      const Color3 both = fma(all - two, Color3(reflection.summed), two);
+      return select(reflection.summed < 1.0f, both, all);
     });
   };
   return choose(inside ^ (index() < 1.0f), leaving, entering);

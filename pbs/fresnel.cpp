@@ -22,7 +22,10 @@ constexpr float dip_cosine = 1.0f / 7.0f;
 
 }  // namespace
 
-Bool totally_reflected(Float cosine, Float eta) { return fma(cosine, cosine, excess(eta)) <= 0.0f; }
+Bool totally_reflected(Float cosine, Float eta) {
+  const Float d = excess(eta);
+  return (fma(cosine, cosine, d) <= 0.0f) & (d != 0.0f);
+}
 
 Polarised fresnel_dielectric_polarised(Float cosine, Float eta) {
   const Float d = excess(eta);
@@ -36,7 +39,7 @@ Polarised fresnel_dielectric_polarised(Float cosine, Float eta) {
   const Float over = d / (below_s * below_p);
   const Float s = over * below_p;
   const Float p = over * below_s * fma(cosine2, eta2 + 1.0f, -1.0f);
-  const Bool total = totally_reflected(cosine, eta) & (d != 0.0f);
+  const Bool total = totally_reflected(cosine, eta);
   return {select(total, 1.0f, min(square(s), 1.0f)), select(total, 1.0f, min(square(p), 1.0f))};
 }
 
@@ -50,7 +53,7 @@ Float fresnel_dielectric(Float cosine, Float eta) {
   const Float e = fma(square(eta), cosine, g);
   const Float above = 0.5f * square(d) * fma(x, x, square(e));
   const Float below = square(square(t) * e);
-  const Bool total = totally_reflected(cosine, eta) & (d != 0.0f);
+  const Bool total = totally_reflected(cosine, eta);
   return select(total, 1.0f, min(above / max(below, 1e-37f), 1.0f));
 }
 

@@ -49,7 +49,6 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
   // What a curve of more has more than the last dielectric of the tables is summed below.
   constexpr auto last = static_cast<float>(table_axes::last_index);
   const Float index = clamp(fresnel_->index(), 1.0f / last, last);
-  const Float eta = relative_index(index, local.below);
   const Float dense = max(index, 1.0f / index);
   const Float rare = min(index, 1.0f / index);
   FacetInterface both = choose(
@@ -62,15 +61,13 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
       });
   // As in FacetFresnel::mean(), which it is taken from below.
   if (!perfect.summed.is_constant(0.0f)) {
-    both.fresnel = lerp(both.fresnel, perfect.dielectric, perfect.summed);
+    both.fresnel = lerp(both.fresnel, perfect.sum.fresnel, perfect.summed);
   }
-  FacetSum light{perfect.albedo, both.transmission, both.total, 0.0f};
+  FacetSum light{.reflected = perfect.albedo, .passed = both.transmission, .total = both.total};
   const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
-  light = if_any(share > 0.0f, light, [&] {
-    const FacetSum sum =
-        sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta, LobeOfFacets::joint);
-    return lerp(light, sum, share);
-  });
+  if (!share.is_constant(0.0f)) light = lerp(light, perfect.sum, share);
+  const Float known = select(share > 0.0f, fresnel_->index(), index);
+  const Float eta = relative_index(known, local.below);
   const auto inverse = [](Float total) { return 1.0f / max(total, 0.005f); };
   const Color3 bare(inverse(light.total));
   if (fresnel_->is_dielectric()) return bare;
@@ -82,7 +79,7 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
     // What a film does to the mean is not what it does to the facets that let light pass; nor is
     // what another curve does, where that is much.
     const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
-    Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(10.0f, alpha, -1.0f));
+    Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(20.0f, alpha, -1.0f));
     if (!fresnel_->covers_dielectric()) {
       const Float most = max(max_component(apart), max_component(-apart));
       // Bright curves have the mean of a dielectric's and another shape.
@@ -104,7 +101,7 @@ MicrofacetInterface::Terms MicrofacetInterface::compute(const View& from) const 
   View view = from;
   const bool is_scaled = view.compensation == Compensation::all;
   if (!is_scaled) view.compensation = Compensation::nothing;  // Of its reflection, too.
-  const FacetReflection perfect = reflection_.facets(view);
+  const FacetReflection perfect = reflection_.facets(view, true);
   const Color3 fresnel = reflection_.mean_fresnel(view, perfect);
   const MicrofacetReflection::Terms reflection = reflection_.compute(view, perfect, fresnel);
   Color3 reflected = reflection.reflected;

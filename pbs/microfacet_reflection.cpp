@@ -4,14 +4,15 @@
 
 namespace nacre {
 
-FacetReflection MicrofacetReflection::facets(const View& view) const {
+FacetReflection MicrofacetReflection::facets(const View& view, bool transmits) const {
   const LocalView local = facets_.look(view);
   // What is not returned need not be known as well.
   if (view.compensation == Compensation::nothing) {
     return facet_reflection(*view.recorder, facets_.table_view(local));
   }
   const Bool inside = local.below & !view.thin_walled;
-  return reflection_of_facets(*view.recorder, view.accuracy, facets_, local, *fresnel_, inside);
+  return reflection_of_facets(*view.recorder, view.accuracy, facets_, local, *fresnel_, inside,
+                              transmits);
 }
 
 Color3 MicrofacetReflection::mean_fresnel(const View& view, const FacetReflection& perfect) const {

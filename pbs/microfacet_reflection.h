@@ -55,7 +55,7 @@ class MicrofacetReflection final : public Lobe {
   /// the mean Fresnel factor of that light, the terms by both; and in place of prepare() the terms,
   /// known in the lanes of `mask`.
   /// @{
-  FacetReflection facets(const View& view) const;
+  FacetReflection facets(const View& view, bool transmits = false) const;
   Color3 mean_fresnel(const View& view, const FacetReflection& perfect) const;
   Terms compute(const View& view, const FacetReflection& perfect, Color3 fresnel) const;
   void adopt(const View& view, Bool mask, const Terms& terms) const;

@@ -75,22 +75,27 @@ MicrofacetTransmission::Terms MicrofacetTransmission::refracted(const View& view
   const Float dense = max(index_, 1.0f / index_);
   const Float rare = min(index_, 1.0f / index_);
   const Bool leaving = local.below ^ (index_ < 1.0f);
+  const auto perfect = [&] { return facet_reflection(recorder, seen).albedo; };
   FacetSum light = choose(
       leaving,
       [&] {
-        const Float perfect = facet_reflection(recorder, seen).albedo;
-        const FacetInterface all = facet_leaving(recorder, seen, rare, perfect);
-        return FacetSum{perfect, all.transmission, all.total, all.turned};
+        const Float reflected = perfect();
+        const FacetInterface all = facet_leaving(recorder, seen, rare, reflected);
+        return FacetSum{.reflected = reflected,
+                        .passed = all.transmission,
+                        .total = all.total,
+                        .turned = all.turned};
       },
       [&] {
         const FacetInterface all = facet_entering(recorder, seen, dense);
-        return FacetSum{0.0f, all.transmission, all.total, 0.0f};
+        return FacetSum{.passed = all.transmission, .total = all.total};
       });
   const Float share = facet_sum_share(facets_.alpha, facets_.isotropic, dense);
   light = if_any((share > 0.0f) & !delta(view), light, [&] {
     const Float eta = relative_index(index_, local.below);
-    const FacetSum sum = sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta,
-                                         LobeOfFacets::transmission);
+    const Float reflected = if_any(eta < 1.0f, Float(1.0f), perfect);
+    const FacetSum sum =
+        sum_over_facets(recorder, view.accuracy, local.wo, facets_, eta, reflected, true);
     return lerp(light, sum, share);
   });
   const Float part = light.passed / max(light.total, 0.05f);
