@@ -22,7 +22,7 @@ VisibleFacets::Lines lines_of(Accuracy accuracy, bool transmits) {
 
 /// Where each facet's Fresnel factor is dear, as under a film.
 VisibleFacets::Lines lines_of_film(Accuracy accuracy) {
-  if (accuracy == Accuracy::fast) return {8, 13};
+  if (accuracy == Accuracy::fast) return {13, 13};
   return accuracy == Accuracy::standard ? VisibleFacets::Lines{13, 21}
                                         : VisibleFacets::Lines{34, 34};
 }

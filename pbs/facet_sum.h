@@ -11,8 +11,8 @@ namespace nacre {
 /// that reflect all, of which the sum has only those that let light pass where it leaves. Without
 /// `transmits` nothing of what passes is summed.
 /// Light that is missing or too much where a lobe is divided by it, at worst
-/// (bench/results/furnace.md, anisotropic facets): where both sides are one lobe 3.7 % in `fast`,
-/// 1.2 % in `standard`, 0.8 % in `precise`; of transmission alone 4.6, 1.3 and 1 %.
+/// (bench/results/furnace.md, anisotropic facets): where both sides are one lobe 1.8 % in `fast`,
+/// 1 % in `standard`, 0.9 % in `precise`; of transmission alone 2.5, 1.1 and 1 %.
 FacetSum sum_over_facets(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                          Float eta, Float perfect, bool transmits);
 

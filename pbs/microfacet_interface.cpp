@@ -79,7 +79,7 @@ Color3 MicrofacetInterface::joint_factor(const View& view, const FacetReflection
     // What a film does to the mean is not what it does to the facets that let light pass; nor is
     // what another curve does, where that is much.
     const Float alpha = max(facets_.alpha.x, facets_.alpha.y);
-    Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(20.0f, alpha, -1.0f));
+    Float rough = film.is_constant(0.0f) ? film : film * saturate(fma(100.0f, alpha, -1.0f));
     if (!fresnel_->covers_dielectric()) {
       const Float most = max(max_component(apart), max_component(-apart));
       // Bright curves have the mean of a dielectric's and another shape.

@@ -62,6 +62,15 @@ TEST(Fresnel, DielectricAtMarkedAngles) {
   EXPECT_EQ(f[5], 0.0);
 }
 
+TEST(Fresnel, NothingIsTotallyReflectedByNoInterface) {
+  const auto out =
+      evaluate({{"c", {0.0f, 0.0f, 0.1f}}, {"eta", {1.0f, 0.9f, 0.9f}}}, [](Recorder& r) {
+        const Bool total = totally_reflected(input(r, "c"), input(r, "eta"));
+        return std::vector<SliceOutput>{{"total", select(total, Float(1.0f), Float(0.0f)).ref()}};
+      });
+  EXPECT_EQ(out.at("total"), (std::vector<double>{0.0, 1.0, 1.0}));
+}
+
 TEST(Fresnel, ConductorIsFresnelsFormula) {
   const std::vector<double> cosines{0.001, 0.1, 0.4, 0.8, 1.0};
   const std::vector<Complex> indices{{0.18, 3.42}, {1.37, 1.77}, {1.5, 0.0},  {0.2, 0.0},

@@ -33,5 +33,20 @@ TEST_F(LiveRoughness, EqualOnesDoNotTurnWithTheTangent) {
   }
 }
 
+// An index of 1 is no interface, whatever its film may become: facets at the margin of a narrow
+// roughness, where a cosine is 0, were taken to reflect all light.
+TEST_F(LiveRoughness, NarrowFacetsOfNoInterfaceAreDark) {
+  const std::string document =
+      surface_of(lobe("dielectric_bsdf",
+                      given("ior", "float", "1") + given("roughness", "vector2", "0.7, 0.0075")));
+  CompileOptions options;
+  options.live = {"*"};
+  const Shader shader = compile(document, options, NACRE_JIT);
+  for (const double angle : {60.0, 75.0, 85.0}) {
+    const Columns in = random(direction(angle, 90), 1);
+    EXPECT_EQ(ask(shader, NACRE_ALBEDO, in, 1).at("albedo.x")[0], 0.0f) << angle;
+  }
+}
+
 }  // namespace
 }  // namespace nacre
