@@ -75,6 +75,12 @@ std::vector<Float> reflected_by_unequal(Recorder& recorder, const FacetView& vie
 
 }  // namespace
 
+FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t) {
+  return {nacre::lerp(a.reflected, b.reflected, t), nacre::lerp(a.fresnel, b.fresnel, t),
+          nacre::lerp(a.passed, b.passed, t), nacre::lerp(a.total, b.total, t),
+          nacre::lerp(a.turned, b.turned, t)};
+}
+
 FacetReflection facet_reflection(Recorder& recorder, const FacetView& view) {
   const auto cosines = [&](const std::vector<Float>& all) {
     return FacetReflection{clamp(all[0], 0.05f, 1.0f), saturate(all[1] + view.cosine),

@@ -104,33 +104,23 @@ FacetFresnelPtr in_sums(const FacetFresnel& fresnel) {
   return film == nullptr || !film->exists() ? nullptr : fresnel.with_film(film->in_sums());
 }
 
-/// The mean of what a curve is more than a dielectric's over all reflected light, `perfect`, where
-/// it leaves: nothing where that is totally reflected.
-Color3 mean_rest(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
-                 const FacetFresnel& fresnel, Float eta, Bool inside, Float perfect) {
+/// What a curve is more than a dielectric's, over what facets send back and, less that, over what
+/// they let pass if it `transmits`. Of facets that reflect all light it is nothing.
+Color3 sum_of_rest(Recorder& recorder, VisibleFacets::Lines lines, Bool many, Float3 wo,
+                   const Facets& facets, const FacetFresnel& fresnel, Float eta, Bool inside,
+                   bool transmits) {
   const FacetFresnelPtr filmed = in_sums(fresnel);
   const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
   const Interface interface(facets, wo, eta);
-  const Color3 rest = VisibleFacets(wo, facets, eta)
-                          .sum(recorder, lines_of_film(accuracy), Bool(true), Color3(0.0f),
-                               [&](const VisibleFacet& facet, Color3& sum) {
-                                 const Interface::Light light = interface.at(facet, false);
-                                 const Color3 more =
-                                     of_facets.at(facet.cosine, inside) - Color3(light.fresnel);
-                                 sum = fma(more, Color3(light.back), sum);
-                               });
-  return rest * Color3(interface.above() / perfect);
+  const Color3 all =
+      VisibleFacets(wo, facets, eta)
+          .sum(recorder, lines, many, Color3(0.0f), [&](const VisibleFacet& facet, Color3& sum) {
+            const Interface::Light light = interface.at(facet, transmits);
+            const Color3 more = of_facets.at(facet.cosine, inside) - Color3(light.fresnel);
+            sum = fma(more, Color3(light.back - light.forth), sum);
+          });
+  return all * Color3(interface.above());
 }
-
-}  // namespace
-
-FacetSum lerp(const FacetSum& a, const FacetSum& b, Float t) {
-  return {nacre::lerp(a.reflected, b.reflected, t), nacre::lerp(a.fresnel, b.fresnel, t),
-          nacre::lerp(a.passed, b.passed, t), nacre::lerp(a.total, b.total, t),
-          nacre::lerp(a.turned, b.turned, t)};
-}
-
-namespace {
 
 FacetSum record_sum(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                     Float eta, Float perfect, bool transmits) {
@@ -204,7 +194,9 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
     const Float share = fresnel.covers_dielectric() ? fresnel.film_share() : Float(1.0f);
     table.rest_share = select((eta < 1.0f) & !facets.delta, share, 0.0f);
     table.rest = if_any(table.rest_share > 0.0f, Color3(0.0f), [&] {
-      return mean_rest(recorder, accuracy, local.wo, facets, fresnel, eta, inside, table.albedo);
+      const Color3 sum = sum_of_rest(recorder, lines_of_film(accuracy), true, local.wo, facets,
+                                     fresnel, eta, inside, false);
+      return sum * Color3(1.0f / table.albedo);
     });
   }
   const Float dense = max(fresnel.index(), 1.0f / fresnel.index());
@@ -238,21 +230,10 @@ FacetReflection reflection_of_facets(Recorder& recorder, Accuracy accuracy, cons
 
 Color3 sum_over_fresnel(Recorder& recorder, Accuracy accuracy, Float3 wo, const Facets& facets,
                         const FacetFresnel& fresnel, Float eta, Bool inside) {
-  const FacetFresnelPtr filmed = in_sums(fresnel);
-  const FacetFresnel& of_facets = filmed == nullptr ? fresnel : *filmed;
   // Not by whether there is a film, which nobody knows of one that may come.
   const auto lines =
       fresnel.covers_dielectric() ? lines_of_film(accuracy) : lines_of(accuracy, true);
-  const Interface interface(facets, wo, eta);
-  const Color3 all = VisibleFacets(wo, facets, eta)
-                         .sum(recorder, lines, eta < 1.0f, Color3(0.0f),
-                              [&](const VisibleFacet& facet, Color3& sum) {
-                                const Interface::Light light = interface.at(facet, true);
-                                const Color3 more =
-                                    of_facets.at(facet.cosine, inside) - Color3(light.fresnel);
-                                sum = fma(more, Color3(light.back - light.forth), sum);
-                              });
-  return all * Color3(interface.above());
+  return sum_of_rest(recorder, lines, eta < 1.0f, wo, facets, fresnel, eta, inside, true);
 }
 
 Float facet_sum_share(Float2 alpha, bool isotropic, Float dense) {

@@ -30,7 +30,8 @@ struct VisibleFacet {
 /// The points in the square are those of a lattice, made periodic on both sides by 3 u^2 - 2 u^3
 /// (Sloan and Joe, "Lattice Methods for Multiple Integration", 1994, section 2.12): two on each
 /// line up through the ellipse, which have its ends in common. From line to line they go on by the
-/// Fibonacci number before that of the lines: of all steps the best of such lattices, measured.
+/// Fibonacci number before that of the lines, which spreads them evenly (Niederreiter, "Random
+/// Number Generation and Quasi-Monte Carlo Methods", 1992, section 5.1).
 class VisibleFacets {
  public:
   /// wo: above the surface, in its frame. eta: the index beyond over that on the viewer's side.

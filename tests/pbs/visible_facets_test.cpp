@@ -103,7 +103,7 @@ TEST(VisibleFacets, AreAllWhereLightEnters) {
 TEST(VisibleFacets, AreThoseThatLetLightPassWhereItLeaves) {
   for (const float eta : {0.999f, 0.99f, 0.95f, 1 / 1.33f, 1 / 1.5f, 1 / 2.5f, 0.1f}) {
     const double n = eta;
-    const double slope2 = 1.0 / (1.0 - n * n) - 1.0;  // The tangent of the critical angle.
+    const double slope2 = 1.0 / (1.0 - n * n) - 1.0;  // Where total reflection begins.
     for (const auto& [x, y] : {std::pair{1.0f, 1.0f},
                                {1.0f, 0.1f},
                                {0.5f, 0.25f},
